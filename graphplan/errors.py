@@ -1,0 +1,86 @@
+"""Errors that say what, where, why and what to do.
+
+Every error of graphplan has one base, :class:`GraphplanError`, and every class knows the exit status
+that the command line gives for it (0 done, 1 disagreement, 2 bad input, 3 singular pose).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class Fault:
+    """One thing that is wrong with a scene: where it stands, what is wrong, what would be right."""
+
+    where: str
+    what: str
+    instead: str
+
+    def __str__(self) -> str:
+        return f"{self.where}: {self.what}; {self.instead}"
+
+
+class GraphplanError(Exception):
+    """What all errors of graphplan have in common: one readable line, and an exit status."""
+
+    status = 2
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        """The error as lines for standard error."""
+        return (str(self),)
+
+
+class SceneError(GraphplanError):
+    """A scene that cannot be read: all its faults at once, one line each.
+
+    `name` is the scene's file as the user wrote it.
+    """
+
+    def __init__(self, name: str, faults: tuple[Fault, ...]):
+        self.name, self.faults = name, tuple(faults)
+        super().__init__("\n".join(self.lines))
+
+    @property
+    def lines(self) -> tuple[str, ...]:
+        return tuple(f"{self.name}: {fault}" for fault in self.faults)
+
+
+class Refused(GraphplanError):
+    """A well-formed request that graphplan does not fulfil, with the reason and the way out."""
+
+    def __init__(self, what: str, why: str, do: str):
+        self.what, self.why, self.do = what, why, do
+        super().__init__(f"{what}: {why}; {do}")
+
+
+class SingularPose(GraphplanError):
+    """A pose in which what was asked does not exist: the links, and the lines that should meet and don't."""
+
+    status = 3
+
+    def __init__(self, why: str, links: tuple[str, ...] = (), lines_that_miss: str = ""):
+        self.why, self.links, self.lines_that_miss = why, tuple(links), lines_that_miss
+        named = f" of links {', '.join(links)}" if links else ""
+        missed = f": {lines_that_miss}" if lines_that_miss else ""
+        super().__init__(f"singular pose{named}{missed}; {why}")
+
+
+class Undrawable(Exception):
+    """Raised by a kernel rule, which does not know its step: a declared failure code and the reason."""
+
+    def __init__(self, code: str, why: str):
+        self.code, self.why = code, why
+        super().__init__(f"{code}: {why}")
+
+
+class ConstructionError(GraphplanError):
+    """A step that cannot be drawn: its code, number, what it was to make, why, and what to do."""
+
+    status = 3
+
+    def __init__(self, code: str, step: int, drawing: str, why: str, do: str, links: tuple[str, ...] = ()):
+        self.code, self.step, self.drawing, self.why, self.do, self.links = code, step, drawing, why, do, tuple(links)
+        named = f" (links {', '.join(links)})" if links else ""
+        super().__init__(f"{code} at step {step}{named}, {drawing}: {why}. Do: {do}")

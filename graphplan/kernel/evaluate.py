@@ -1,0 +1,35 @@
+"""Numbers for a program: one walk over the steps, whatever the number domain."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel.kinds import FAILURES
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
+
+
+def evaluate(program: Program, domain: Domain, given: Mapping[str, Mapping[str, Any]] | None = None) -> list[Any]:
+    """The value of every step, in order.
+
+    Reads a program, a number domain and, by name, other parameters for `given` points.
+    Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
+    """
+    values: list[Any] = []
+    given = given or {}
+    for step in program.steps:
+        params = {**step.params, **given[step.name]} if step.name in given else step.params
+        try:
+            values.append(step.op.rule(domain, *[values[arg] for arg in step.args], **params))
+        except Undrawable as fault:
+            raise error_at(program, step, fault) from None
+    return values
+
+
+def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionError:
+    """The rule's fault with its step attached, in the letters of the sheet."""
+    names = ", ".join(program.text(arg) for arg in step.args)
+    drawing = f"{program.text(step.index)} = {step.op.name}({names})"
+    return ConstructionError(fault.code, step.index + 1, drawing, fault.why, FAILURES[fault.code][1], step.links)

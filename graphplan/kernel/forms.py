@@ -1,0 +1,251 @@
+"""How each compound is drawn: its forms, in the order in which a textbook would try them.
+
+A form that needs a branch (which crossing of an arc, which side) stands once for each; the pose decides which of them
+gives the right value. `s` is the board; names such as "Q" are letters that the recipe may have given for them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from graphplan.kernel import compounds, primitives  # noqa: F401  (forms extend the records made there)
+from graphplan.kernel.kinds import form
+
+
+# ---- straightedge and compasses ---------------------------------------------------------------------------------
+
+
+@form("bisector", "arcs")
+def _(s: Any, P: Any, Q: Any) -> Any:
+    o = s.opening(P, Q)
+    p, q = s.circle(P, o), s.circle(Q, o)
+    return s.line(s.circles_meet(p, q, side="right"), s.circles_meet(p, q, side="left"))
+
+
+@form("midpoint", "arcs")
+def _(s: Any, P: Any, Q: Any) -> Any:
+    return s.meet(s.line(P, Q), s.bisector(P, Q))
+
+
+@form("foot", "perpendicular")
+def _(s: Any, l: Any, P: Any) -> Any:
+    return s.meet(l, s.perpendicular(l, P))
+
+
+@form("transfer", "dividers")
+def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
+    along = s.parallel(s.line(P, Q), R)
+    return s.line_meets_circle(along, s.circle(R, s.opening(P, Q)), way="on")
+
+
+@form("transfer", "parallelogram")
+def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
+    return s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q))
+
+
+@form("quarter", "dividers")
+def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
+    across = s.perpendicular(s.line(P, Q), R)
+    return s.line_meets_circle(across, s.circle(R, s.opening(P, Q)), way="on")
+
+
+def _point_of(s: Any, l: Any) -> Any:
+    """A point that the line was drawn through."""
+    op, args = s.made_by(l)
+    return args[0] if op in ("line", "guide") else args[1]
+
+
+@form("perpendicular", "arcs")
+def _(s: Any, l: Any, P: Any) -> Any:
+    X = _point_of(s, l)
+    arc = s.circle(P, s.opening(P, X))
+    D, E = s.line_meets_circle(l, arc, way="on"), s.line_meets_circle(l, arc, way="back")
+    o = s.opening(D, E)
+    d, e = s.circle(D, o), s.circle(E, o)
+    return s.line(s.circles_meet(e, d, side="right"), s.circles_meet(e, d, side="left"))
+
+
+def _rhombus(way: str, side: str) -> Callable[..., Any]:
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        X = _point_of(s, l)
+        o = s.opening(X, P)
+        Y = s.line_meets_circle(l, s.circle(X, o), way=way)
+        Z = s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side)
+        return s.line(P, Z) if way == "on" else s.line(Z, P)
+
+    return drawn
+
+
+for _way in ("on", "back"):
+    for _side in ("left", "right"):
+        form("parallel", f"rhombus, {_way}, {_side}")(_rhombus(_way, _side))
+
+
+# ---- figures in proportion ----------------------------------------------------------------------------------------
+
+
+def _ray(way: str) -> Callable[..., Any]:
+    """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
+
+    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        PQ = s.line(P, Q)
+        ray = s.perpendicular(PQ, P)
+        B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
+        C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
+        return s.meet(s.parallel(s.line(B1, Q), C1), PQ)
+
+    return drawn
+
+
+form("divide", "ray")(_ray("on"))
+form("divide", "ray, beyond")(_ray("back"))
+
+
+@form("similar", "sides")
+def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    side = getattr(s, turn)
+    return s.meet(side(s.line(A, C), a), side(s.line(B, C), b))
+
+
+@form("similar", "ray")
+def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    return s.divide(A, B, C, a, b)
+
+
+@form("shift", "through the end")
+def _(s: Any, l: Any, P: Any, Q: Any) -> Any:
+    return s.parallel(l, Q)
+
+
+@form("shift", "foot")
+def _(s: Any, l: Any, P: Any, Q: Any) -> Any:
+    return s.parallel(l, s.transfer(P, Q, s.foot(l, P)))
+
+
+# ---- loci of a link with two facts ------------------------------------------------------------------------------
+
+
+def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
+    """The line of the link through A whose image is alpha: drawn already if alpha was made from it."""
+    op, args = s.made_by(alpha)
+    if op == turn:
+        op_home, through = s.made_by(args[0])
+        if op_home == "line" and any(P is A for P in through):
+            return args[0]
+    return getattr(s, turn)(alpha, A)
+
+
+@form("carry", "auxiliary point")
+def _(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+    Q = s.meet(_home(s, alpha, A, turn), _home(s, beta, B, turn), name="Q")
+    q = s.meet(alpha, beta, name="q")
+    return getattr(s, turn)(s.line(Q, C), q)
+
+
+def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
+    """The image of C in one trial figure, its side A'B' fitted between the loci."""
+    a = s.pick(alpha, A, B, ratio=ratio, name="A" + mark)
+    b = s.meet(getattr(s, turn)(s.line(A, B), a), beta, name="B" + mark)
+    return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
+
+
+def _one_trial(ratio: float) -> Callable[..., Any]:
+    def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        c = _trial(s, A, alpha, B, beta, C, turn, ratio, "'")
+        return s.line(s.meet(alpha, beta, name="U"), c)
+
+    return drawn
+
+
+def _two_trials(one: float, two: float) -> Callable[..., Any]:
+    def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        c = _trial(s, A, alpha, B, beta, C, turn, one, "'")
+        return s.line(c, _trial(s, A, alpha, B, beta, C, turn, two, "''"))
+
+    return drawn
+
+
+for _name, _at in (("", 0.35), (" on the other side", -0.35)):
+    form("carry", "trial figure" + _name)(_one_trial(_at))
+for _name, _pair in (("", (0.3, -0.3)), (" further out", (0.7, 0.2))):
+    form("carry", "two trial figures" + _name)(_two_trials(*_pair))
+
+
+@form("settle", "its own locus")
+def _(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
+    return s.meet(getattr(s, turn)(s.line(C, A), c), alpha)
+
+
+@form("settle", "the other locus")
+def _(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
+    b = s.meet(getattr(s, turn)(s.line(C, B), c), beta)
+    return s.similar(C, B, A, c, b, turn=turn)
+
+
+# ---- accelerations ------------------------------------------------------------------------------------------------
+
+
+def _semicircle(side: str) -> Callable[..., Any]:
+    """v < KA: the velocity is a leg, KA the hypotenuse; the leg's projection on KA is v^2/KA."""
+
+    def drawn(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+        M = s.midpoint(K, A)
+        D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(A, s.opening(m, w)), side=side)
+        return s.transfer(s.foot(s.line(K, A), D), A, k)
+
+    return drawn
+
+
+def _companion(way: str) -> Callable[..., Any]:
+    """v > KA: the velocity is a leg, KA its projection; the hypotenuse is v^2/KA."""
+
+    def drawn(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+        KA = s.line(K, A)
+        arc = s.circle(A, s.opening(m, w))
+        D = s.line_meets_circle(s.perpendicular(KA, K), arc, way=way)
+        E = s.meet(KA, s.perpendicular(s.line(A, D), D))
+        return s.transfer(E, A, k)
+
+    return drawn
+
+
+form("normal", "semicircle")(_semicircle("left"))
+form("normal", "companion")(_companion("on"))
+
+
+@form("normal", "equal lengths")
+def _(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    return s.transfer(K, A, k)
+
+
+def _laid_off_twice(s: Any, B: Any, half: Any, b: Any) -> Any:
+    return s.transfer(half, B, s.transfer(half, B, b))
+
+
+@form("coriolis", "at the pair")
+def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
+    half = s.meet(s.parallel(s.line(R, P), T), s.line(B, R), name="K")
+    return _laid_off_twice(s, B, half, b)
+
+
+@form("coriolis", "at another point of the guide's link")
+def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
+    D, T1 = s.quarter(B, P, B), s.quarter(B, T, B)
+    half = s.meet(s.parallel(s.line(R, D), T1), s.line(B, R), name="K")
+    return _laid_off_twice(s, B, half, b)
+
+
+# ---- false position -----------------------------------------------------------------------------------------------
+
+
+@form("false_position", "errors as ordinates")
+def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
+    E1, E2 = s.transfer(s.foot(l1, Z1), Z1, A1), s.transfer(s.foot(l2, Z2), Z2, A2)
+    return s.meet(s.line(A1, A2), s.line(E1, E2))
+
+
+@form("false_position", "errors as ordinates, turned")
+def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
+    E1, E2 = s.quarter(s.foot(l1, Z1), Z1, A1), s.quarter(s.foot(l2, Z2), Z2, A2)
+    return s.meet(s.line(A1, A2), s.line(E1, E2))

@@ -1,0 +1,27 @@
+"""Number domains: what a rule may ask of its numbers beyond + - * / and abs.
+
+A domain lifts scene numbers, takes square roots and decides what is zero. Rules are written once and serve floats,
+arrays of poses and exact fractions alike.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+
+class Domain(Protocol):
+    """The three questions a rule may ask."""
+
+    name: str
+
+    def lift(self, value: Any) -> Any:
+        """The scene's number in this domain."""
+        ...
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        """The square root, or the failure `code` where `value` is negative."""
+        ...
+
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        """`value`, or the failure `code` where it is zero beside `scale`, the size of what it was made from."""
+        ...

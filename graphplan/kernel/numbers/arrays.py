@@ -1,0 +1,33 @@
+"""numpy arrays of shape (n,): n poses at once; a pose that cannot be drawn becomes nan and says why."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from graphplan.kernel.numbers.floats import ZERO
+
+
+class Arrays:
+    """n poses in double precision. `faults` collects, for each failure, its code, reason and the mask of poses."""
+
+    name = "array"
+
+    def __init__(self) -> None:
+        self.faults: list[tuple[str, str, Any]] = []
+
+    def lift(self, value: Any) -> Any:
+        return np.asarray(value, dtype=float)
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        return np.sqrt(self._masked(value, np.less(value, 0), code, why))
+
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        return self._masked(value, np.abs(value) <= ZERO * scale, code, why)
+
+    def _masked(self, value: Any, bad: Any, code: str, why: str) -> Any:
+        if not np.any(bad):
+            return value
+        self.faults.append((code, why, bad))
+        return np.where(bad, np.nan, value)

@@ -1,0 +1,33 @@
+"""Exact fractions: straightedge constructions are closed in them, compasses only where the root comes out."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+from typing import Any
+
+from graphplan.errors import Undrawable
+
+
+class Fractions:
+    """One pose, exactly; an irrational root raises `not-rational`."""
+
+    name = "fraction"
+
+    def lift(self, value: Any) -> Fraction:
+        if isinstance(value, float):
+            raise Undrawable("not-rational", f"{value!r} is not known exactly")
+        return Fraction(value)
+
+    def sqrt(self, value: Fraction, code: str, why: str) -> Fraction:
+        if value < 0:
+            raise Undrawable(code, why)
+        over, under = math.isqrt(value.numerator), math.isqrt(value.denominator)
+        if over * over != value.numerator or under * under != value.denominator:
+            raise Undrawable("not-rational", f"the root of {value} is irrational")
+        return Fraction(over, under)
+
+    def nonzero(self, value: Fraction, scale: Fraction, code: str, why: str) -> Fraction:
+        if value == 0:
+            raise Undrawable(code, why)
+        return value

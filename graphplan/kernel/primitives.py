@@ -1,0 +1,149 @@
+"""The base of the table: what one instrument does in one movement.
+
+Rules are arithmetic only, so floats, arrays of poses and fractions go through the same lines.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphplan.kernel.kinds import (
+    CIRCLE,
+    COMPASSES,
+    DIVIDERS,
+    LINE,
+    OPENING,
+    PENCIL,
+    POINT,
+    SCALE,
+    SET_SQUARES,
+    STRAIGHTEDGE,
+    primitive,
+)
+
+
+@primitive((), POINT, SCALE, "Mark {out}, given by the pose.", params=("x", "y"))
+def given(d: Any, /, *, x: Any, y: Any) -> Any:
+    """A point of the pose, or the place where a plan begins."""
+    return d.lift(x), d.lift(y)
+
+
+@primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in its given direction.",
+           claims=(("on", 0),), params=("dx", "dy"))  # fmt: skip
+def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
+    """The line through a point in a direction that the scene gives."""
+    a, b = -d.lift(dy), d.lift(dx)
+    return a, b, -(a * P[0] + b * P[1])
+
+
+@primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw the line {0}{1}.",
+           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))  # fmt: skip
+def line(d: Any, P: Any, Q: Any) -> Any:
+    """The line through two points, running from the first to the second."""
+    dx, dy = Q[0] - P[0], Q[1] - P[1]
+    size = abs(P[0]) + abs(P[1]) + abs(Q[0]) + abs(Q[1])
+    d.nonzero(abs(dx) + abs(dy), size, "points-coincide", "the two points coincide")
+    return -dy, dx, dy * P[0] - dx * P[1]
+
+
+@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
+           claims=(("on", 1), ("parallel", 0)))  # fmt: skip
+def parallel(d: Any, l: Any, P: Any) -> Any:
+    """The parallel to a line through a point, running the same way."""
+    return l[0], l[1], -(l[0] * P[0] + l[1] * P[1])
+
+
+@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
+           claims=(("on", 1), ("perpendicular", 0)))  # fmt: skip
+def perpendicular(d: Any, l: Any, P: Any) -> Any:
+    """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
+    return -l[1], l[0], l[1] * P[0] - l[0] * P[1]
+
+
+@primitive((LINE, LINE), POINT, PENCIL, "Mark {out} where {0} meets {1}.",
+           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",))  # fmt: skip
+def meet(d: Any, k: Any, l: Any) -> Any:
+    """The intersection of two lines."""
+    one, two = k[0] * l[1], l[0] * k[1]
+    w = d.nonzero(one - two, abs(one) + abs(two), "lines-parallel", "the two lines are parallel")
+    return (k[1] * l[2] - l[1] * k[2]) / w, (k[2] * l[0] - l[2] * k[0]) / w
+
+
+@primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses to {0}{1}.", claims=(("span", 0, 1),))
+def opening(d: Any, P: Any, Q: Any) -> Any:
+    """The distance of two points, in the compasses."""
+    dx, dy = Q[0] - P[0], Q[1] - P[1]
+    return (dx * dx + dy * dy,)
+
+
+@primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike the arc {out} with the opening {1}.",
+           claims=(("centre", 0), ("opened", 1)))  # fmt: skip
+def circle(d: Any, C: Any, o: Any) -> Any:
+    """The circle about a centre with an opening."""
+    return C[0], C[1], o[0]
+
+
+@primitive((LINE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, the crossing further {way} along it.",
+           claims=(("on", 0), ("on", 1), ("way", 0, 1)), fails=("line-misses-circle",), params=("way",))  # fmt: skip
+def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
+    """One of the two intersections of a line with a circle: further `on` or further `back` along the line."""
+    n2 = l[0] * l[0] + l[1] * l[1]
+    off = (l[0] * c[0] + l[1] * c[1] + l[2]) / n2
+    t = d.sqrt(c[2] / n2 - off * off, "line-misses-circle", "the line passes the circle by")
+    t = t if way == "on" else -t
+    return c[0] - l[0] * off + t * l[1], c[1] - l[1] * off - t * l[0]
+
+
+@primitive((CIRCLE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, on the {side} of the line of centres.",
+           claims=(("on", 0), ("on", 1), ("side", 0, 1)), fails=("circles-miss", "circles-concentric"),
+           params=("side",))  # fmt: skip
+def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
+    """One of the two intersections of two circles: left or right of the ray from the first centre to the second."""
+    dx, dy = m[0] - k[0], m[1] - k[1]
+    size = k[2] + m[2]
+    d2 = d.nonzero(dx * dx + dy * dy, size, "circles-concentric", "the two circles have the same centre")
+    t = (d2 + k[2] - m[2]) / (2 * d2)
+    h = d.sqrt(k[2] / d2 - t * t, "circles-miss", "the two circles do not meet")
+    h = h if side == "left" else -h
+    return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx
+
+
+@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times {0}{1}: mark {out}.",
+           claims=(("along", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
+def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
+    """A given multiple of the vector PQ laid off from R."""
+    r = d.lift(ratio)
+    return R[0] + r * (Q[0] - P[0]), R[1] + r * (Q[1] - P[1])
+
+
+@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times {0}{1}, turned a quarter "
+           "counter-clockwise: mark {out}.", claims=(("across", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
+def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
+    """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
+    r = d.lift(ratio)
+    return R[0] - r * (Q[1] - P[1]), R[1] + r * (Q[0] - P[0])
+
+
+@primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
+           params=("length",))  # fmt: skip
+def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
+    """A given length laid off from a point the way a line runs."""
+    unit = d.sqrt(l[0] * l[0] + l[1] * l[1], "not-rational", "a length along this line is irrational")
+    r = d.lift(length) / unit
+    return P[0] + r * l[1], P[1] - r * l[0]
+
+
+@primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.", params=("dx", "dy"))
+def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
+    """A vector given by its components, laid off from a point."""
+    return P[0] + d.lift(dx), P[1] + d.lift(dy)
+
+
+@primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial.",
+           claims=(("on", 0),), params=("ratio",))  # fmt: skip
+def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
+    """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
+    n2 = l[0] * l[0] + l[1] * l[1]
+    off = (l[0] * P[0] + l[1] * P[1] + l[2]) / n2
+    t = d.lift(ratio) * (abs(Q[0] - P[0]) + abs(Q[1] - P[1])) / (abs(l[0]) + abs(l[1]))
+    return P[0] - l[0] * off + t * l[1], P[1] - l[1] * off - t * l[0]

@@ -1,0 +1,188 @@
+"""The construction as a straight-line program: the board records it, the frozen program is read by all the rest.
+
+A mark is a name for a step's result and nothing more: it has no coordinates, so a recipe cannot branch on them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+from typing import Any, NoReturn
+
+from graphplan.kernel.kinds import TABLE, Primitive
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """One drawing step: what it makes (`name`), how (`op`), from which earlier steps (`args`, by index).
+
+    `panel` is the plan it is drawn on, `why` the law or purpose, `links` the links of the mechanism it speaks of,
+    `names` the names of marks inside a compound. `name` is empty where the mark has no letter of its own.
+    """
+
+    index: int
+    name: str
+    op: Primitive
+    args: tuple[int, ...]
+    params: dict[str, Any]
+    panel: str
+    why: str = ""
+    links: tuple[str, ...] = ()
+    names: dict[str, str] = field(default_factory=dict)
+    form: str = ""
+    reason: str = ""
+
+    @property
+    def key(self) -> tuple[Any, ...]:
+        """What makes two steps the same drawing."""
+        return self.op.name, self.args, tuple(sorted(self.params.items()))
+
+
+class Mark:
+    """A mark on the board while the construction is recorded."""
+
+    __slots__ = ("board", "step")
+
+    def __init__(self, board: Board, step: Step):
+        self.board, self.step = board, step
+
+    @property
+    def kind(self) -> str:
+        return self.step.op.gives
+
+    def _refuse(self, *_: object) -> NoReturn:
+        raise TypeError("a mark has no value while the construction is recorded: branch on the scene, not on the pose")
+
+    __bool__ = __float__ = __lt__ = __gt__ = __le__ = __ge__ = _refuse
+    __eq__ = _refuse  # type: ignore[assignment]
+    __hash__ = object.__hash__
+
+    def __repr__(self) -> str:
+        return f"<{self.kind} {self.step.name or self.step.index}>"
+
+
+class Board:
+    """Records drawing steps; its methods are the primitives of the table.
+
+    The same operation on the same marks is drawn once. `panel`, `links` and `why` are set for a group of steps with
+    :meth:`on`.
+    """
+
+    def __init__(self) -> None:
+        self.steps: list[Step] = []
+        self.marks: list[Mark] = []
+        self._drawn: dict[tuple[Any, ...], Mark] = {}
+        self._names: set[str] = set()
+        self._context: dict[str, Any] = {"panel": "", "links": ()}
+
+    @contextmanager
+    def on(self, panel: str | None = None, links: tuple[str, ...] | None = None) -> Iterator[None]:
+        """Draw the steps inside on this plan, speaking of these links."""
+        before = self._context
+        self._context = {
+            "panel": before["panel"] if panel is None else panel,
+            "links": before["links"] if links is None else links,
+        }
+        try:
+            yield
+        finally:
+            self._context = before
+
+    def __getattr__(self, op: str) -> Any:
+        if op not in TABLE:
+            raise AttributeError(op)
+        return lambda *args, **given: self.draw(TABLE[op], args, **given)
+
+    def draw(
+        self,
+        op: Primitive,
+        args: tuple[Mark, ...],
+        *,
+        name: str = "",
+        why: str = "",
+        names: dict[str, str] | None = None,
+        form: str = "",
+        reason: str = "",
+        **params: Any,
+    ) -> Mark:
+        """Record one step; names that are taken get a prime, the first name of a mark stays."""
+        kinds = tuple(arg.kind for arg in args)
+        if kinds != op.reads:
+            raise TypeError(f"{op.name} reads {op.reads}, was given {kinds}")
+        if set(params) != set(op.params):
+            raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
+        if any(arg.board is not self for arg in args):
+            raise ValueError(f"{op.name} was given a mark of another board")
+        step = Step(len(self.steps), "", op, tuple(arg.step.index for arg in args), params,
+                    self._context["panel"], why, self._context["links"], names or {}, form, reason)  # fmt: skip
+        same = self._drawn.get(step.key)
+        if same is not None and op.name != "given":
+            if name and not same.step.name:
+                self._rename(same, name)
+            return same
+        mark = Mark(self, step)
+        self.steps.append(step)
+        self.marks.append(mark)
+        self._drawn[step.key] = mark
+        if name:
+            self._rename(mark, name)
+        return mark
+
+    def _rename(self, mark: Mark, name: str) -> None:
+        while name in self._names:
+            name += "'"
+        self._names.add(name)
+        named = Step(**{**mark.step.__dict__, "name": name})
+        self.steps[named.index] = mark.step = named
+
+    def named(self, mark: Mark, name: str) -> Mark:
+        """The same mark, bearing this letter if it has none yet."""
+        if not mark.step.name:
+            self._rename(mark, name)
+        return mark
+
+    def annotate(self, index: int, **notes: str) -> None:
+        """Add notes (why, form, reason) to a step that is drawn."""
+        noted = Step(**{**self.steps[index].__dict__, **notes})
+        self.steps[index] = self.marks[index].step = noted
+
+    def rewind(self, length: int) -> None:
+        """Take back all steps after the first `length`: a form was tried and is not used."""
+        for step in self.steps[length:]:
+            self._drawn.pop(step.key, None)
+            self._names.discard(step.name)
+        del self.steps[length:], self.marks[length:]
+
+
+@dataclass(frozen=True)
+class Program:
+    """A frozen list of steps, in drawing order; `wanted` are the indices of the marks that results are read from."""
+
+    steps: tuple[Step, ...]
+    wanted: tuple[int, ...]
+
+    def __post_init__(self) -> None:
+        bound: set[str] = set()
+        for index, step in enumerate(self.steps):
+            if step.index != index:
+                raise ValueError(f"step {step.index} stands at place {index}")
+            if any(arg >= index for arg in step.args):
+                raise ValueError(f"step {index} reads a mark that is not drawn yet")
+            if tuple(self.steps[arg].op.gives for arg in step.args) != step.op.reads:
+                raise ValueError(f"step {index}: {step.op.name} reads {step.op.reads}")
+            if step.name and step.name in bound:
+                raise ValueError(f"the name {step.name} is bound twice")
+            bound.add(step.name)
+
+    def __len__(self) -> int:
+        return len(self.steps)
+
+    def text(self, index: int) -> str:
+        """How a mark is spoken of: its letter, the points of a line, else its kind and step number."""
+        step = self.steps[index]
+        if step.name:
+            return step.name
+        if step.op.name in ("line", "opening"):
+            return "".join(self.text(arg) for arg in step.args)
+        return f"{'arc' if step.op.gives == 'circle' else step.op.gives} {index + 1}"

@@ -1,0 +1,59 @@
+"""Directions: of guides and lines, given by a vector, by an angle in degrees, or by two points."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from fractions import Fraction
+
+from graphplan.mechanism.items import Item, Vector, described
+from graphplan.mechanism.numerals import heading
+
+Direction = Vector | Fraction | str
+"""A direction as written: a vector, an angle in degrees, or two points such as "O A"."""
+
+Where = Callable[[str], Vector]
+"""Gives a named point's coordinates."""
+
+_EIGHTHS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
+"""A direction may have any length, so the multiples of 45 degrees are exact."""
+
+
+class Misfit(Exception):
+    """Raised by a geometric rule whose figure cannot be drawn: what is wrong, and what would be right."""
+
+    def __init__(self, what: str, instead: str):
+        self.what, self.instead = what, instead
+        super().__init__(what)
+
+
+def read_direction(item: Item, points: Collection[str]) -> Direction | None:
+    """A direction in one of its three spellings."""
+    if isinstance(item.value, list):
+        vector = item.vector()
+        return item.fault("the direction is zero", "a vector that is not [0, 0]") if vector == (0, 0) else vector
+    if isinstance(item.value, str):
+        names = item.points(points)
+        if names is not None and len(names) != 2:
+            return item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "O A"')
+        return None if names is None else " ".join(names)
+    return item.number()
+
+
+def points_of(direction: Direction) -> tuple[str, ...]:
+    """The points that give a direction, if points do."""
+    return tuple(direction.split()) if isinstance(direction, str) else ()
+
+
+def vector(direction: Direction, at: Where) -> tuple[Fraction, Fraction, bool]:
+    """The direction as a vector, and whether it is exact (provided that its points are)."""
+    if isinstance(direction, tuple):
+        return *direction, True
+    if isinstance(direction, Fraction):
+        if direction % 45 == 0:
+            x, y = _EIGHTHS[int(direction / 45) % 8]
+            return Fraction(x), Fraction(y), True
+        return heading(direction)
+    (x0, y0), (x1, y1) = (at(name) for name in points_of(direction))
+    if (x0, y0) == (x1, y1):
+        raise Misfit(f"the points {direction} coincide and give no direction", "two points that lie apart")
+    return x1 - x0, y1 - y0, True

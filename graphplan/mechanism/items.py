@@ -1,0 +1,144 @@
+"""Items: one value of a scene with the place where it stands, read as what is wanted there or else a fault.
+
+Every reading method gives the value, or None once it has noted the fault; nothing here raises.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.mechanism.faults import Faults, perhaps
+from graphplan.mechanism.numerals import Unusable, integer, shown
+
+Vector = tuple[Fraction, Fraction]
+
+
+@dataclass(frozen=True)
+class Item:
+    """A value as tomllib gave it, `where` it stands in the scene, and the faults to add to."""
+
+    value: object
+    where: str
+    faults: Faults
+
+    def fault(self, what: str, instead: str) -> None:
+        """Note a fault of this very item."""
+        self.faults.add(self.where, what, instead)
+
+    def number(self) -> Fraction | None:
+        """A finite number of usable size, exactly."""
+        value = integer(self.value) if type(self.value) is int else self.value
+        if isinstance(value, Fraction):
+            return value
+        if isinstance(value, Unusable):
+            self.fault(f"{value.text} is no usable number", "a finite number between 1e-60 and 1e60 in size")
+        else:
+            self.fault(f"{described(value)} where a number is wanted", "a number such as 12.5")
+        return None
+
+    def positive(self) -> Fraction | None:
+        """A number above zero: a distance."""
+        number = self.number()
+        if number is not None and number <= 0:
+            self.fault(f"the distance {shown(number)} is not positive", "a distance above 0")
+            return None
+        return number
+
+    def vector(self) -> Vector | None:
+        """Two numbers: coordinates or components."""
+        if not isinstance(self.value, list) or len(self.value) != 2:
+            self.fault(f"{described(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
+            return None
+        x, y = (Item(part, self.where, self.faults).number() for part in self.value)
+        return None if x is None or y is None else (x, y)
+
+    def text(self, wanted: str, instead: str) -> str | None:
+        """A string."""
+        if isinstance(self.value, str):
+            return self.value
+        self.fault(f"{described(self.value)} where {wanted} is wanted", instead)
+        return None
+
+    def choice(self, words: Collection[str]) -> str | None:
+        """One of a few words."""
+        if isinstance(self.value, str) and self.value in words:
+            return self.value
+        instead = perhaps(self.value, words, "word") if isinstance(self.value, str) else "one of " + ", ".join(words)
+        self.fault(f"{described(self.value)} is not known here", instead)
+        return None
+
+    def name_of(self, kind: str, known: Collection[str]) -> str | None:
+        """The name of a point or link that the scene has."""
+        name = self.text(f"the name of a {kind}", 'a name in quotes, such as "3"')
+        if name is not None and name not in known:
+            self.faults.unknown(self.where, kind, name, known)
+            return None
+        return name
+
+    def points(self, known: Collection[str]) -> tuple[str, ...] | None:
+        """Names of different points, written as one string with blanks between them."""
+        text = self.text("a string of points", 'points separated by blanks, such as "A B"')
+        if text is None:
+            return None
+        if "," in text:
+            return self.fault("commas between points", "points separated by blanks alone, such as \"A B\"")
+        names = text.split()
+        before = len(self.faults.found)
+        for name in dict.fromkeys(names):
+            if name not in known:
+                self.faults.unknown(self.where, "point", name, known)
+            elif names.count(name) > 1:
+                self.fault(f"point {name} is named twice", "each point once")
+        return tuple(names) if len(self.faults.found) == before else None
+
+    def table(self) -> dict[str, Item] | None:
+        """The items of a table."""
+        if not isinstance(self.value, dict):
+            return self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
+        return self._inside(self.value)
+
+    def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, Item] | None:
+        """The items of a table with these keys only; `required` keys must be there, each with what it should say."""
+        items, keys = self.table(), list(known)
+        if items is None:
+            return None
+        for key in items.keys() - set(keys):
+            items[key].fault("unknown key", perhaps(key, keys, "key"))
+        missing = [key for key in required if key not in items]
+        for key in missing:
+            self.fault(f"{key} is missing", required[key])
+        return None if missing else {key: items[key] for key in keys if key in items}
+
+    def rows(self) -> list[Item]:
+        """The tables of an array of tables; their places are numbered from 1."""
+        if isinstance(self.value, list):
+            return [Item(row, f"{self.where}.{i}", self.faults) for i, row in enumerate(self.value, 1)]
+        self.fault(f"{described(self.value)} where a list of tables is wanted", f"[[{self.where}]], in double brackets")
+        return []
+
+    def _inside(self, table: Mapping[str, object]) -> dict[str, Item]:
+        prefix = f"{self.where}." if self.where else ""
+        return {key: Item(value, prefix + quoted(key), self.faults) for key, value in table.items()}
+
+
+def quoted(key: str) -> str:
+    """A key as TOML wants it: in quotes unless it is made of letters, digits, _ and -."""
+    return key if re.fullmatch(r"[\w-]+", key) else f'"{key}"'
+
+
+def described(value: object) -> str:
+    """What a wrong value is, in words."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    if isinstance(value, str):
+        return f'the string "{value[:40]}"'
+    if isinstance(value, list):
+        return f"a list of {len(value)}"
+    if isinstance(value, dict):
+        return f"a table with the keys {', '.join(list(value)[:4])}" if value else "an empty table"
+    if isinstance(value, int | Fraction):
+        return f"the number {shown(Fraction(value))}" if abs(value) < 10**60 else "a number"
+    return "a date or time"

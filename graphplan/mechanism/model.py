@@ -1,0 +1,130 @@
+"""What is given: a mechanism in one pose, as frozen plain data.
+
+Numbers are :class:`fractions.Fraction` wherever the scene is rational, exactly as written, and floats where a
+placement or a rate is not (polar and compass placements, rpm). Lengths and rates are in the scene's own units,
+angles in radians, counter-clockwise positive.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+
+Number = Fraction | float
+Pair = tuple[Number, Number]
+
+FRAME = "frame"
+
+
+@dataclass(frozen=True)
+class Units:
+    """The scene's units by name; results come back in them."""
+
+    length: str = "mm"
+    force: str = "N"
+    mass: str = "kg"
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How a point was placed: `how` is given, polar, compass, arc-line or on-line; `data` is the entry as written."""
+
+    how: str
+    data: dict[str, object] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Slide:
+    """A sliding pair: `link` slides along the guide fixed to `along`; `at` is a point of `link` on the guide line.
+
+    `direction` is the guide's direction in this pose, of any length. `through` names the two points that give it,
+    where the scene gives it so: then it turns with them in other poses.
+    """
+
+    link: str
+    along: str
+    at: str
+    direction: Pair
+    through: tuple[str, str] | None = None
+
+    @property
+    def name(self) -> str:
+        """The pair's name in results, such as `3 along 2`."""
+        return f"{self.link} along {self.along}"
+
+
+@dataclass(frozen=True)
+class TurningDrive:
+    """A prescribed angular velocity (rad/s) and acceleration (rad/s^2) of `link` relative to `relative_to`."""
+
+    link: str
+    relative_to: str
+    omega: Number
+    alpha: Number
+
+
+@dataclass(frozen=True)
+class SlidingDrive:
+    """A prescribed speed and acceleration of `link` along its guide on `along`, positive along the slide's direction."""
+
+    link: str
+    along: str
+    speed: Number
+    acceleration: Number
+
+
+Drive = TurningDrive | SlidingDrive
+
+
+@dataclass(frozen=True)
+class Motion:
+    """The given motion of one point of an open chain."""
+
+    velocity: Pair
+    acceleration: Pair
+
+
+@dataclass(frozen=True)
+class Find:
+    """What is asked for: names of points."""
+
+    velocity: tuple[str, ...]
+    acceleration: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
+
+    `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
+    `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why.
+    """
+
+    title: str
+    source: str
+    name: str
+    units: Units
+    points: dict[str, Pair]
+    placements: dict[str, Placement]
+    links: dict[str, tuple[str, ...]]
+    slides: tuple[Slide, ...]
+    drives: tuple[Drive, ...]
+    motions: dict[str, Motion]
+    find: Find
+    irrational: tuple[str, ...] = ()
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The links that are not the frame, in the scene's order."""
+        return tuple(link for link in self.links if link != FRAME)
+
+    @cached_property
+    def links_of(self) -> dict[str, tuple[str, ...]]:
+        """For each point, the links that name it, in the scene's order."""
+        return {p: tuple(k for k, names in self.links.items() if p in names) for p in self.points}
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """The points that more than one link names, in the scene's order: the revolute pairs."""
+        return tuple(p for p, links in self.links_of.items() if len(links) > 1)

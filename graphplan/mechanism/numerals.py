@@ -1,0 +1,65 @@
+"""Numerals: numbers exactly as they are written, their square roots, and directions from angles."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from decimal import Decimal, InvalidOperation
+from fractions import Fraction
+from math import cos, isqrt, radians, sin
+
+_DIGITS = 100
+"""The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""
+
+_DECADES = 60
+"""Numbers beyond 10^±60 are refused: their fourth powers would leave the range of a float."""
+
+_ROOT_BITS = 200
+"""Bits of an irrational square root: nearly four times a float's, so that one rounding at the end is all there is."""
+
+
+@dataclass(frozen=True)
+class Unusable:
+    """A numeral that is no usable number: nan, inf, or of an absurd size."""
+
+    text: str
+
+
+def decimal(text: str) -> Fraction | Unusable:
+    """The number that a TOML float says, exactly; 0.1 is one tenth."""
+    try:
+        number = Decimal(text)
+    except InvalidOperation:
+        return Unusable(text[:20])
+    if len(text) > _DIGITS or not number.is_finite() or (number and abs(number.adjusted()) > _DECADES):
+        return Unusable(text[:20])
+    return Fraction(number)
+
+
+def integer(value: int) -> Fraction | Unusable:
+    """The number that a TOML integer says, if it is of a usable size."""
+    if value.bit_length() > _DECADES * 10 // 3:
+        return Unusable("an integer of absurd size")
+    return Fraction(value)
+
+
+def root(square: Fraction) -> tuple[Fraction, bool]:
+    """The square root, and whether it is exact; an irrational one is good to some 60 digits."""
+    product = square.numerator * square.denominator
+    whole = isqrt(product)
+    if whole * whole == product:
+        return Fraction(whole, square.denominator), True
+    return Fraction(isqrt(product << 2 * _ROOT_BITS), square.denominator << _ROOT_BITS), False
+
+
+def heading(degrees: Fraction) -> tuple[Fraction, Fraction, bool]:
+    """Cosine and sine of an angle, and whether they are exact: so at the multiples of 90 degrees."""
+    quarter, rest = divmod(degrees + 45, 90)
+    angle = radians(float(rest - 45))  # within an eighth of a turn, where both functions are at their best
+    c, s = Fraction(cos(angle)), Fraction(sin(angle))
+    c, s = ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
+    return c, s, rest == 45
+
+
+def shown(number: Fraction | float) -> str:
+    """A number for an error line: as an integer where it is one, otherwise to six digits."""
+    return str(number) if isinstance(number, Fraction) and number.denominator == 1 else f"{float(number):.6g}"

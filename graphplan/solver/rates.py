@@ -1,0 +1,148 @@
+"""The velocities and accelerations of a scene from one linear system: the second opinion on every construction."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import cached_property
+from typing import Protocol
+
+from graphplan.errors import Refused, SingularPose
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
+from graphplan.solver.elimination import Elimination
+from graphplan.solver.equations import Equations
+from graphplan.solver.facts import Rate, centripetal, slip, surplus
+from graphplan.solver.plane import dot, less, times
+
+
+class Linear(Protocol):
+    """A linear system made ready once, over floats or over fractions."""
+
+    @property
+    def free(self) -> frozenset[int]:
+        """The columns that it leaves undetermined."""
+
+    def solve(self, right: Sequence[Number]) -> Sequence[Number] | None:
+        """A solution, or None where there is none."""
+
+    def conflict(self, right: Sequence[Number]) -> frozenset[int]:
+        """The rows that contradict each other."""
+
+
+@dataclass(frozen=True)
+class Rates:
+    """What moves how in one pose: true vectors in scene units, rad and s; floats, or fractions where asked for.
+
+    `velocity` and `acceleration`: (x, y) of every point of a link. `omega` and `alpha`: of every moving link.
+    `slide_velocity` and `slide_acceleration`: of a slide's point `at` relative to the guide, by the slide's name.
+    """
+
+    velocity: dict[str, Pair]
+    acceleration: dict[str, Pair]
+    omega: dict[str, Number]
+    alpha: dict[str, Number]
+    slide_velocity: dict[str, Pair]
+    slide_acceleration: dict[str, Pair]
+    equations: Equations = field(repr=False, compare=False)
+
+    @cached_property
+    def condition(self) -> float:
+        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
+        from graphplan.solver.floating import decomposed
+
+        return decomposed(self.equations).condition
+
+
+def solve(scene: Scene, exact: bool = False) -> Rates:
+    """The rates of every point, link and slide of the scene, in scene units, rad and s; with `exact` as fractions.
+
+    Fails with `Refused` where fractions are asked of an irrational scene, and with `SingularPose`, which names the
+    links, where the motion is not determined or is impossible.
+    """
+    equations = Equations(scene)
+    linear = in_fractions(equations) if exact else in_floats(equations)
+    zero: Number = Fraction(0) if exact else 0.0
+    first = equations.rates(solved(equations, linear, equations.velocities), zero)
+    second = equations.rates(solved(equations, linear, equations.accelerations(first)), zero)
+    return read(equations, first, second)
+
+
+def in_floats(equations: Equations) -> Linear:
+    """The equations made ready in floats; numpy is imported here, so that fractions do without it."""
+    from graphplan.solver.floating import decomposed
+
+    return decomposed(equations)
+
+
+def in_fractions(equations: Equations) -> Linear:
+    """The equations made ready in fractions; fails with `Refused` where the scene's values are irrational."""
+    reasons = equations.scene.irrational
+    if not reasons and any(isinstance(rate, float) for fact in equations.facts for rate in (fact.rate, fact.change)):
+        reasons = ("a drive or a given motion is not a fraction",)
+    if reasons:
+        raise Refused("exact numbers", "; ".join(reasons), "ask for floats, without --exact")
+    return Elimination(equations.rows, equations.width)
+
+
+def solved(equations: Equations, linear: Linear, right: Sequence[Number]) -> Sequence[Number]:
+    """The unknowns for one right-hand side; fails with `SingularPose` unless there is exactly one solution."""
+    free, values = linear.free, linear.solve(right)
+    if values is not None and not free:
+        return values
+    links = moved_by(equations, free) if free else bound_by(equations, linear.conflict(right))
+    raise SingularPose(reason(equations.scene, possible=values is not None, play=bool(free)), links)
+
+
+def moved_by(equations: Equations, columns: frozenset[int]) -> tuple[str, ...]:
+    """The links that undetermined columns move, in the scene's order."""
+    return tuple(link for link, k in equations.columns.items() if not columns.isdisjoint((k, k + 1, k + 2)))
+
+
+def bound_by(equations: Equations, rows: frozenset[int]) -> tuple[str, ...]:
+    """The moving links that contradicting rows speak of, in the scene's order."""
+    named = {link for i in rows for link in (equations.facts[i].link, equations.facts[i].on)}
+    return tuple(link for link in equations.columns if link in named)
+
+
+def reason(scene: Scene, possible: bool, play: bool) -> str:
+    """Why a pose is singular, in words: whether the prescribed motion is possible, and whether anything has play."""
+    if not scene.drives and not scene.motions:
+        return "nothing drives the mechanism: these links can move freely"
+    one = len(scene.drives) == 1 and not scene.motions
+    given = "the drive" if one else "the given motions" if scene.motions else "the drives"
+    still, do_not = ("stands still", "does not") if one else ("stand still", "do not")
+    if possible:
+        return f"{given} {do_not} determine the motion: these links can move while {given} {still}"
+    cause = f"these links move only while {given} {still}" if play else "it asks these links for two motions at once"
+    return f"the prescribed motion is impossible here: {cause}"
+
+
+def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) -> Rates:
+    """What the rates of the links, once and twice derived, say about points, links and slides."""
+    carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
+    slides = equations.scene.slides
+    return Rates(
+        velocity={p: first[link].at(equations.arm(link, p)) for p, link in carriers.items()},
+        acceleration={p: acceleration(equations, link, p, first, second) for p, link in carriers.items()},
+        omega={link: first[link].turn for link in equations.columns},
+        alpha={link: second[link].turn for link in equations.columns},
+        slide_velocity={s.name: along(s, slip(*equations.sides(s, first))) for s in slides},
+        slide_acceleration={s.name: along(s, sliding(equations, s, first, second)) for s in slides},
+        equations=equations,
+    )
+
+
+def acceleration(equations: Equations, link: str, p: str, first: dict[str, Rate], second: dict[str, Rate]) -> Pair:
+    """The acceleration of a point of a link."""
+    return less(second[link].at(equations.arm(link, p)), centripetal(equations.side(link, p, first)))
+
+
+def sliding(equations: Equations, slide: Slide, first: dict[str, Rate], second: dict[str, Rate]) -> Pair:
+    """The acceleration of the slide's point relative to the guide."""
+    return less(slip(*equations.sides(slide, second)), surplus(*equations.sides(slide, first)))
+
+
+def along(slide: Slide, vector: Pair) -> Pair:
+    """The part of a vector along the slide's direction: all of it, but for rounding."""
+    return times(dot(vector, slide.direction) / dot(slide.direction, slide.direction), slide.direction)

@@ -1,0 +1,78 @@
+"""Scenes made by hand: the shortest way to a Scene without a file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from fractions import Fraction
+from typing import Any
+
+from graphplan.mechanism.model import (
+    FRAME,
+    Find,
+    Motion,
+    Number,
+    Pair,
+    Placement,
+    Scene,
+    Slide,
+    SlidingDrive,
+    TurningDrive,
+    Units,
+)
+
+Written = int | float | str | Fraction
+
+
+def number(value: Written) -> Number:
+    """Whole numbers and texts exactly as written, floats as they are."""
+    return value if isinstance(value, float) else Fraction(value)
+
+
+def pair(values: Sequence[Written]) -> Pair:
+    """Two numbers."""
+    return number(values[0]), number(values[1])
+
+
+def slide(link: str, along: str, at: str, direction: Sequence[Written]) -> Slide:
+    """A sliding pair."""
+    return Slide(link, along, at, pair(direction))
+
+
+def turn(link: str, omega: Written, alpha: Written = 0, relative_to: str = FRAME) -> TurningDrive:
+    """A drive that turns a link."""
+    return TurningDrive(link, relative_to, number(omega), number(alpha))
+
+
+def push(link: str, along: str, speed: Written, acceleration: Written = 0) -> SlidingDrive:
+    """A drive that slides a link."""
+    return SlidingDrive(link, along, number(speed), number(acceleration))
+
+
+def move(velocity: Sequence[Written], acceleration: Sequence[Written] = (0, 0)) -> Motion:
+    """The given motion of a point."""
+    return Motion(pair(velocity), pair(acceleration))
+
+
+def mechanism(
+    points: Mapping[str, Sequence[Written]],
+    links: Mapping[str, str],
+    drives: Sequence[Any] = (),
+    slides: Sequence[Slide] = (),
+    motions: Mapping[str, Motion] | None = None,
+    irrational: Sequence[str] = (),
+) -> Scene:
+    """A scene of points, links as in the scene file, drives, slides and given motions."""
+    return Scene(
+        title="by hand",
+        source="",
+        name="by hand",
+        units=Units(),
+        points={name: pair(at) for name, at in points.items()},
+        placements={name: Placement("given") for name in points},
+        links={name: tuple(names.split()) for name, names in links.items()},
+        slides=tuple(slides),
+        drives=tuple(drives),
+        motions=dict(motions or {}),
+        find=Find((), ()),
+        irrational=tuple(irrational),
+    )

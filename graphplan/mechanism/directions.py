@@ -29,12 +29,16 @@ class Misfit(Exception):
 def read_direction(item: Item, points: Collection[str]) -> Direction | None:
     """A direction in one of its three spellings."""
     if isinstance(item.value, list):
-        vector = item.vector()
-        return item.fault("the direction is zero", "a vector that is not [0, 0]") if vector == (0, 0) else vector
+        components = item.vector()
+        if components is not None and not any(components):
+            item.fault("the direction is zero", "a vector that is not [0, 0]")
+            return None
+        return components
     if isinstance(item.value, str):
         names = item.points(points)
         if names is not None and len(names) != 2:
-            return item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "O A"')
+            item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "O A"')
+            return None
         return None if names is None else " ".join(names)
     return item.number()
 

@@ -84,7 +84,8 @@ class Item:
         if text is None:
             return None
         if "," in text:
-            return self.fault("commas between points", "points separated by blanks alone, such as \"A B\"")
+            self.fault("commas between points", 'points separated by blanks alone, such as "A B"')
+            return None
         names = text.split()
         before = len(self.faults.found)
         for name in dict.fromkeys(names):
@@ -97,7 +98,8 @@ class Item:
     def table(self) -> dict[str, Item] | None:
         """The items of a table."""
         if not isinstance(self.value, dict):
-            return self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
+            self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
+            return None
         return self._inside(self.value)
 
     def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, Item] | None:
@@ -105,8 +107,9 @@ class Item:
         items, keys = self.table(), list(known)
         if items is None:
             return None
-        for key in items.keys() - set(keys):
-            items[key].fault("unknown key", perhaps(key, keys, "key"))
+        for key, item in items.items():
+            if key not in keys:
+                item.fault("unknown key", perhaps(key, keys, "key"))
         missing = [key for key in required if key not in items]
         for key in missing:
             self.fault(f"{key} is missing", required[key])
@@ -133,12 +136,16 @@ def described(value: object) -> str:
     """What a wrong value is, in words."""
     if isinstance(value, bool):
         return str(value).lower()
+    if isinstance(value, Unusable):
+        return value.text
     if isinstance(value, str):
         return f'the string "{value[:40]}"'
     if isinstance(value, list):
         return f"a list of {len(value)}"
     if isinstance(value, dict):
         return f"a table with the keys {', '.join(list(value)[:4])}" if value else "an empty table"
-    if isinstance(value, int | Fraction):
-        return f"the number {shown(Fraction(value))}" if abs(value) < 10**60 else "a number"
+    if isinstance(value, Fraction):
+        return f"the number {shown(value)}"
+    if isinstance(value, int):
+        return described(integer(value))
     return "a date or time"

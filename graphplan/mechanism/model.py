@@ -66,7 +66,7 @@ class TurningDrive:
 
 @dataclass(frozen=True)
 class SlidingDrive:
-    """A prescribed speed and acceleration of `link` along its guide on `along`, positive along the slide's direction."""
+    """A prescribed speed and acceleration of `link` along its guide on `along`, positive along the direction."""
 
     link: str
     along: str
@@ -122,7 +122,11 @@ class Scene:
     @cached_property
     def links_of(self) -> dict[str, tuple[str, ...]]:
         """For each point, the links that name it, in the scene's order."""
-        return {p: tuple(k for k, names in self.links.items() if p in names) for p in self.points}
+        found: dict[str, list[str]] = {point: [] for point in self.points}
+        for link, points in self.links.items():
+            for point in points:
+                found[point].append(link)
+        return {point: tuple(links) for point, links in found.items()}
 
     @cached_property
     def joints(self) -> tuple[str, ...]:

@@ -27,12 +27,11 @@ class Unusable:
 def decimal(text: str) -> Fraction | Unusable:
     """The number that a TOML float says, exactly; 0.1 is one tenth."""
     try:
-        number = Decimal(text)
+        number = Decimal(text[: _DIGITS + 1])
     except InvalidOperation:
         return Unusable(text[:20])
-    if len(text) > _DIGITS or not number.is_finite() or (number and abs(number.adjusted()) > _DECADES):
-        return Unusable(text[:20])
-    return Fraction(number)
+    usable = len(text) <= _DIGITS and number.is_finite() and (number == 0 or abs(number.adjusted()) < _DECADES)
+    return Fraction(number) if usable else Unusable(text[:20])
 
 
 def integer(value: int) -> Fraction | Unusable:

@@ -1,20 +1,19 @@
-"""Placements: where the points are put, by coordinates or with compasses, rule and protractor.
+"""Placements: how the points of a scene are placed, read from their entries and carried out in order of need.
 
-Every rule reckons in fractions, takes a float among its inputs as the fraction that it is, and rounds once: a point
-is a pair of fractions wherever its inputs are and its root is a whole one, otherwise the nearest floats.
+A point is a pair of fractions wherever its inputs are and its rule is exact, otherwise the nearest floats.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Collection, Mapping
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
-from graphplan.mechanism.directions import Misfit, Where, points_of, read_direction, vector
+from graphplan.mechanism.arcs import RULES
+from graphplan.mechanism.directions import Misfit, points_of, read_direction
 from graphplan.mechanism.items import Item, Vector, described, quoted
 from graphplan.mechanism.model import Pair, Placement
-from graphplan.mechanism.numerals import heading, root, shown
 
 _FORMS: dict[str, dict[str, str]] = {
     "polar": {
@@ -37,12 +36,6 @@ _FORMS: dict[str, dict[str, str]] = {
     },
 }
 
-_TANGENT = Fraction(1, 10**12)
-"""Arcs around rounded centres may miss each other by this part of a radius: they were meant to touch."""
-
-
-# --- reading -------------------------------------------------------------------------------------------------------
-
 
 def read_placement(item: Item, points: Collection[str]) -> Placement | None:
     """How one point is placed, with its numbers exact; coordinates are data `at`."""
@@ -51,10 +44,11 @@ def read_placement(item: Item, points: Collection[str]) -> Placement | None:
         return None if at is None else Placement("given", {"at": at})
     how = max(_FORMS, key=lambda form: len(_FORMS[form].keys() & item.value.keys()))  # type: ignore[attr-defined]
     if not _FORMS[how].keys() & item.value.keys():
-        return item.fault(
+        item.fault(
             f"{described(item.value)} places no point",
             'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }',
         )
+        return None
     fields = item.fields(_FORMS[how], _FORMS[how])
     if fields is None:
         return None
@@ -79,10 +73,12 @@ def _read_distances(item: Item, points: Collection[str], wanted: int) -> dict[st
     if table is None:
         return None
     if len(table) != wanted:
-        return item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
+        item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
+        return None
     distances = {centre: distance.positive() for centre, distance in table.items()}
-    for centre in distances.keys() - set(points):
-        item.faults.unknown(table[centre].where, "point", centre, points)
+    for centre in distances:
+        if centre not in points:
+            item.faults.unknown(table[centre].where, "point", centre, points)
     known = {centre: d for centre, d in distances.items() if d is not None and centre in points}
     return known if len(known) == wanted else None
 
@@ -101,7 +97,8 @@ def _read_line(item: Item, points: Collection[str]) -> dict[str, object] | None:
 def _read_point_pair(item: Item, points: Collection[str]) -> str | None:
     names = item.points(points)
     if names is not None and len(names) != 2:
-        return item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "A B"')
+        item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "A B"')
+        return None
     return None if names is None else " ".join(names)
 
 
@@ -120,85 +117,6 @@ def needs(placement: Placement) -> tuple[str, ...]:
         case "on-line":
             return tuple(data["on"].split())
     return ()
-
-
-# --- the rules: each gives x, y and whether they are exact --------------------------------------------------------
-
-Put = tuple[Fraction, Fraction, bool]
-
-
-def _given(data: dict[str, Any], at: Where, slack: Fraction) -> Put:
-    return *data["at"], True
-
-
-def _polar(data: dict[str, Any], at: Where, slack: Fraction) -> Put:
-    (x, y), (c, s, exact) = at(data["from"]), heading(data["angle"])
-    return x + data["distance"] * c, y + data["distance"] * s, exact
-
-
-def _compass(data: dict[str, Any], at: Where, slack: Fraction) -> Put:
-    (a, p), (b, q) = data["distances"].items()
-    (ax, ay), (bx, by) = at(a), at(b)
-    dx, dy = bx - ax, by - ay
-    square = dx * dx + dy * dy
-    if square == 0:
-        raise Misfit(f"the compass centres {a} and {b} coincide", "centres that lie apart")
-    along = (p * p - q * q + square) / (2 * square)
-    across, exact = _half_chord(p * p / square - along * along, slack * p * p / square) or (None, False)
-    if across is None:
-        apart = shown(float(root(square)[0]))
-        raise Misfit(
-            f"compass arcs around {a} (radius {shown(p)}) and {b} (radius {shown(q)}) do not meet, "
-            f"the centres are {apart} apart",
-            f"radii {'whose sum is at least' if (p + q) ** 2 < square else 'that differ by at most'} {apart}",
-        )
-    turned = across if data["side"] == "left" else -across
-    return ax + along * dx - turned * dy, ay + along * dy + turned * dx, exact
-
-
-def _arc_line(data: dict[str, Any], at: Where, slack: Fraction) -> Put:
-    ((centre, radius),) = data["distances"].items()
-    through, direction = data["on"]["through"], data["on"]["direction"]
-    (cx, cy), (tx, ty) = at(centre), at(through) if isinstance(through, str) else through
-    ux, uy, straight = vector(direction, at)
-    square = ux * ux + uy * uy
-    foot = (ux * (cx - tx) + uy * (cy - ty)) / square
-    gap = (ux * (cy - ty) - uy * (cx - tx)) ** 2 / square
-    half, exact = _half_chord((radius**2 - gap) / square, slack * radius**2 / square) or (None, False)
-    if half is None:
-        gap_shown = shown(float(root(gap)[0]))
-        raise Misfit(
-            f"the arc around {centre} (radius {shown(radius)}) does not meet the line, which is {gap_shown} away",
-            f"a radius of at least {gap_shown}",
-        )
-    step = foot + (half if data["pick"] == "right" else -half)
-    return tx + step * ux, ty + step * uy, exact and straight
-
-
-def _on_line(data: dict[str, Any], at: Where, slack: Fraction) -> Put:
-    first = data["on"].split()[0]
-    (x, y), (ux, uy, _) = at(first), vector(data["on"], at)
-    length, exact = root(ux * ux + uy * uy)
-    return x + data["distance"] * ux / length, y + data["distance"] * uy / length, exact
-
-
-def _half_chord(square: Fraction, slack: Fraction) -> tuple[Fraction, bool] | None:
-    """Half the chord that two curves cut out, from its square; none where they do not meet."""
-    if square >= 0:
-        return root(square)
-    return (Fraction(0), False) if square >= -slack else None
-
-
-_RULES: dict[str, Callable[[dict[str, Any], Where, Fraction], Put]] = {
-    "given": _given,
-    "polar": _polar,
-    "compass": _compass,
-    "arc-line": _arc_line,
-    "on-line": _on_line,
-}
-
-
-# --- placing -------------------------------------------------------------------------------------------------------
 
 
 def place(placements: Mapping[str, Placement], table: Item) -> dict[str, Pair]:
@@ -227,8 +145,7 @@ def is_exact(*points: Pair) -> bool:
 
 def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
     rational = is_exact(*(points[name] for name in needs(placement)))
-    slack = Fraction(0) if rational else _TANGENT
-    x, y, exact = _RULES[placement.how](placement.data, lambda name: exactly(points[name]), slack)
+    x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational)
     return (x, y) if exact and rational else (float(x), float(y))
 
 
@@ -241,6 +158,6 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
         except CycleError as error:
             ring = list(dict.fromkeys(error.args[1]))
             where = f"{table.where}.{quoted(ring[0])}"
-            told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "the point is placed from itself"
-            table.faults.add(where, told, "coordinates for one of them" if ring[1:] else "another point to measure from")
+            told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
+            table.faults.add(where, told, "coordinates for one of them")
             waiting = {name: [p for p in on if p not in ring] for name, on in waiting.items() if name not in ring}

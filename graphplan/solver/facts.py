@@ -1,8 +1,8 @@
 """What a scene states about rates: how one link turns on another, and how one of its points moves on it.
 
 Revolute pairs, slides, drives and given motions are all made of these two kinds of facts, so no later part of the
-solver knows which mechanism it solves. A fact about accelerations has the same linear part as the one about velocities; what
-is left over, from the squares of the angular velocities and from Coriolis, is known once the velocities are.
+solver knows which mechanism it solves. A fact about accelerations has the same linear part as the one about
+velocities; what is left over, from centripetal and Coriolis accelerations, is known once the velocities are.
 """
 
 from __future__ import annotations

@@ -43,11 +43,11 @@ class Floating:
         """The shortest solution, or None where the right-hand side contradicts the rows by more than rounding."""
         sides = self._sides(right)
         values = self._inverse(sides)
-        values += self._inverse(sides - self._matrix @ values)  # one refinement wins the last digits back
+        values = values + self._inverse(sides - self._matrix @ values)  # one refinement wins the last digits back
         return None if self._contradiction(sides).any() else [float(v) for v in self._columns * values]
 
     def _sides(self, right: Sequence[Number]) -> Array:
-        return self._rows * np.array([float(value) for value in right])
+        return np.asarray(self._rows * np.array([float(value) for value in right]), dtype=np.float64)
 
     def _inverse(self, sides: Array) -> Array:
         """The pseudo-inverse times `sides`, from the singular values that are not zero."""

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from itertools import chain
 from typing import Protocol
 
 from graphplan.errors import Refused, SingularPose
@@ -77,11 +78,11 @@ def in_floats(equations: Equations) -> Linear:
 
 def in_fractions(equations: Equations) -> Linear:
     """The equations made ready in fractions; fails with `Refused` where the scene's values are irrational."""
-    reasons = equations.scene.irrational
-    if not reasons and any(isinstance(rate, float) for fact in equations.facts for rate in (fact.rate, fact.change)):
-        reasons = ("a drive or a given motion is not a fraction",)
-    if reasons:
-        raise Refused("exact numbers", "; ".join(reasons), "ask for floats, without --exact")
+    used = chain(*(row.values() for row in equations.rows), *((f.rate, f.change) for f in equations.facts))
+    rounded = any(isinstance(number, float) for number in used)
+    if rounded or equations.scene.irrational:
+        why = "; ".join(equations.scene.irrational) or "a coordinate, a drive or a given motion is not a fraction"
+        raise Refused("exact numbers", why, "ask for floats, without --exact")
     return Elimination(equations.rows, equations.width)
 
 

@@ -54,7 +54,7 @@ def move(velocity: Sequence[Written], acceleration: Sequence[Written] = (0, 0)) 
 
 
 def mechanism(
-    points: Mapping[str, Sequence[Written]],
+    points: Mapping[str, tuple[Written, Written]],
     links: Mapping[str, str],
     drives: Sequence[Any] = (),
     slides: Sequence[Slide] = (),

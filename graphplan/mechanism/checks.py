@@ -1,0 +1,101 @@
+"""Checks: what can be said against a scene only when all of it is known.
+
+Points that nothing uses, joints of a link that coincide, links that hang on nothing, and a motion that the drives
+determine twice or not at all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Mapping
+from fractions import Fraction
+from itertools import combinations, pairwise
+
+from graphplan.mechanism.bracing import bracing
+from graphplan.mechanism.faults import Faults
+from graphplan.mechanism.items import quoted
+from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.mechanism.placements import exactly, is_exact
+from graphplan.mechanism.structure import mobility
+
+_SAME = Fraction(1, 10**12)
+"""Rounded points that lie apart by less than this part of their coordinates were meant to coincide."""
+
+
+def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
+    """Every point is a point of a link, or serves to place a point or to give a direction."""
+    for point, links in scene.links_of.items():
+        if not links and point not in elsewhere:
+            faults.add(f"points.{quoted(point)}", "no link has this point", "its name in a link, or no such point")
+
+
+def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> None:
+    """The joints of a moving link lie apart."""
+    joints = set(scene.joints) & placed.keys()
+    for link in scene.moving:
+        for a, b in combinations([point for point in scene.links[link] if point in joints], 2):
+            if _coincide(placed[a], placed[b]):
+                instead = "joints that lie apart, or one name for both"
+                faults.add(f"links.{quoted(link)}", f"the joints {a} and {b} coincide", instead)
+
+
+def _coincide(a: Pair, b: Pair) -> bool:
+    if is_exact(a, b):
+        return a == b
+    (ax, ay), (bx, by) = exactly(a), exactly(b)
+    return max(abs(ax - bx), abs(ay - by)) <= _SAME * max(abs(ax), abs(ay), abs(bx), abs(by))
+
+
+def check_connections(scene: Scene, faults: Faults) -> None:
+    """Every link hangs together with the frame, or with a point whose motion is given."""
+    near: dict[str, list[str]] = {link: [] for link in scene.links}
+    for links in scene.links_of.values():
+        _join(near, links)
+    for slide in scene.slides:
+        _join(near, (slide.link, slide.along))
+    driven = [link for link, points in scene.links.items() if scene.motions.keys() & set(points)]
+    held = _reached(near, [FRAME] * (FRAME in near) + driven)
+    for link in scene.moving:
+        if held and link not in held:
+            lonely = "shares no joint or slide with any other"
+            told = "hangs on neither the frame nor a given motion" if near[link] else lonely
+            instead = "a point that it shares with another link, or a slide"
+            faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
+
+
+def _join(near: dict[str, list[str]], links: tuple[str, ...]) -> None:
+    for one, other in pairwise(links):
+        near[one].append(other)
+        near[other].append(one)
+
+
+def _reached(near: Mapping[str, Iterable[str]], start: list[str]) -> set[str]:
+    reached, edge = set(start), list(start)
+    while edge:
+        for other in near[edge.pop()]:
+            if other not in reached:
+                reached.add(other)
+                edge.append(other)
+    return reached
+
+
+def check_mobility(scene: Scene, faults: Faults) -> None:
+    """As many drives and given motions as degrees of freedom, and each link held just once."""
+    freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
+    given = drives + 2 * motions
+    told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")
+    what = f"mobility {freedoms} but {told}"
+    if freedoms < given:
+        instead = "fewer drives, or fewer joints and slides" if freedoms > 0 else "a chain with fewer joints and slides"
+        faults.add("drive", what, instead)
+        return
+    held = bracing(scene)
+    loose, twice = (" ".join(links) for links in (held.loose, held.overbraced))
+    if freedoms > given:
+        faults.add("drive", what, f"{freedoms - given} more [[drive]], while links {loose} can move")
+    elif not held.sound:
+        what = f"links {twice} are overbraced while links {loose} are loose"
+        faults.add("links", what, "joints, slides and drives that hold each link just once")
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"

@@ -1,0 +1,123 @@
+"""Equations: which freedoms of links and joints a mechanism has, and what binds them.
+
+Made from the graph alone. Each moving link has three freedoms (the velocity of its point at the origin, and its
+turning), each revolute joint of moving links two, so that a joint of many links favours none of them. Where a
+coefficient needs coordinates, chance gives them: what holds for points in general position is what the graph says.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+
+from graphplan.mechanism.model import FRAME, Drive, Scene, SlidingDrive, TurningDrive
+
+PRIME = 2**61 - 1
+"""Coefficients are residues of this prime: exact, of one size, and a chance zero all but impossible."""
+
+Thing = tuple[str, str]
+"""What moves: ("link", its name) or ("joint", its point)."""
+
+Unknown = tuple[Thing, str]
+"""A freedom of a thing: along x, along y, or its turning."""
+
+Terms = dict[Unknown, int]
+
+
+@dataclass(frozen=True)
+class Equation:
+    """One condition on the freedoms: its terms, the links that it binds, and the drive that makes it, if one does."""
+
+    terms: Terms
+    links: tuple[str, ...]
+    drive: Drive | None = None
+
+
+@dataclass(frozen=True)
+class System:
+    """All freedoms and all equations of a scene's moving links."""
+
+    scene: Scene
+
+    @cached_property
+    def known(self) -> frozenset[str]:
+        """The points whose motion is given beforehand: those of the frame, and the given motions."""
+        return frozenset(self.scene.links.get(FRAME, ())) | frozenset(self.scene.motions)
+
+    @cached_property
+    def unknowns(self) -> tuple[Unknown, ...]:
+        """All freedoms, in the scene's order."""
+        links = [(("link", k), way) for k in self.scene.moving for way in ("x", "y", "turn")]
+        joints = [(("joint", p), way) for p in self.scene.joints if p not in self.known for way in ("x", "y")]
+        return tuple(links + joints)
+
+    @cached_property
+    def equations(self) -> tuple[Equation, ...]:
+        """All equations: of the revolute joints, of the slides, of the drives."""
+        return (*self._pins(), *self._slides(), *self._drives())
+
+    @cached_property
+    def _places(self) -> dict[str, tuple[int, int]]:
+        chance = Random(1939)
+        return {p: (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for p in self.scene.points}
+
+    @cached_property
+    def _guides(self) -> dict[tuple[str, str], tuple[int, int]]:
+        chance = Random(1966)
+        return {(s.link, s.along): (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for s in self.scene.slides}
+
+    def _pins(self) -> Iterator[Equation]:
+        """Each link's point moves as its joint does; a known point's motion stands on the right-hand side."""
+        joints = set(self.scene.joints) - self.known
+        for link in self.scene.moving:
+            for point in self.scene.links[link]:
+                if point in joints or point in self.known:
+                    for way, terms in self._velocity(link, point).items():
+                        joint = {(("joint", point), way): PRIME - 1} if point in joints else {}
+                        yield Equation(terms | joint, (link,))
+
+    def _slides(self) -> Iterator[Equation]:
+        """The two links turn alike, and the sliding point does not leave the guide line."""
+        for slide in self.scene.slides:
+            pair = tuple(link for link in (slide.link, slide.along) if link != FRAME)
+            x, y = self._guides[slide.link, slide.along]
+            yield Equation(self._turning(slide.link, slide.along), pair)
+            yield Equation(self._relative(slide.link, slide.along, slide.at, (-y, x)), pair)
+
+    def _drives(self) -> Iterator[Equation]:
+        """Each drive prescribes a relative turning, or the sliding along a guide."""
+        at = {(slide.link, slide.along): slide.at for slide in self.scene.slides}
+        for drive in self.scene.drives:
+            one, other = ends(drive)
+            pair = tuple(link for link in (one, other) if link != FRAME)
+            if isinstance(drive, SlidingDrive):
+                yield Equation(self._relative(one, other, at[one, other], self._guides[one, other]), pair, drive)
+            else:
+                yield Equation(self._turning(one, other), pair, drive)
+
+    def _velocity(self, link: str, point: str) -> dict[str, Terms]:
+        """The velocity of a link's point, by components; the frame's has no terms."""
+        if link == FRAME:
+            return {"x": {}, "y": {}}
+        body, (x, y) = ("link", link), self._places[point]
+        return {"x": {(body, "x"): 1, (body, "turn"): PRIME - y}, "y": {(body, "y"): 1, (body, "turn"): x}}
+
+    def _turning(self, link: str, other: str) -> Terms:
+        signed = ((link, 1), (other, PRIME - 1))
+        return {(("link", name), "turn"): sign for name, sign in signed if name != FRAME}
+
+    def _relative(self, link: str, other: str, point: str, along: tuple[int, int]) -> Terms:
+        """The velocity of a point of one link relative to the other, its component along a direction."""
+        total: Terms = {}
+        for name, sign in ((link, 1), (other, -1)):
+            for factor, terms in zip(along, self._velocity(name, point).values(), strict=True):
+                for unknown, coefficient in terms.items():
+                    total[unknown] = (total.get(unknown, 0) + sign * factor * coefficient) % PRIME
+        return total
+
+
+def ends(drive: Drive) -> tuple[str, str]:
+    """The two links between which a drive works."""
+    return (drive.link, drive.relative_to) if isinstance(drive, TurningDrive) else (drive.link, drive.along)

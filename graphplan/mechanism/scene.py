@@ -1,0 +1,187 @@
+"""Scenes: a mechanism read from TOML text, checked as a whole, all its faults told at once."""
+
+from __future__ import annotations
+
+import os
+import re
+import sys
+import tomllib
+from collections import Counter
+from fractions import Fraction
+from importlib.resources import files
+from importlib.resources.abc import Traversable
+
+from graphplan.errors import Fault, SceneError
+from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
+from graphplan.mechanism.faults import Faults, perhaps
+from graphplan.mechanism.items import Item, quoted
+from graphplan.mechanism.model import FRAME, Find, Placement, Scene, Slide
+from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.placements import needs, place, read_placement
+from graphplan.mechanism.sections import (
+    Names,
+    read_drives,
+    read_links,
+    read_motions,
+    read_question,
+    read_slides,
+    read_units,
+)
+
+_TABLES = ("title", "source", "gravity", "units", "points", "links", "slides", "drive", "motion", "find")
+_FORCES = ("masses", "forces", "moments", "balance")
+
+
+def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
+    """The scene in a file, on standard input (`-`), or packaged under this name.
+
+    Fails with a :class:`SceneError` that has one line for each fault.
+    """
+    written = os.fspath(source)
+    name = written if name is None else name
+    try:
+        return parse(_bytes(written).decode("utf-8-sig"), name)
+    except UnicodeDecodeError as error:
+        fault = Fault("file", f"byte {error.start + 1} is not UTF-8", "text saved as UTF-8")
+    except IsADirectoryError:
+        fault = Fault("file", "this is a directory", "a scene file")
+    except FileNotFoundError:
+        packaged = [entry.name.removesuffix(".toml") for entry in _packaged()]
+        fault = Fault("file", "no such file and no packaged scene", perhaps(written, packaged, "file"))
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system has
+        fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
+    raise SceneError(name, (fault,))
+
+
+def _bytes(source: str) -> bytes:
+    if source == "-":
+        return sys.stdin.buffer.read()
+    for entry in _packaged():
+        if entry.name == f"{source}.toml" and not os.path.exists(source):
+            return entry.read_bytes()
+    with open(source, "rb") as file:
+        return file.read()
+
+
+def _packaged() -> list[Traversable]:
+    folder = files("graphplan") / "scenes"
+    return [entry for entry in folder.iterdir() if entry.name.endswith(".toml")] if folder.is_dir() else []
+
+
+def parse(text: str, name: str) -> Scene:
+    """The scene that a TOML text says; `name` stands in error lines."""
+    faults = Faults()
+    scene = _read(_toml(text, name), name, faults)
+    if faults.found:
+        raise SceneError(name, faults.found)
+    return scene
+
+
+def _toml(text: str, name: str) -> dict[str, object]:
+    """The text's tables, its decimals as exact numbers."""
+    if not text.strip():
+        raise SceneError(name, (Fault("file", "it is empty", "a scene with [points], [links] and [[drive]]"),))
+    try:
+        return tomllib.loads(text, parse_float=decimal)
+    except RecursionError:
+        fault = Fault("file", "tables or lists are nested too deeply", "a scene as the manual shows it")
+    except ValueError as error:  # a numeral that Python refuses to read has no place of its own
+        told = re.fullmatch(r"(.*) \(at (.*)\)", str(error), re.DOTALL)
+        what, where = (told[1], told[2].replace("end of document", "end of file")) if told else (str(error), "file")
+        fault = Fault(where, f"this is no TOML: {what}", "text that follows toml.io")
+    raise SceneError(name, (fault,))
+
+
+def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
+    """The whole scene; where something is faulty the scene is patched up, and only good for finding more faults."""
+    items = _top(tables, faults)
+    table = items["points"]
+    points = table.table() or {}
+    placements = _placements(points, table)
+    placed = place(placements, table)
+    names = Names(tuple(points), placed, read_links(items["links"], points))
+    names.irrational += [
+        f"points.{quoted(point)}: {placements[point].how} placement"
+        for point in points
+        if point in placed and isinstance(placed[point][0], float)
+    ]
+    slides = read_slides(items["slides"], names)
+    drives = read_drives(items["drive"], names, slides)
+    motions = read_motions(items["motion"], names)
+    scene = Scene(
+        title=_text(items.get("title")),
+        source=_text(items.get("source")),
+        name=name,
+        units=read_units(items["units"]),
+        points={point: placed.get(point, (Fraction(0), Fraction(0))) for point in points},
+        placements={point: placements[point] for point in points if point in placements},
+        links=names.links,
+        slides=slides,
+        drives=drives,
+        motions=motions,
+        find=_find(items.get("find"), names, slides),
+        irrational=tuple(names.irrational),
+    )
+    _check(scene, placed, faults)
+    return scene
+
+
+def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
+    """The top-level tables; those that are left out are there and empty, except those whose absence says something."""
+    empty: dict[str, object] = {"units": {}, "points": {}, "links": {}, "slides": [], "drive": [], "motion": {}}
+    for key in _FORCES:
+        if key in tables:
+            faults.add(key, "forces are not constructed by this version", "leave the table out")
+    whole = Item({**empty, **{k: v for k, v in tables.items() if k not in _FORCES}}, "", faults)
+    items = whole.fields(_TABLES, {}) or {}
+    if "gravity" in items:
+        items["gravity"].vector()
+    for key, such in (("points", "A = [0, 0]"), ("links", '1 = "O A"')):
+        if not items[key].value:
+            items[key].fault(f"the scene has no {key}", f"[{key}] with entries such as {such}")
+    return items
+
+
+def _placements(points: dict[str, Item], table: Item) -> dict[str, Placement]:
+    placements: dict[str, Placement] = {}
+    for point, item in points.items():
+        if not point or "," in point or point.split() != [point]:
+            item.fault("a point's name has blanks or commas, or is empty", "a name without them, such as A2")
+        placement = read_placement(item, points)
+        if placement is not None:
+            placements[point] = placement
+    return placements
+
+
+def _text(item: Item | None) -> str:
+    return (item.text("a text", "a text in quotes") or "") if item else ""
+
+
+def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
+    """What is asked for: if nothing is said, velocity and acceleration of every joint that can move."""
+    if item is not None:
+        fields = item.fields(("velocity", "acceleration"), {}) or {}
+        asked = {key: read_question(entry, names) for key, entry in fields.items()}
+        return Find(asked.get("velocity", ()), asked.get("acceleration", ()))
+    fixed = names.links.get(FRAME, ())
+    named = Counter(point for points in names.links.values() for point in points)
+    at = {slide.at for slide in slides}
+    moving = tuple(p for p in names.points if (named[p] > 1 or p in at) and p not in fixed)
+    return Find(moving, moving)
+
+
+def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | float]], faults: Faults) -> None:
+    """The checks of the whole, each where what it rests on has no faults of its own."""
+    if not faults.none_in("links"):
+        return
+    guides = {point for slide in scene.slides for point in slide.through or ()}
+    centres = {point for placement in scene.placements.values() for point in needs(placement)}
+    if faults.none_in("points", "slides"):
+        check_use(scene, guides | centres, faults)
+    check_joints(scene, placed, faults)
+    if not scene.moving:
+        faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
+    elif faults.none_in("links", "slides", "drive", "motion"):
+        check_connections(scene, faults)
+        if faults.none_in("links"):
+            check_mobility(scene, faults)

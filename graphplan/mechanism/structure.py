@@ -1,0 +1,212 @@
+"""Structure: mobility, and the groups of links (Assur groups) through which motion is transferred.
+
+The driven chain falls apart into groups that are solved one after another. A group of two links is a dyad, of class
+II; the class of a larger one is the number of sides of its largest closed contour, which is either rigid (a link
+with m pairs) or deformable (a loop of links). Its order is the number of its outer pairs, with what moves already.
+Links held together by a drive count as one body. A drive between links that no pair joins prescribes their turning
+alone: it acts as a fictitious link that slides along both.
+
+Source: Jaanimets (1966), sections 1-9; Artobolevsky's classes.
+"""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+
+from graphplan.errors import Fault, SceneError
+from graphplan.mechanism.bracing import bracing
+from graphplan.mechanism.contours import loop_lengths
+from graphplan.mechanism.equations import System, ends
+from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
+from graphplan.mechanism.transfer import stages
+
+_MODIFICATIONS = ("RRR", "RRP", "RPR", "PRP", "RPP")
+"""The dyads, numbered from 1: outer, inner and outer pair, R revolute, P sliding."""
+
+
+@dataclass(frozen=True)
+class Group:
+    """Links that are solved together: an Assur group, or a driving link (class I)."""
+
+    links: tuple[str, ...]
+    class_: int
+    order: int
+    kind: str
+
+    @property
+    def line(self) -> str:
+        """The group in words."""
+        names = " ".join(self.links)
+        if self.class_ == 1:
+            return f"class I: {self.kind} {names}"
+        kind = "" if self.kind.startswith("class") else f" ({self.kind.replace(' (', ', ').removesuffix(')')})"
+        return f"class {roman(self.class_)} group, order {self.order}: links {names}{kind}"
+
+
+@dataclass(frozen=True)
+class Structure:
+    """A mechanism's mobility and its parts in the order of motion transfer, driving links among them."""
+
+    mobility: int
+    parts: tuple[Group, ...]
+
+    @property
+    def groups(self) -> tuple[Group, ...]:
+        """The Assur groups alone."""
+        return tuple(part for part in self.parts if part.class_ > 1)
+
+    @property
+    def driving(self) -> tuple[str, ...]:
+        """The links that are driven alone."""
+        return tuple(link for part in self.parts if part.class_ == 1 for link in part.links)
+
+    @property
+    def class_(self) -> int:
+        """The mechanism's class: that of its highest group."""
+        return max((part.class_ for part in self.parts), default=1)
+
+    def lines(self) -> tuple[str, ...]:
+        """One line for each part, in order, and one for the whole."""
+        whole = f"mechanism of class {roman(self.class_)}, mobility {self.mobility}"
+        return (*(part.line for part in self.parts), whole)
+
+
+@dataclass(frozen=True)
+class _Bond:
+    """A pair of a group: its kind (R, P, or T for a prescribed turning) and its bodies; an outer pair has but one."""
+
+    kind: str
+    bodies: tuple[str, ...]
+
+
+def mobility(scene: Scene) -> int:
+    """Chebyshev's count: 3 for each moving link, less 2 for each pair; a joint of k links is k - 1 pairs."""
+    pins = sum(len(links) - 1 for links in scene.links_of.values() if links)
+    return 3 * len(scene.moving) - 2 * pins - 2 * len(scene.slides)
+
+
+def structure(scene: Scene) -> Structure:
+    """The scene's mobility and groups; a :class:`SceneError` where its drives do not determine its motion."""
+    held = bracing(scene)
+    if not held.sound:
+        fault = Fault("links", f"links {' '.join(held.loose)} are loose", "drives and pairs that hold each link once")
+        raise SceneError(scene.name, (fault,))
+    system = System(scene)
+    found = [[name for sort, name in stage if sort == "link"] for stage in stages(system)]
+    order = {link: i for i, link in enumerate(scene.moving)}
+    teams = [tuple(sorted(team, key=order.__getitem__)) for team in found if team]
+    surroundings = _Surroundings(scene, system.known, {link: i for i, team in enumerate(teams) for link in team})
+    return Structure(mobility(scene), tuple(_group(surroundings, team) for team in teams))
+
+
+def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
+    """What kind of group these links form."""
+    body = _bodies(around, links)
+    bonds = tuple(around.bonds(links, body))
+    bodies = dict.fromkeys(body.values())
+    outer = [bond for bond in bonds if len(bond.bodies) == 1]
+    if len(bodies) == 1:
+        return Group(links, 1, len([bond for bond in outer if bond.kind != "T"]), "driving link")
+    if len(bodies) == 2:
+        (first, last), inner = sorted((bond.kind for bond in outer), reverse=True), _inner(bonds)
+        form = first + inner[0].kind + last
+        return Group(links, 2, 2, f"dyad {form} (modification {_MODIFICATIONS.index(form) + 1})")
+    sides = _sides(bonds)
+    real = len(bodies) + sum(bond.kind == "T" for bond in bonds)
+    triad = (real, sides, len(outer)) == (4, 3, 3)
+    return Group(links, sides, len(outer), "triad" if triad else f"class {roman(sides)} group")
+
+
+def _inner(bonds: Iterable[_Bond]) -> list[_Bond]:
+    return [bond for bond in bonds if len(bond.bodies) > 1]
+
+
+def _sides(bonds: tuple[_Bond, ...]) -> int:
+    """The number of sides of the largest contour, rigid or deformable."""
+    pairs: dict[str, int] = defaultdict(int)
+    graph: dict[tuple[str, ...], set[tuple[str, ...]]] = defaultdict(set)
+    for i, bond in enumerate(bonds):
+        for body in bond.bodies:
+            pairs[body] += 1
+            path: list[tuple[str, ...]] = [("body", body), ("pair", str(i))]
+            if bond.kind == "T":  # the fictitious link has a pair with each of the two
+                path = [("body", body), ("pair", str(i), body), ("fictitious", str(i))]
+            for one, other in pairwise(path):
+                graph[one].add(other)
+                graph[other].add(one)
+    loops = loop_lengths({node: frozenset(others) for node, others in graph.items()})
+    return max(*pairs.values(), *(length // 2 for length in loops), 2)  # every other node of a loop is a link
+
+
+def _bodies(around: _Surroundings, links: tuple[str, ...]) -> dict[str, str]:
+    """For each link, the first link of the body that it forms with those that a drive at a common pair holds to it."""
+    body = {link: link for link in links}
+    for one, other in around.welds(links):
+        kept, lost = body[one], body[other]
+        body.update((link, kept) for link in links if body[link] == lost)
+    return body
+
+
+class _Surroundings:
+    """What a group needs to know of the whole: the pairs of each link, and which links move before which."""
+
+    def __init__(self, scene: Scene, known: frozenset[str], stage: Mapping[str, int]):
+        self.scene, self.known, self.stage = scene, known, stage
+        self.slides, self.drives = defaultdict(list), defaultdict(list)
+        for slide in scene.slides:
+            for link in (slide.link, slide.along):
+                self.slides[link].append(slide)
+        for drive in scene.drives:
+            for link in ends(drive):
+                self.drives[link].append(drive)
+        self.first = {
+            point: min((stage[link] for link in links if link != FRAME), default=-1)
+            for point, links in scene.links_of.items()
+        }
+
+    def welds(self, links: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+        """The links of a group that a drive at their common pair makes one body."""
+        for drive in dict.fromkeys(drive for link in links for drive in self.drives[link]):
+            one, other = ends(drive)
+            joined = isinstance(drive, SlidingDrive) or set(self.scene.links.get(one, ())) & set(
+                self.scene.links.get(other, ())
+            )
+            if joined and one in links and other in links:
+                yield one, other
+
+    def bonds(self, links: tuple[str, ...], body: Mapping[str, str]) -> Iterator[_Bond]:
+        """The pairs of a group: its inner ones, and the outer ones with what moves already."""
+        now = self.stage[links[0]]
+        for point in dict.fromkeys(point for link in links for point in self.scene.links[link]):
+            bodies = tuple(dict.fromkeys(body[link] for link in self.scene.links_of[point] if link in body))
+            if point in self.known or self.first[point] < now:
+                yield from (_Bond("R", (one,)) for one in bodies)
+            elif len(bodies) > 1:
+                yield _Bond("R", bodies)
+        slides = dict.fromkeys(slide for link in links for slide in self.slides[link])
+        yield from self._between("P", [(slide.link, slide.along) for slide in slides], body, now)
+        turned = dict.fromkeys(drive for link in links for drive in self.drives[link])
+        free = [ends(drive) for drive in turned if not isinstance(drive, SlidingDrive)]
+        yield from self._between("T", free, body, now)
+
+    def _between(
+        self, kind: str, pairs: Iterable[tuple[str, str]], body: Mapping[str, str], now: int
+    ) -> Iterator[_Bond]:
+        for pair in pairs:
+            bodies = tuple(dict.fromkeys(body[link] for link in pair if link in body))
+            within_one_body = len(bodies) == 1 and all(link in body for link in pair)
+            if not within_one_body and all(link == FRAME or self.stage[link] <= now for link in pair):
+                yield _Bond(kind, bodies)
+
+
+def roman(number: int) -> str:
+    """A number in Roman numerals."""
+    numerals = ((50, "L"), (40, "XL"), (10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I"))
+    text = ""
+    for value, letters in numerals:
+        text += letters * (number // value)
+        number %= value
+    return text

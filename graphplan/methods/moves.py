@@ -1,0 +1,133 @@
+"""The moves of a construction: what one turn of the planner adds to what is known.
+
+A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place whose
+end it carries and by its source: the body, slide or seed that gives it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphplan.mechanism.model import Slide
+from graphplan.methods.network import Place
+
+Locus = tuple[Place, str]
+
+
+@dataclass(frozen=True)
+class Rest:
+    """A point of the frame or of a link that a drive ties to it: its end is known."""
+
+    place: Place
+
+
+@dataclass(frozen=True)
+class Seed:
+    """A point whose motion the scene gives."""
+
+    place: Place
+
+
+@dataclass(frozen=True)
+class Swing:
+    """The body knows the end of K: the end of X lies on a line."""
+
+    body: str
+    K: Place
+    X: Place
+
+
+@dataclass(frozen=True)
+class Slip:
+    """The body's turning is known (that of `like`) and A has a locus: the end of X lies on the shifted locus."""
+
+    body: str
+    A: Locus
+    X: Place
+    like: str
+
+
+@dataclass(frozen=True)
+class Carry:
+    """A and B of the body have loci: the end of X lies on a line, found by an auxiliary point or a trial figure."""
+
+    body: str
+    A: Locus
+    B: Locus
+    X: Place
+
+
+@dataclass(frozen=True)
+class Settle:
+    """The body knows K, and X and B have loci: the end of X."""
+
+    body: str
+    K: Place
+    X: Locus
+    B: Locus
+
+
+@dataclass(frozen=True)
+class Figure:
+    """The body is known, by the ends of K and R, or of K and the turning of `like`: the end of X.
+
+    With `copy` it is entered there, to be compared with what else is known of X.
+    """
+
+    body: str
+    K: Place
+    X: Place
+    R: Place | None = None
+    like: str = ""
+    copy: Place | None = None
+
+
+@dataclass(frozen=True)
+class Guide:
+    """The end of X is known in the plane of `known`: in the plane of `new` it lies on a line set by the guide."""
+
+    slide: Slide
+    point: str
+    known: str
+    new: str
+
+
+@dataclass(frozen=True)
+class Meet:
+    """Two loci of one place meet in its end."""
+
+    place: Place
+    sources: tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Auxiliary:
+    """A and B of the body have loci: the auxiliary point where they cross, taken as a point of the body."""
+
+    body: str
+    A: Locus
+    B: Locus
+    place: Place
+
+
+@dataclass(frozen=True)
+class Pole:
+    """Two bodies joined by two bars: the bars' intersection is a joint of both (Aronhold-Kennedy)."""
+
+    bodies: tuple[str, str]
+    bars: tuple[tuple[str, Place, Place], tuple[str, Place, Place]]
+    place: Place
+
+
+@dataclass(frozen=True)
+class Trial:
+    """False position: the end of `place` is assumed on its locus, twice; what follows is drawn for both; in the end
+    Z should lie on its locus, and does not; the third time it does."""
+
+    at: Locus
+    moves: tuple[Move, ...]
+    Z: Place
+    closing: str
+
+
+Move = Rest | Seed | Swing | Slip | Carry | Settle | Figure | Guide | Meet | Auxiliary | Pole | Trial

@@ -1,0 +1,144 @@
+"""The mechanism as a network of bodies that meet in places: what the planner walks on, never a coordinate.
+
+A *body* is a link, together with the links whose motion relative to it a drive prescribes (they share its unknowns).
+A *place* is a point of the mechanism as the bodies there see it: (X, "") for the joint or point X itself, (X, link) for
+the point of another link's plane that coincides with X, which sliding pairs need.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
+
+Place = tuple[str, str]
+
+
+@dataclass(frozen=True)
+class Weld:
+    """A drive between two links that share a pair: `link` moves as `to` does, but for what the drive prescribes.
+
+    `at` is the common joint of a turning drive; a sliding drive has its slide instead.
+    """
+
+    link: str
+    to: str
+    drive: Drive
+    sign: int
+    at: str = ""
+    slide: Slide | None = None
+
+
+@dataclass
+class Network:
+    """Bodies, places, slides and classes of equal turning of a scene."""
+
+    scene: Scene
+    welds: dict[str, Weld] = field(default_factory=dict)
+    members: dict[str, list[str]] = field(default_factory=dict)
+    slides: list[Slide] = field(default_factory=list)
+    turning: list[TurningDrive] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        scene = self.scene
+        self.body = {link: link for link in scene.links}
+        self.members = {link: [link] for link in scene.links}
+        driven = {frozenset((d.link, d.along)) for d in scene.drives if isinstance(d, SlidingDrive)}
+        self.slides = [s for s in scene.slides if frozenset((s.link, s.along)) not in driven]
+        self.coincident = self._coincident_points()
+        for drive in scene.drives:
+            self._weld(drive)
+        self.ground = self.body.get(FRAME, "")
+        self.classes = self._turning_classes()
+        self.slides_of: dict[str, list[Slide]] = {}
+        for slide in self.slides:
+            for link in (slide.link, slide.along):
+                self.slides_of.setdefault(self.body[link], []).append(slide)
+
+    def _coincident_points(self) -> dict[tuple[str, str], str]:
+        """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
+        found = {}
+        for slide in self.scene.slides:
+            for name in self.scene.links[slide.along]:
+                if name != slide.at and self.scene.points[name] == self.scene.points[slide.at]:
+                    found[slide.at, slide.along] = name
+        return found
+
+    def _weld(self, drive: Drive) -> None:
+        """Join the two links of a drive into one body, if they share the pair that it drives."""
+        if isinstance(drive, SlidingDrive):
+            slide = next(s for s in self.scene.slides if {s.link, s.along} == {drive.link, drive.along})
+            self._join(drive.link, drive.along, drive, "", slide)
+            return
+        common = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.relative_to, ())]
+        if common:
+            self._join(drive.link, drive.relative_to, drive, common[0], None)
+        else:
+            self.turning.append(drive)
+
+    def _join(self, link: str, to: str, drive: Drive, at: str, slide: Slide | None) -> None:
+        """Hang the body of one link under the other's; the frame's body stays on top."""
+        sign = 1
+        if self.body[link] == self.body.get(FRAME):
+            link, to, sign = to, link, -1
+        top, under = self.body[to], self.body[link]
+        if top == under:
+            return
+        self._rehang(link)
+        self.welds[link] = Weld(link, to, drive, sign, at, slide)
+        for member in self.members.pop(under):
+            self.body[member] = top
+            self.members[top].append(member)
+
+    def _rehang(self, link: str) -> None:
+        """Turn the welds above `link` about, so that it becomes the top of its body."""
+        chain = []
+        while link in self.welds:
+            chain.append(self.welds.pop(link))
+            link = chain[-1].to
+        for weld in chain:
+            self.welds[weld.to] = Weld(weld.to, weld.link, weld.drive, -weld.sign, weld.at, weld.slide)
+
+    def _turning_classes(self) -> dict[str, str]:
+        """Bodies that turn alike, or by a known difference: joined by slides, or by a drive without a common pair."""
+        top = {body: body for body in self.members}
+
+        def find(body: str) -> str:
+            while top[body] != body:
+                body = top[body]
+            return body
+
+        for one, two in [(s.link, s.along) for s in self.slides] + [(d.link, d.relative_to) for d in self.turning]:
+            a, b = find(self.body[one]), find(self.body[two])
+            if a != b:
+                top[max(a, b)] = min(a, b)
+        return {body: find(body) for body in self.members}
+
+    def place(self, point: str, link: str) -> Place:
+        """The place of a point in a link's plane."""
+        point = self.coincident.get((point, link), point)
+        return (point, "") if point in self.scene.links[link] else (point, link)
+
+    def bodies_at(self, place: Place) -> list[str]:
+        """The bodies that meet in a place."""
+        point, link = place
+        links = (link,) if link else self.scene.links_of[point]
+        return list(dict.fromkeys(self.body[name] for name in links))
+
+    def link_at(self, body: str, place: Place) -> str:
+        """The link of a body to which a place belongs."""
+        point, link = place
+        return link or next(m for m in self.members[body] if point in self.scene.links[m])
+
+    def places_of(self, body: str) -> list[Place]:
+        """The places of the body's own points, joints first."""
+        names = dict.fromkeys(p for m in self.members[body] for p in self.scene.links[m])
+        return sorted(((p, "") for p in names), key=lambda place: len(self.bodies_at(place)) < 2)
+
+    def chain(self, link: str) -> list[Weld]:
+        """The welds from a link up to the top of its body."""
+        welds = []
+        while link in self.welds:
+            welds.append(self.welds[link])
+            link = welds[-1].to
+        return welds

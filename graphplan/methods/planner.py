@@ -1,0 +1,350 @@
+"""The planner: finds the order of construction by facts that travel along joints.
+
+Each body has three unknowns, each place two. A body with two facts gives every other place of it one (a locus), with
+three facts two (the end itself). Facts travel until nothing moves; then a relative pole or a trial is put in. All of it
+happens on the mechanism's graph; the pose is not looked at.
+
+A fact is filed at its place under its source, so that a body never takes its own word for news. A body that hears four
+facts has one too many: in a trial that is the closing condition.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from graphplan.errors import Refused
+from graphplan.mechanism.model import Slide
+from graphplan.methods.moves import (
+    Auxiliary,
+    Carry,
+    Figure,
+    Guide,
+    Locus,
+    Meet,
+    Move,
+    Pole,
+    Rest,
+    Seed,
+    Settle,
+    Slip,
+    Swing,
+    Trial,
+)
+from graphplan.methods.network import Network, Place
+
+TRIAL = "trial"
+Bar = tuple[str, Place, Place]
+
+
+@dataclass
+class _Open:
+    """A trial that has not closed yet: where it was assumed, and where its moves begin."""
+
+    at: Locus
+    start: int
+
+
+class Planner:
+    """Plans one network.
+
+    `poles` allows relative poles; `choice` says, trial by trial, at which of the possible loci it begins (0 where it
+    says nothing); `options` then tells how many there were.
+    """
+
+    def __init__(self, network: Network, *, poles: bool = True, choice: tuple[int, ...] = ()):
+        self.net, self.poles, self.choice = network, poles, choice
+        self.options: list[int] = []
+        self.moves: list[Move] = []
+        self.facts: dict[Place, dict[str, int]] = {}
+        self.drawn: set[Place] = set()
+        self.places = {body: network.places_of(body) for body in network.members}
+        self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
+        self.told: dict[tuple[str, Place], int] = {}
+        self.turning: dict[str, str] = {}
+        self.spent: dict[str, int] = {}
+        self.passed: set[str] = set()
+        self.retired: set[str] = set()
+        self.joined: set[frozenset[str]] = set()
+        self.open: list[_Open] = []
+        self.waiting: deque[str | Slide] = deque()
+        self.queued: set[str | Slide] = set()
+
+    # ---- travelling -----------------------------------------------------------------------------------------------
+
+    def plan(self) -> list[Move]:
+        """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
+        self._seed()
+        while True:
+            self._travel()
+            loose = [body for body in self.places if not self._known(body)]
+            if not loose and not self.open:
+                return self.moves
+            if not (self._auxiliary(loose) or (self.poles and self._pole(loose)) or self._try(loose)):
+                raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
+                              "check the drives, or ask for points of other links")  # fmt: skip
+
+    def _seed(self) -> None:
+        ground = self.net.ground
+        if ground:
+            self.turning[self.net.classes[ground]] = ground
+            for place in self.places[ground]:
+                self._rest(place)
+            self._wake_class(ground)
+        for point in self.net.scene.motions:
+            self.moves.append(Seed((point, "")))
+            self._file((point, ""), "motion", 2)
+        self._queue(*[b for b in self.places if b != ground], *self.net.slides)
+
+    def _rest(self, place: Place) -> None:
+        self.moves.append(Rest(place))
+        self._file(place, self.net.ground, 2)
+
+    def _queue(self, *nodes: str | Slide) -> None:
+        for node in nodes:
+            if node not in self.queued and node not in self.retired:
+                self.queued.add(node)
+                self.waiting.append(node)
+
+    def _travel(self) -> None:
+        while self.waiting:
+            node = self.waiting.popleft()
+            self.queued.discard(node)
+            if isinstance(node, Slide):
+                self._through_slide(node)
+            elif node != self.net.ground and node not in self.retired:
+                self._through_body(node)
+
+    def _file(self, place: Place, source: str, rank: int, *, marked: bool = False) -> None:
+        """Enter a fact; where a place then knows enough, its end is marked, and the neighbours are told."""
+        here = self.facts.setdefault(place, {})
+        here[source] = max(rank, here.get(source, 0))
+        if marked:
+            self.drawn.add(place)
+        elif place not in self.drawn and sum(here.values()) >= 2:
+            if max(here.values()) < 2:
+                one, two = list(here)[:2]
+                self.moves.append(Meet(place, (one, two)))
+            self.drawn.add(place)
+        self._tell(place)
+
+    def _tell(self, place: Place) -> None:
+        for body in self._at(place):
+            self._queue(body, *self.net.slides_of.get(body, ()))
+
+    def _at(self, place: Place) -> list[str]:
+        if place not in self.bodies:
+            self.bodies[place] = self.net.bodies_at(place)
+        return self.bodies[place]
+
+    def _heard(self, place: Place, body: str) -> int:
+        """What a place knows that this body did not tell it."""
+        return min(2, sum(rank for source, rank in self.facts.get(place, {}).items() if source != body))
+
+    def _loci(self, body: str, but: Place) -> Iterator[Locus]:
+        """Loci at other places of the body, from other sources."""
+        for place in self.places[body]:
+            for source, rank in self.facts.get(place, {}).items():
+                if place != but and source != body and rank == 1 and not source.startswith(TRIAL):
+                    yield place, source
+                    break
+
+    def _like(self, body: str) -> str:
+        """The body by whose turning this one's is known, if any."""
+        source = self.turning.get(self.net.classes[body], "")
+        return "" if source == body else source
+
+    def _count(self, body: str) -> int:
+        return sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
+
+    def _known(self, body: str) -> bool:
+        return body == self.net.ground or body in self.retired or self._count(body) >= 3
+
+    def _through_body(self, body: str) -> None:
+        count = self._count(body)
+        if count - self.spent.get(body, 0) >= 4:
+            self._close(body)
+        for place in list(self.places[body]):
+            rest = count - self._heard(place, body)
+            rank = 2 if rest >= 3 else 1 if rest == 2 else 0
+            if rank > self.told.get((body, place), 0) and place not in self.drawn:
+                self._emit(body, place, rank)
+        if count >= 3:
+            self._turning_known(body)
+
+    def _emit(self, body: str, X: Place, rank: int) -> None:
+        """Tell a place what the body knows of it."""
+        move = self._figure(body, X) if rank == 2 else self._settle(body, X) or self._line(body, X)
+        if move is None:
+            return
+        self.moves.append(move)
+        self.told[body, X] = rank
+        self._file(X, body, rank, marked=isinstance(move, Settle))
+
+    def _line(self, body: str, X: Place) -> Move | None:
+        """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
+        known = [place for place in self.places[body] if place in self.drawn and place != X]
+        if known:
+            return Swing(body, max(known, key=lambda place: self._heard(place, body)), X)
+        loci, like = list(self._loci(body, X)), self._like(body)
+        if loci and like:
+            return Slip(body, loci[0], X, like)
+        return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
+
+    def _settle(self, body: str, X: Place) -> Move | None:
+        """The end of X, where the body's known end came from its three loci: two of them are left to find it by."""
+        own = [source for source, rank in self.facts.get(X, {}).items() if rank == 1 and source != body]
+        known = [place for place in self.places[body] if place in self.drawn and place != X]
+        others = [locus for locus in self._loci(body, X) if locus[0] not in known]
+        if own and others and len(known) == 1 and self._heard(known[0], body) == 1:
+            return Settle(body, known[0], (X, own[0]), others[0])
+        return None
+
+    def _figure(self, body: str, X: Place) -> Move | None:
+        """The end of X from the whole body."""
+        known = [place for place in self.places[body] if place in self.drawn and place != X]
+        if len(known) > 1:
+            return Figure(body, known[0], X, R=known[1])
+        if known and (like := self._like(body)):
+            return Figure(body, known[0], X, like=like)
+        return None
+
+    def _turning_known(self, body: str) -> None:
+        if self.net.classes[body] not in self.turning and len(self._ends(body)) > 1:
+            self.turning[self.net.classes[body]] = body
+            self._wake_class(body)
+
+    def _ends(self, body: str) -> list[Place]:
+        return [place for place in self.places[body] if place in self.drawn]
+
+    def _wake_class(self, body: str) -> None:
+        if body in self.net.slides_of or self.net.turning:
+            self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
+
+    # ---- sliding pairs ----------------------------------------------------------------------------------------------
+
+    def _through_slide(self, slide: Slide) -> None:
+        """A known end in one link's plane gives the other link one locus, once."""
+        for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
+            if slide.name not in self.passed and (point := self._seen(slide, known, new)):
+                target = self.net.place(point, new)
+                self.passed.add(slide.name)
+                self._add_place(self.net.body[new], target)
+                self.moves.append(Guide(slide, point, known, new))
+                self._file(target, slide.name, 1)
+
+    def _seen(self, slide: Slide, known: str, new: str) -> str:
+        """A point whose end is known in the plane of `known`, not by way of this slide."""
+        if self.net.body[new] == self.net.ground:
+            return ""
+        if self.net.body[known] == self.net.ground:
+            own = self.net.scene.links[new]
+            joints = [p for p in own if len(self.net.scene.links_of[p]) > 1]
+            return slide.at if slide.at in own else (joints or list(own) or [slide.at])[0]
+        for place in self.places[self.net.body[known]]:
+            told = sum(rank for source, rank in self.facts.get(place, {}).items() if source != slide.name)
+            if place in self.drawn and told >= 2 and self.net.link_at(self.net.body[known], place) == known:
+                return place[0]
+        return ""
+
+    def _add_place(self, body: str, place: Place) -> None:
+        if place not in self.places[body]:
+            self.places[body].append(place)
+
+    def _auxiliary(self, loose: list[str]) -> bool:
+        """A body with two loci and a slide: its auxiliary point carries what the slide can pass on."""
+        for body in loose:
+            slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
+            loci = list(self._loci(body, ("", "")))
+            if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
+                place = (f"Q{body}", self.net.link_at(body, loci[0][0]))
+                self._add_place(body, place)
+                self.bodies[place] = [body]
+                self.moves.append(Auxiliary(body, loci[0], loci[1], place))
+                self._file(place, body, 2)
+                return True
+        return False
+
+    # ---- relative poles -----------------------------------------------------------------------------------------------
+
+    def _pole(self, loose: list[str]) -> bool:
+        """Two bodies joined by two bars get their relative pole as a joint, if both have two facts."""
+        bars: dict[frozenset[str], list[Bar]] = {}
+        for body in loose:
+            ends = self.places[body]
+            if len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
+                pair = [next(b for b in self._at(place) if b != body) for place in ends]
+                bars.setdefault(frozenset(pair), []).append((body, *sorted(ends, key=lambda e: pair[ends.index(e)])))
+        for pair_of, found in bars.items():
+            if len(found) == 2 and pair_of not in self.joined and all(self._count(b) == 2 for b in pair_of):
+                self._join(pair_of, found)
+                return True
+        return False
+
+    def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
+        one, two = sorted(pair)
+        place = (f"P{one}{two}", "pole")
+        self.bodies[place] = [one, two]
+        for body in (one, two):
+            self._add_place(body, place)
+        self.retired |= {bar[0] for bar in bars}
+        self.joined.add(pair)
+        self.moves.append(Pole((one, two), (bars[0], bars[1]), place))
+        self._tell(place)
+
+    # ---- trials -------------------------------------------------------------------------------------------------------
+
+    def _try(self, loose: list[str]) -> bool:
+        """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
+        loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
+                for source, rank in self.facts.get(place, {}).items() if rank == 1]  # fmt: skip
+        if not loci or len(self.open) > 3:
+            return False
+        loci = list(dict.fromkeys(loci))
+        asked = len(self.options)
+        self.options.append(len(loci))
+        at = loci[self.choice[asked] if asked < len(self.choice) else 0]
+        self.open.append(_Open(at, len(self.moves)))
+        self._file(at[0], TRIAL + str(len(self.open)), 1, marked=True)
+        return True
+
+    def _close(self, body: str) -> None:
+        """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
+        closing = self._closing(body) if self.open else None
+        if closing is None:
+            return
+        Z, source = closing
+        trial = self.open.pop()
+        inner = tuple(self.moves[trial.start :])
+        del self.moves[trial.start :]
+        self.moves.append(Trial(trial.at, inner, Z, source))
+        self.spent[body] = self.spent.get(body, 0) + 1
+        self._queue(*self.places)
+
+    def _closing(self, body: str) -> Locus | None:
+        """An end and a locus for it that owe each other nothing, in the body that has heard too much."""
+        told = {place: self._heard(place, body) for place in self.places[body] if place in self.drawn}
+        ends = [place for place, rank in told.items() if rank == 2]
+        for X in ends:
+            if line := self._independent(body, X, ends):
+                self.moves.append(line)
+                return X, body
+        for K in ends:
+            loci = list(self._loci(body, K))
+            for (R, _), (X, source) in zip(loci, loci[1:], strict=False):
+                if R in told:
+                    copy = (X[0], f"{body} trial")
+                    self.moves.append(Figure(body, K, X, R=R, copy=copy))
+                    return copy, source
+        return None
+
+    def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
+        """A locus for X by what the body heard elsewhere."""
+        others = [place for place in ends if place != X]
+        if others:
+            return Swing(body, others[0], X)
+        loci, like = list(self._loci(body, X)), self._like(body)
+        if loci and like:
+            return Slip(body, loci[0], X, like)
+        return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None

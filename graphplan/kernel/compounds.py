@@ -66,7 +66,7 @@ def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
 
 
 @primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector {1}{2}: draw {out}.",
-           claims=(("parallel", 0), ("shifted", 0, 1, 2)))  # fmt: skip
+           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0)  # fmt: skip
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
     """A line moved by the vector PQ."""
     return l[0], l[1], l[2] - (l[0] * (Q[0] - P[0]) + l[1] * (Q[1] - P[1]))
@@ -99,7 +99,7 @@ def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> 
 @primitive((POINT, LINE, POINT, LINE, POINT), LINE, STRAIGHTEDGE,
            "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a point of their link.",
            claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
-           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle")  # fmt: skip
+           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1)  # fmt: skip
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 
@@ -164,7 +164,7 @@ def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
            "nothing.", claims=(("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
-           fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14")  # fmt: skip
+           fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14", where=0)  # fmt: skip
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
     scale = (l1[0] * l2[0] + l1[1] * l2[1]) / (l2[0] * l2[0] + l2[1] * l2[1])

@@ -23,7 +23,7 @@ FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
 BY_SET_SQUARE = frozenset({
-    "given", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
+    "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
     "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
     "quarter", "bisector",
 })  # fmt: skip

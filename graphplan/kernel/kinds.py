@@ -30,7 +30,7 @@ class Primitive:
     `reads` and `gives` are kinds; `rule(domain, *values, **params)` gives the value; `sentence` is spoken with the
     names of what it reads as {0}, {1}, ... and of what it makes as {out}; `claims` are what the drawn thing must
     satisfy; `fails` are the failure codes with what each means and what to do; `forms` are the ways to draw a
-    compound from earlier primitives, by name.
+    compound from earlier primitives, by name. `where` is the operand on whose plan it is drawn (-1: the last).
     """
 
     name: str
@@ -43,6 +43,7 @@ class Primitive:
     fails: tuple[str, ...] = ()
     params: tuple[str, ...] = ()
     source: str = ""
+    where: int = -1
     forms: dict[str, Callable[..., Any]] = field(default_factory=dict, repr=False)
 
     @property
@@ -82,6 +83,7 @@ def primitive(
     fails: tuple[str, ...] = (),
     params: tuple[str, ...] = (),
     source: str = "",
+    where: int = -1,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Enter the decorated rule in the table under its own name."""
 
@@ -89,7 +91,7 @@ def primitive(
         name = rule.__name__
         if name in TABLE:
             raise ValueError(f"the table already has {name}")
-        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, claims, fails, params, source)
+        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, claims, fails, params, source, where)
         return rule
 
     return enter

@@ -24,8 +24,14 @@ from graphplan.kernel.kinds import (
 
 @primitive((), POINT, SCALE, "Mark {out}, given by the pose.", params=("x", "y"))
 def given(d: Any, /, *, x: Any, y: Any) -> Any:
-    """A point of the pose, or the place where a plan begins."""
+    """A point of the pose."""
     return d.lift(x), d.lift(y)
+
+
+@primitive((), POINT, PENCIL, "Mark {out} where there is room: the {plan} begins there.", params=("plan", "number"))
+def begin(d: Any, /, *, plan: str, number: int) -> Any:
+    """The place where a plan begins, its origin; `number` tells several beginnings on one plan apart."""
+    return d.lift(0), d.lift(0)
 
 
 @primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in its given direction.",
@@ -77,7 +83,7 @@ def opening(d: Any, P: Any, Q: Any) -> Any:
 
 
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike the arc {out} with the opening {1}.",
-           claims=(("centre", 0), ("opened", 1)))  # fmt: skip
+           claims=(("centre", 0), ("opened", 1)), where=0)  # fmt: skip
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
     return C[0], C[1], o[0]
@@ -140,7 +146,7 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial.",
-           claims=(("on", 0),), params=("ratio",))  # fmt: skip
+           claims=(("on", 0),), params=("ratio",), where=0)  # fmt: skip
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
     n2 = l[0] * l[0] + l[1] * l[1]

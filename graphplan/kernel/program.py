@@ -8,9 +8,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, NoReturn
 
-from graphplan.kernel.kinds import TABLE, Primitive
+from graphplan.kernel.kinds import CIRCLE, TABLE, Primitive
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,8 +66,8 @@ class Mark:
 class Board:
     """Records drawing steps; its methods are the primitives of the table.
 
-    The same operation on the same marks is drawn once. `panel`, `links` and `why` are set for a group of steps with
-    :meth:`on`.
+    The same operation on the same marks is drawn once. A step is drawn on the plan of the mark that it is drawn at;
+    :meth:`on` says on which plan points are given, and of which links the steps speak.
     """
 
     def __init__(self) -> None:
@@ -114,10 +115,11 @@ class Board:
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if any(arg.board is not self for arg in args):
             raise ValueError(f"{op.name} was given a mark of another board")
+        panel = args[op.where].step.panel if args else self._context["panel"]
         step = Step(len(self.steps), "", op, tuple(arg.step.index for arg in args), params,
-                    self._context["panel"], why, self._context["links"], names or {}, form, reason)  # fmt: skip
+                    panel, why, self._context["links"], names or {}, form, reason)  # fmt: skip
         same = self._drawn.get(step.key)
-        if same is not None and op.name != "given":
+        if same is not None and op.name != "given":  # coincident points of the pose stay apart
             if name and not same.step.name:
                 self._rename(same, name)
             return same
@@ -171,6 +173,8 @@ class Program:
                 raise ValueError(f"step {index} reads a mark that is not drawn yet")
             if tuple(self.steps[arg].op.gives for arg in step.args) != step.op.reads:
                 raise ValueError(f"step {index}: {step.op.name} reads {step.op.reads}")
+            if step.op.name == "given" and index and self.steps[index - 1].op.name != "given":
+                raise ValueError("the points of the pose come first")
             if step.name and step.name in bound:
                 raise ValueError(f"the name {step.name} is bound twice")
             bound.add(step.name)
@@ -185,4 +189,24 @@ class Program:
             return step.name
         if step.op.name in ("line", "opening"):
             return "".join(self.text(arg) for arg in step.args)
-        return f"{'arc' if step.op.gives == 'circle' else step.op.gives} {index + 1}"
+        return f"{'arc' if step.op.gives == CIRCLE else step.op.gives} {self.number(index)}"
+
+    @cached_property
+    def givens(self) -> int:
+        """How many steps only mark the points of the pose; they come first."""
+        return sum(step.op.name == "given" for step in self.steps)
+
+    def number(self, index: int) -> int:
+        """The number of a step as printed: the pose's own points are not counted."""
+        return index + 1 - self.givens
+
+    def sentence(self, index: int) -> str:
+        """A step in words, in the letters of the sheet."""
+        step = self.steps[index]
+        params = {name: _plain(value) for name, value in step.params.items()}
+        return step.op.sentence.format(*(self.text(arg) for arg in step.args), out=self.text(index), **params)
+
+
+def _plain(value: Any) -> str:
+    """A parameter as a reader wants it: short, and exact where it is a fraction."""
+    return f"{value:.6g}" if isinstance(value, float) else str(value)

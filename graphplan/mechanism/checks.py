@@ -89,13 +89,22 @@ def check_mobility(scene: Scene, faults: Faults) -> None:
         faults.add("drive", what, instead)
         return
     held = bracing(scene)
-    loose, twice = (" ".join(links) for links in (held.loose, held.overbraced))
+    loose, twice = _listed(held.loose), _listed(held.overbraced)
     if freedoms > given:
-        faults.add("drive", what, f"{freedoms - given} more [[drive]], while links {loose} can move")
+        faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
     elif not held.sound:
-        what = f"links {twice} are overbraced while links {loose} are loose"
+        what = f"{twice} {_are(held.overbraced)} overbraced while {loose} {_are(held.loose)} loose"
         faults.add("links", what, "joints, slides and drives that hold each link just once")
 
 
 def _count(number: int, noun: str) -> str:
     return f"{number or 'no'} {noun}{'' if number == 1 else 's'}"
+
+
+def _listed(links: tuple[str, ...]) -> str:
+    more = f" and {len(links) - 12} more" if len(links) > 12 else ""
+    return f"link{'s' if len(links) > 1 else ''} {' '.join(links[:12])}{more}"
+
+
+def _are(links: tuple[str, ...]) -> str:
+    return "are" if len(links) > 1 else "is"

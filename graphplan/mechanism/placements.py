@@ -156,7 +156,7 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
         try:
             return list(TopologicalSorter(waiting).static_order())
         except CycleError as error:
-            ring = list(dict.fromkeys(error.args[1]))
+            ring = [name for name in placements if name in error.args[1]]
             where = f"{table.where}.{quoted(ring[0])}"
             told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
             table.faults.add(where, told, "coordinates for one of them")

@@ -204,7 +204,7 @@ class _Surroundings:
 
 def roman(number: int) -> str:
     """A number in Roman numerals."""
-    numerals = ((50, "L"), (40, "XL"), (10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I"))
+    numerals = ((100, "C"), (90, "XC"), (50, "L"), (40, "XL"), (10, "X"), (9, "IX"), (5, "V"), (4, "IV"), (1, "I"))
     text = ""
     for value, letters in numerals:
         text += letters * (number // value)

@@ -2,7 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Program
+from graphplan.mechanism.model import Scene
+from graphplan.methods.tempo import Tempo
 
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
@@ -11,8 +23,8 @@ VELOCITY, ACCELERATION = "velocity", "acceleration"
 class Arrow:
     """A vector on the sheet: from one mark to another of the drawn program (indices), on a panel.
 
-    `kind` is velocity, acceleration, normal or relative; `point` is the point of the mechanism it belongs to; `label`
-    is the letter that stands at it (such as `v_c` or `j_c`), possibly empty.
+    `kind` is velocity or acceleration; `point` is the point of the mechanism it belongs to; `label` is the letter
+    that stands at it, possibly empty.
     """
 
     kind: str
@@ -21,3 +33,148 @@ class Arrow:
     panel: str
     start: int
     end: int
+
+
+@dataclass(frozen=True)
+class Reading:
+    """What is read from the program: of what kind, of which thing, between which wanted marks (by position)."""
+
+    kind: str
+    of: str
+    marks: tuple[int, ...]
+
+
+@dataclass
+class Construction:
+    """Ordered drawing steps for a scene, and what they give.
+
+    `program` holds compounds, each with the value rule that is good in every pose; `drawn` is the same construction
+    in single movements, in the form chosen for this pose. Velocities and accelerations are complex numbers in scene
+    units, true and not turned.
+    """
+
+    scene: Scene
+    tempo: Tempo
+    program: Program
+    readings: tuple[Reading, ...]
+    turned: bool
+    method: dict[str, list[str]] = field(default_factory=dict)
+    prefer: str = ""
+    strict: bool = False
+
+    @cached_property
+    def truth(self) -> list[Any]:
+        """The float value of every step of `program`, in the scene's pose."""
+        return evaluate(self.program, Floats())
+
+    @cached_property
+    def _expander(self) -> Expander:
+        windows = {panel: self._window(panel) for panel in {step.panel for step in self.program.steps}}
+        keep = STRICT if self.strict else BY_SET_SQUARE
+        return Expander(self.program, self.truth, keep, windows, self.prefer)
+
+    def _window(self, panel: str) -> Window:
+        """The sheet around a panel: about as much again as the points that no form has a choice about."""
+        points = [self.truth[s.index] for s in self.program.steps if s.panel == panel and s.op.gives == POINT]
+        xs, ys = zip(*points, strict=True)
+        centre = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+        return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-9 * (abs(centre[0]) + 1)))
+
+    @cached_property
+    def drawn(self) -> Program:
+        """The program in single movements."""
+        return self._expander.run()
+
+    @property
+    def values(self) -> list[Any]:
+        """The float value of every step of `drawn`."""
+        return self._expander.values if self.drawn.steps else []
+
+    def sentences(self) -> list[str]:
+        """Each drawn step in words, with the law or purpose where there is one."""
+        return [self.drawn.sentence(s.index) + (f" ({s.why[0].upper()}{s.why[1:]}.)" if s.why else "")
+                for s in self.drawn.steps]  # fmt: skip
+
+    @property
+    def kappa(self) -> float:
+        """Drawn velocity over true velocity, in seconds; for accelerations its square."""
+        return float(self.tempo.kappa)
+
+    @property
+    def arrows(self) -> tuple[Arrow, ...]:
+        """The vectors that were asked for, as marks of the drawn program."""
+        found = []
+        for reading in self.readings:
+            if reading.kind in (VELOCITY, ACCELERATION):
+                start, end = (self.drawn.wanted[position] for position in reading.marks)
+                panel = self.drawn.steps[end].panel
+                prefix = "v" if reading.kind == VELOCITY else "j"
+                found.append(Arrow(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
+        return tuple(found)
+
+    def read(self, domain: Domain, given: Mapping[str, Mapping[str, Any]] | None = None) -> dict[str, dict[str, Any]]:
+        """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
+
+        `given` overrides the coordinates of named points.
+        """
+        values = evaluate(self.program, domain, given)
+        wanted = [values[index] for index in self.program.wanted]
+        results: dict[str, dict[str, Any]] = {}
+        for reading in self.readings:
+            marks = [wanted[position] for position in reading.marks]
+            value = READERS[reading.kind](marks, domain.lift(self.tempo.unit), self.turned)
+            results.setdefault(reading.kind, {})[reading.of] = value
+        return results
+
+    @cached_property
+    def _floats(self) -> dict[str, dict[str, Any]]:
+        return self.read(Floats())
+
+    @property
+    def velocity(self) -> dict[str, complex]:
+        """The velocities asked for, in length units of the scene per second."""
+        return {name: complex(*pair) for name, pair in self._floats.get(VELOCITY, {}).items()}
+
+    @property
+    def acceleration(self) -> dict[str, complex]:
+        """The accelerations asked for, in length units of the scene per second squared."""
+        return {name: complex(*pair) for name, pair in self._floats.get(ACCELERATION, {}).items()}
+
+
+def _difference(one: Any, two: Any) -> Any:
+    return two[0] - one[0], two[1] - one[1]
+
+
+def _read_velocity(marks: list[Any], unit: Any, turned: bool) -> Any:
+    x, y = _difference(*marks)
+    return (y * unit, -x * unit) if turned else (x * unit, y * unit)
+
+
+def _read_acceleration(marks: list[Any], unit: Any, turned: bool) -> Any:
+    x, y = _difference(*marks)
+    return x * unit * unit, y * unit * unit
+
+
+def _read_omega(marks: list[Any], unit: Any, turned: bool) -> Any:
+    """From the vectors of two points P, R: marks P, R, begin and end of each."""
+    P, R, p0, p1, r0, r1 = marks
+    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
+    if not turned:
+        w = -w[1], w[0]
+    return -(u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]) * unit
+
+
+def _read_alpha(marks: list[Any], unit: Any, turned: bool) -> Any:
+    P, R, p0, p1, r0, r1 = marks
+    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
+    return (u[0] * w[1] - u[1] * w[0]) / (u[0] * u[0] + u[1] * u[1]) * unit * unit
+
+
+READERS = {
+    VELOCITY: _read_velocity,
+    ACCELERATION: _read_acceleration,
+    "omega": _read_omega,
+    "alpha": _read_alpha,
+    "slide velocity": _read_velocity,
+    "slide acceleration": _read_acceleration,
+}

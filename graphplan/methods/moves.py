@@ -121,13 +121,13 @@ class Pole:
 
 @dataclass(frozen=True)
 class Trial:
-    """False position: the end of `place` is assumed on its locus, twice; what follows is drawn for both; in the end
-    Z should lie on its locus, and does not; the third time it does."""
+    """False position: the end of a place is assumed on its locus, twice, and the moves are drawn for both; in the end
+    `end` should lie on `locus` and does not; the third time it does."""
 
     at: Locus
     moves: tuple[Move, ...]
-    Z: Place
-    closing: str
+    end: Place
+    locus: Locus
 
 
 Move = Rest | Seed | Swing | Slip | Carry | Settle | Figure | Guide | Meet | Auxiliary | Pole | Trial

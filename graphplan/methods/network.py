@@ -12,6 +12,7 @@ from dataclasses import dataclass, field
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
 
 Place = tuple[str, str]
+POLE = "pole"  # the link of a place that is a relative pole
 
 
 @dataclass(frozen=True)
@@ -142,3 +143,21 @@ class Network:
             welds.append(self.welds[link])
             link = welds[-1].to
         return welds
+
+    def excess(self, body: str, like: str) -> list[tuple[int, TurningDrive]]:
+        """The drives by which the turning of one body's top link exceeds another's, each with its sign."""
+        seen: dict[str, list[tuple[int, TurningDrive]]] = {like: []}
+        waiting = [like]
+        while waiting:
+            link = waiting.pop(0)
+            for one, two, drives in self._turning_pairs():
+                for this, other, sign in ((one, two, -1), (two, one, 1)):
+                    if this == link and other not in seen:
+                        seen[other] = seen[link] + [(sign, drive) for drive in drives]
+                        waiting.append(other)
+        return seen[body]
+
+    def _turning_pairs(self) -> list[tuple[str, str, list[TurningDrive]]]:
+        """Pairs of links (a, b) with the drives that make a turn more than b."""
+        slides: list[tuple[str, str, list[TurningDrive]]] = [(s.link, s.along, []) for s in self.scene.slides]
+        return slides + [(d.link, d.relative_to, [d]) for d in self.scene.drives if isinstance(d, TurningDrive)]

@@ -32,7 +32,7 @@ from graphplan.methods.moves import (
     Swing,
     Trial,
 )
-from graphplan.methods.network import Network, Place
+from graphplan.methods.network import POLE, Network, Place
 
 TRIAL = "trial"
 Bar = tuple[str, Place, Place]
@@ -277,14 +277,18 @@ class Planner:
                 pair = [next(b for b in self._at(place) if b != body) for place in ends]
                 bars.setdefault(frozenset(pair), []).append((body, *sorted(ends, key=lambda e: pair[ends.index(e)])))
         for pair_of, found in bars.items():
-            if len(found) == 2 and pair_of not in self.joined and all(self._count(b) == 2 for b in pair_of):
+            if len(found) == 2 and pair_of not in self.joined and all(self._fit(b) for b in pair_of):
                 self._join(pair_of, found)
                 return True
         return False
 
+    def _fit(self, body: str) -> bool:
+        """A single link with two facts."""
+        return self._count(body) == 2 and len(self.net.members[body]) == 1
+
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
         one, two = sorted(pair)
-        place = (f"P{one}{two}", "pole")
+        place = (f"P{one}{two}", POLE)
         self.bodies[place] = [one, two]
         for body in (one, two):
             self._add_place(body, place)
@@ -314,29 +318,29 @@ class Planner:
         closing = self._closing(body) if self.open else None
         if closing is None:
             return
-        Z, source = closing
+        end, locus = closing
         trial = self.open.pop()
         inner = tuple(self.moves[trial.start :])
         del self.moves[trial.start :]
-        self.moves.append(Trial(trial.at, inner, Z, source))
+        self.moves.append(Trial(trial.at, inner, end, locus))
         self.spent[body] = self.spent.get(body, 0) + 1
         self._queue(*self.places)
 
-    def _closing(self, body: str) -> Locus | None:
+    def _closing(self, body: str) -> tuple[Place, Locus] | None:
         """An end and a locus for it that owe each other nothing, in the body that has heard too much."""
         told = {place: self._heard(place, body) for place in self.places[body] if place in self.drawn}
         ends = [place for place, rank in told.items() if rank == 2]
         for X in ends:
             if line := self._independent(body, X, ends):
                 self.moves.append(line)
-                return X, body
+                return X, (X, body)
         for K in ends:
             loci = list(self._loci(body, K))
             for (R, _), (X, source) in zip(loci, loci[1:], strict=False):
                 if R in told:
                     copy = (X[0], f"{body} trial")
                     self.moves.append(Figure(body, K, X, R=R, copy=copy))
-                    return copy, source
+                    return copy, (X, source)
         return None
 
     def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:

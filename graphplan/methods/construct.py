@@ -1,0 +1,92 @@
+"""From a scene to its construction: plan the moves, draw the plans, freeze what is wanted."""
+
+from __future__ import annotations
+
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.methods.acceleration import Normal, PolarAcceleration
+from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
+from graphplan.methods.network import Network
+from graphplan.methods.planner import Planner
+from graphplan.methods.plan import Plan
+from graphplan.methods.poses import Pose
+from graphplan.methods.tempo import tempo
+from graphplan.methods.velocity import Orthogonal, Polar, Velocity
+
+
+class Draughtsman:
+    """Draws one scene by one list of moves, and says what can be read from it."""
+
+    def __init__(self, scene: Scene, planner: Planner, polar: bool):
+        self.scene, self.net, self.polar = scene, planner.net, polar
+        self.board = Board()
+        self.pose = Pose(self.board, scene)
+        self.tempo = tempo(scene)
+        self.moves = planner.plan()
+        self.marks: list[Mark] = []
+        self.readings: list[Reading] = []
+
+    def draw(self) -> Construction:
+        velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
+        velocity.draw(self.moves)
+        self._points(velocity, VELOCITY, self.scene.find.velocity)
+        self._links(velocity, "omega", self.scene.find.velocity)
+        self._slides(velocity, "slide velocity", self.scene.find.velocity)
+        if self.scene.find.acceleration:
+            self._accelerations(velocity)
+        program = freeze(self.board, self.marks)
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), turned=not self.polar)
+
+    def _accelerations(self, velocity: Velocity) -> None:
+        kind = PolarAcceleration if self.polar else Normal
+        plan = kind(self.board, self.net, self.pose, velocity, self.moves)
+        plan.draw(self.moves)
+        self._points(plan, ACCELERATION, self.scene.find.acceleration)
+        self._links(plan, "alpha", self.scene.find.acceleration)
+        self._slides(plan, "slide acceleration", self.scene.find.acceleration)
+
+    def _read(self, kind: str, of: str, *marks: Mark) -> None:
+        start = len(self.marks)
+        self.marks.extend(marks)
+        self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks)))))
+
+    def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
+        for name in names:
+            place = (name, "")
+            if place in plan.ends:
+                self._read(kind, name, plan.home(place), plan.ends[place])
+
+    def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
+        """The turning of each link of which two points are asked for, or one and another is at rest."""
+        for link in self.scene.moving:
+            names = [p for p in self.scene.links[link] if p in asked or FRAME in self.scene.links_of[p]]
+            names.sort(key=lambda p: p not in asked)
+            names = [p for p in names if (p, "") in plan.ends]
+            P = names[0] if names else ""
+            R = next((p for p in names if self.scene.points[p] != self.scene.points[P]), "")
+            if R:
+                ends = [plan.end_in(link, p) for p in (P, R)]
+                begins = [plan.figure(link, p) for p in (P, R)]
+                points = self.pose.points
+                self._read(kind, link, points[P], points[R], begins[0], ends[0], begins[1], ends[1])
+
+    def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
+        """The sliding of each pair whose point is asked for."""
+        for slide in self.scene.slides:
+            if slide.at in asked:
+                begin = plan.end_in(slide.along, slide.at)
+                end = plan.end_in(slide.link, slide.at)
+                seat = plan.seat(slide, slide.along, slide.link, slide.at)
+                self._read(kind, slide.name, plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end)
+
+
+def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False) -> Construction:
+    """The construction of what the scene asks for."""
+    planner = Planner(Network(scene), poles=method != "trial")
+    construction = Draughtsman(scene, planner, polar=plan == "polar").draw()
+    construction.prefer, construction.strict = PREFER.get(method, ""), strict
+    return construction
+
+
+PREFER = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}

@@ -1,0 +1,47 @@
+"""The pose on the board: the given points, the guides, and the letters that are free."""
+
+from __future__ import annotations
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import Scene, Slide
+from graphplan.methods.network import Place
+
+MECHANISM = "mechanism"
+
+
+class Pose:
+    """Marks for the points of a scene; guides and letters on demand."""
+
+    def __init__(self, board: Board, scene: Scene):
+        self.board, self.scene = board, scene
+        with board.on(MECHANISM):
+            self.points: dict[str, Mark] = {
+                name: board.given(x=x, y=y, name=name) for name, (x, y) in scene.points.items()
+            }
+        self._letters: dict[str, str] = {}
+        self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
+
+    def guide(self, slide: Slide) -> Mark:
+        """The guide of a sliding pair, through the pair."""
+        with self.board.on(MECHANISM):
+            if slide.through is None:
+                return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])  # type: ignore[no-any-return]
+            one, two = (self.points[name] for name in slide.through)
+            along = self.board.line(one, two)
+            return along if slide.at in slide.through else self.board.parallel(along, self.points[slide.at])  # type: ignore[no-any-return]
+
+    def letter(self, body: str) -> str:
+        """The letter of a body's auxiliary point: Q, R, S, ... in the order of asking."""
+        if body not in self._letters:
+            number = len(self._letters)
+            self._letters[body] = self._free[number] if number < len(self._free) else f"Q_{number + 1}"
+        return self._letters[body]
+
+    def far_from(self, place: Place) -> Mark:
+        """Another point of a link of this place, to take the size of a trial from."""
+        point, link = place
+        for name in ([link] if link else self.scene.links_of[point]):
+            for other in self.scene.links[name]:
+                if other != point:
+                    return self.points[other]
+        return next(mark for name, mark in self.points.items() if name != point)

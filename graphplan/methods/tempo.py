@@ -1,0 +1,64 @@
+"""How long a drawn velocity is: the time that scales rates to lengths on the plan.
+
+A drawn velocity is kappa times the true one, a drawn acceleration kappa squared times. With one crank kappa is one over
+its angular velocity (the orthogonal velocities of the crank then reach its pivot, as with Rosenauer), so that every
+drawn ratio is a plain ratio of rates.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.mechanism.model import Number, Scene, SlidingDrive, TurningDrive
+
+
+@dataclass(frozen=True)
+class Tempo:
+    """The angular velocity that is drawn as one; kappa is its inverse."""
+
+    unit: Number
+
+    @property
+    def kappa(self) -> Number:
+        return 1 / self.unit
+
+    def turning(self, omega: Number) -> Number:
+        """An angular velocity as a ratio: drawn velocity to distance from the pole."""
+        return omega / self.unit
+
+    def velocity(self, speed: Number) -> Number:
+        """A speed as a drawn length."""
+        return speed / self.unit
+
+    def turning_rate(self, alpha: Number) -> Number:
+        """An angular acceleration as a ratio: drawn tangential acceleration to distance."""
+        return alpha / self.unit / self.unit
+
+    def acceleration(self, rate: Number) -> Number:
+        """An acceleration as a drawn length."""
+        return rate / self.unit / self.unit
+
+
+def tempo(scene: Scene) -> Tempo:
+    """The scene's tempo: that of its first turning drive, else the fastest given speed drawn a fifth of the mechanism."""
+    for drive in scene.drives:
+        if isinstance(drive, TurningDrive) and drive.omega:
+            return Tempo(abs(drive.omega))
+    speeds = [abs(d.speed) for d in scene.drives if isinstance(d, SlidingDrive)]
+    speeds += [max(abs(v) for v in motion.velocity) for motion in scene.motions.values()]
+    fastest = max(speeds, default=0)
+    return Tempo(_round(5 * float(fastest) / _size(scene)) if fastest else Fraction(1))
+
+
+def _size(scene: Scene) -> float:
+    """The extent of the mechanism, across or upwards."""
+    xs, ys = zip(*((float(x), float(y)) for x, y in scene.points.values()), strict=True)
+    return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+
+
+def _round(number: float) -> Fraction:
+    """A round number nearby, of the series 1, 2, 5, exactly."""
+    digits = f"{number:.0e}"
+    lead, power = int(digits[0]), int(digits[2:])
+    return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power

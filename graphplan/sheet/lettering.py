@@ -1,0 +1,146 @@
+"""Lettering: names as a textbook sets them, measured before they are drawn.
+
+`v_c` is v with a subscript c, `alpha` is the Greek letter, `A'` has a prime. Widths are the advances of DejaVu Sans in
+thousandths of an em; it is wider than Arial or Helvetica, so what fits here fits with any font of the stack.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import lru_cache
+
+FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
+SIZE = 2.5  # mm; the cap height is 0.729 of it, so 1.8 mm
+CAPS, DEPTH = 0.729, 0.2
+SUBSCRIPT, DROP = 0.72, 0.22
+
+_ADVANCES = {
+    278: "'ijlīļ", 295: "IJ", 318: " ,.·’", 337: "/:;\\|", 338: "ι", 227: "′", 352: "f", 361: "-", 374: "″",
+    390: "()[]", 392: "t", 401: "!²³", 411: "r", 460: '"', 500: "*_`°–", 518: "“”„", 521: "sš", 525: "zž", 531: "?",
+    541: "ε", 544: "ζ", 550: "cčç", 557: "LΓ", 558: "ξ", 559: "ν", 575: "F", 578: "χ", 579: "kυķ", 589: "κ",
+    592: "vxyγλ", 602: "πτ", 603: "P", 611: "TY", 612: "oδθοö", 613: "aāä", 615: "eēéè", 630: "ß", 632: "EΞΣĒ",
+    634: "hnuησņūü", 635: "Sbdgpqρģ", 636: "$0123456789{}μ", 638: "β", 656: "K", 659: "α", 660: "φψ", 684: "AVΔΛÄĀ",
+    685: "XZ", 686: "B", 695: "R", 698: "CČ", 732: "UÜ", 748: "N", 752: "HΠ", 764: "Ω", 770: "D", 775: "G", 780: "&",
+    787: "OQΘΦΨÖ", 818: "w", 837: "ω", 838: "#+<=>^~≡×±−→≈", 863: "M", 950: "%", 969: "½", 974: "m", 989: "W",
+    1000: "@—…",
+}  # fmt: skip
+ADVANCE = {char: width / 1000 for width, chars in _ADVANCES.items() for char in chars}
+_BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this
+
+GREEK = dict(zip(
+    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau phi chi psi omega".split(),
+    "αβγδεζηθικλμνξπρστφχψω", strict=True,
+))  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Run:
+    """A stretch of text on one level: 0 on the base line, -1 subscript."""
+
+    text: str
+    level: int = 0
+
+
+Runs = tuple[Run, ...]
+
+
+def name_runs(name: str) -> Runs:
+    """A mark's name as runs: primes, Greek letters and one subscript."""
+    bare = name.rstrip("'")
+    primes = {0: "", 1: "′", 2: "″"}.get(len(name) - len(bare), "′" * (len(name) - len(bare)))
+    stem, _, index = bare.partition("_")
+    letter = GREEK.get(stem.lower(), stem)
+    letter = letter.upper() if stem[:1].isupper() and stem.lower() in GREEK else letter
+    return _joined((Run(letter + primes), Run(GREEK.get(index, index), -1)))
+
+
+_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha)\b")
+
+
+def sentence_runs(sentence: str, names: tuple[str, ...] = ()) -> Runs:
+    """A sentence as runs; `names` are marks whose names may stand in it, even run together as in `v_qC`."""
+    if not names:
+        return _spelled(sentence, _PLAIN)
+    return _spelled(sentence, re.compile(_alternatives(names) + "|" + _PLAIN.pattern))
+
+
+@lru_cache(maxsize=8)
+def _alternatives(names: tuple[str, ...]) -> str:
+    """A pattern for the names that need setting, longest first."""
+    special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
+    ranked = sorted(special, key=lambda n: (-len(n), n))
+    parts = [re.escape(n) + (r"(?![a-z])" if n.isalpha() else "") for n in ranked]
+    return "(?<![a-z])(?:" + "|".join(parts) + ")" if parts else r"(?!)"
+
+
+def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
+    runs: list[Run] = []
+    done = 0
+    for found in pattern.finditer(sentence):
+        runs += [Run(sentence[done : found.start()]), *name_runs(found.group())]
+        done = found.end()
+    return _joined((*runs, Run(sentence[done:])))
+
+
+def _joined(runs: Runs) -> Runs:
+    """Without empty runs, and neighbours on one level made one."""
+    out: list[Run] = []
+    for run in runs:
+        if out and out[-1].level == run.level:
+            out[-1] = Run(out[-1].text + run.text, run.level)
+        elif run.text:
+            out.append(run)
+    return tuple(out)
+
+
+def width(runs: Runs, size: float, bold: bool = False) -> float:
+    """How long the lettering is, in mm."""
+    ems = sum(sum(ADVANCE.get(char, 0.7) for char in run.text) * (SUBSCRIPT if run.level else 1.0) for run in runs)
+    return ems * size * (_BOLD if bold else 1.0)
+
+
+def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
+    """The lettering in lines no longer than `room`, broken at spaces; a word too long for a line is broken anywhere."""
+    lines: list[Runs] = []
+    line: Runs = ()
+    for word in _words(runs):
+        longer = _joined((*line, Run(" "), *word)) if line else word
+        if width(longer, size, bold) <= room:
+            line = longer
+            continue
+        if line:
+            lines.append(line)
+        line = word
+        while width(line, size, bold) > room and len(_flat(line)) > 1:
+            head, line = _broken(line, size, room, bold)
+            lines.append(head)
+    return [*lines, line] if line else lines
+
+
+def plain(runs: Runs) -> str:
+    """The lettering without levels."""
+    return "".join(run.text for run in runs)
+
+
+def _words(runs: Runs) -> list[Runs]:
+    words: list[list[Run]] = [[]]
+    for run in runs:
+        for i, part in enumerate(run.text.split(" ")):
+            if i:
+                words.append([])
+            if part:
+                words[-1].append(Run(part, run.level))
+    return [tuple(word) for word in words if word]
+
+
+def _flat(runs: Runs) -> Runs:
+    """One run for every character."""
+    return tuple(Run(char, run.level) for run in runs for char in run.text)
+
+
+def _broken(runs: Runs, size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
+    """The longest beginning that fits, and the rest."""
+    chars = _flat(runs)
+    count = max(1, next((i for i in range(1, len(chars)) if width(chars[: i + 1], size, bold) > room), len(chars)))
+    return _joined(chars[:count]), _joined(chars[count:])

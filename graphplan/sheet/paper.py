@@ -1,0 +1,114 @@
+"""Paper: sheet sizes, the frame, and where the plans, the text columns and the title block lie.
+
+The smallest sheet is taken on which the whole step list stands in legible lettering and the plans keep a good size.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+from graphplan.errors import Refused
+from graphplan.sheet.display import Rect
+from graphplan.sheet.rows import Row, fill
+
+SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
+BINDING, EDGE, GUTTER, COLUMN = 20.0, 10.0, 5.0, 96.0
+CAPTION, MARGIN = 11.0, 9.0  # a panel's caption strip, and what is kept free for letters around its figure
+SHARES = (0.5, 0.55, 0.6, 0.66)
+
+
+@dataclass(frozen=True)
+class Arrangement:
+    """One way to divide a sheet: its panels by name, its text columns with their filling, and its title block."""
+
+    paper: str
+    width: float
+    height: float
+    frame: Rect
+    panels: dict[str, Rect]
+    columns: tuple[Rect, ...]
+    title: Rect
+    rows: tuple[Row, ...]
+
+
+def room(panel: Rect) -> Rect:
+    """Where a panel's figure may lie: below the caption."""
+    return panel.inset(0.5, 0.5, 0.5, CAPTION)
+
+
+def sheet_size(paper: str) -> tuple[float, float]:
+    """Width and height of a sheet such as `A3` or `A4 portrait`."""
+    name, _, way = paper.partition(" ")
+    if name.upper() not in SIZES or way not in ("", "landscape", "portrait"):
+        raise Refused(f"paper {paper!r}", "there is no such sheet", f"one of {', '.join(SIZES)}, with or without ' portrait'")
+    wide, high = SIZES[name.upper()]
+    return (high, wide) if way == "portrait" else (wide, high)
+
+
+def arrangements(
+    paper: str, panels: Sequence[str], rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]
+) -> Iterator[Arrangement]:
+    """The ways to divide one sheet that hold all the text; `title` gives the title block's height for its width."""
+    wide, high = sheet_size(paper)
+    frame = Rect(BINDING, EDGE, wide - EDGE, high - EDGE)
+    for plans, columns, block in (*_beside(frame, rows, title), *_below(frame, rows, title)):
+        for division in _divisions(plans, panels):
+            yield Arrangement(paper, wide, high, frame, division, columns, block, tuple(rows(columns[0].width)))
+
+
+Division = tuple[Rect, tuple[Rect, ...], Rect]
+
+
+def _beside(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]) -> Iterator[Division]:
+    """Text in as few columns as hold it, to the right of the plans."""
+    text = rows(COLUMN)
+    pitch = COLUMN + GUTTER
+    for count in range(1, int(frame.width // pitch) + 1):
+        left = frame.right - count * pitch
+        block = Rect(left + (count - 1) * pitch, frame.bottom, frame.right, frame.bottom + title(pitch))
+        columns = _columns(Rect(left, frame.bottom, frame.right, frame.top), count, block)
+        if fill(text, columns) is not None:
+            yield Rect(frame.left, frame.bottom, left, frame.top), columns, block
+            return
+
+
+def _below(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]) -> Iterator[Division]:
+    """Text in a strip under the plans, as low as it can be."""
+    count = int((frame.width + GUTTER) // (COLUMN + GUTTER))
+    pitch = frame.width / count
+    text, high = rows(pitch - GUTTER), title(pitch)
+    block = Rect(frame.right - pitch, frame.bottom, frame.right, frame.bottom + high)
+    strip = max(high, 20.0)
+    while strip < 0.75 * frame.height:
+        top = frame.bottom + strip
+        columns = _columns(Rect(frame.left, frame.bottom, frame.right, top), count, block)
+        if fill(text, columns) is not None:
+            yield Rect(frame.left, top, frame.right, frame.top), columns, block
+            return
+        strip += 4.0
+
+
+def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
+    """Equal columns; the last one ends above the title block."""
+    pitch = region.width / count
+    edges = [region.left + i * pitch for i in range(count)]
+    return tuple(
+        Rect(x + GUTTER / 2, (block.top if i == count - 1 else region.bottom) + 2.0, x + pitch - GUTTER / 2, region.top - 2.0)
+        for i, x in enumerate(edges)
+    )  # fmt: skip
+
+
+def _divisions(plans: Rect, panels: Sequence[str]) -> Iterator[dict[str, Rect]]:
+    """The plans' region divided: the first panel has the larger part, the others share the rest."""
+    first, *rest = panels
+    if not rest:
+        yield {first: plans}
+        return
+    for share in SHARES:
+        x, y = plans.left + share * plans.width, plans.bottom + (1 - share) * plans.height
+        high, wide = plans.height / len(rest), plans.width / len(rest)
+        beside = {p: Rect(x, plans.top - (i + 1) * high, plans.right, plans.top - i * high) for i, p in enumerate(rest)}
+        under = {p: Rect(plans.left + i * wide, plans.bottom, plans.left + (i + 1) * wide, y) for i, p in enumerate(rest)}
+        yield {first: Rect(plans.left, plans.bottom, x, plans.top), **beside}
+        yield {first: Rect(plans.left, y, plans.right, plans.top), **under}

@@ -1,0 +1,59 @@
+"""The pens: line widths and types after ISO 128-2, chosen to be told apart in black and white.
+
+Widths go in the steps of the standard (0.18, 0.25, 0.35, 0.5, 0.7 mm): links are wide, vectors middling, everything
+constructed is thin. Dashes carry meaning too; colours only help.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+INK, GREY, BLUE, RED, GREEN, TINT = "#000000", "#555555", "#0b3c8c", "#a3151b", "#1c6b3a", "#e9eef2"
+PAPER = "#ffffff"
+
+
+@dataclass(frozen=True)
+class Pen:
+    """How a stroke looks: its width in mm, colour, dashes in mm, and what fills a closed figure (or nothing)."""
+
+    width: float
+    colour: str = INK
+    dash: tuple[float, ...] = ()
+    fill: str = "none"
+
+    def filled(self, fill: str) -> Pen:
+        """The same pen with a filling."""
+        return replace(self, fill=fill)
+
+
+# paper
+FRAME = Pen(0.7)
+BORDER = Pen(0.25)
+LETTERS = Pen(0.0, fill=INK)
+FAINT = Pen(0.0, GREY, fill=GREY)
+
+# the mechanism
+LINK = Pen(0.7)
+PLATE = Pen(0.7, fill=TINT)
+PAIR = Pen(0.35, fill=PAPER)
+BLOCK = Pen(0.5, fill=PAPER)
+GROUND = Pen(0.5)
+HATCH = Pen(0.18)
+BALLOON = Pen(0.18, GREY, fill=PAPER)
+DRIVE = Pen(0.35)
+
+# what is constructed
+THIN = Pen(0.18, GREY)
+PRODUCED = Pen(0.18, GREY, (4.0, 0.9, 0.5, 0.9))
+LOCUS = Pen(0.25, GREEN)
+ARC = Pen(0.18, GREY)
+DOT = Pen(0.0, INK, fill=INK)
+LEADER = Pen(0.13, GREY)
+
+VECTORS = {
+    "velocity": Pen(0.5, BLUE, fill=BLUE),
+    "acceleration": Pen(0.5, RED, fill=RED),
+    "normal": Pen(0.35, INK, fill=INK),
+    "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
+}
+HEADS = {"velocity": 3.2, "acceleration": 3.2, "normal": 2.4, "relative": 2.4}

@@ -1,0 +1,158 @@
+"""What is drawn where: which plan a mark lies on, which marks lie on a line or an arc, and how large a plan is.
+
+All of it is read from the drawn program and its values; nothing here knows paper.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.program import Program
+from graphplan.mechanism.model import Scene
+from graphplan.sheet.display import Rect, Spot
+
+MECHANISM = "mechanism"
+
+
+class Vector(Protocol):
+    """A vector that the construction asks to be drawn as an arrow."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def point(self) -> str: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def panel(self) -> str: ...
+    @property
+    def start(self) -> int: ...
+    @property
+    def end(self) -> int: ...
+
+
+class Drawing(Protocol):
+    """A construction as the sheet reads it."""
+
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def program(self) -> Program: ...
+    @property
+    def drawn(self) -> Program: ...
+    @property
+    def values(self) -> Sequence[Any]: ...
+    @property
+    def arrows(self) -> Sequence[Any]: ...
+    @property
+    def kappa(self) -> float: ...
+    @property
+    def method(self) -> dict[str, list[str]]: ...
+    @property
+    def results(self) -> dict[str, Any]: ...
+    def sentences(self) -> list[str]: ...
+
+
+@dataclass(frozen=True)
+class Figure:
+    """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much."""
+
+    core: Rect
+    extra: tuple[Spot, ...]
+
+
+@dataclass(frozen=True)
+class Planes:
+    """A construction seen plan by plan."""
+
+    drawing: Drawing
+
+    @cached_property
+    def homes(self) -> list[str]:
+        """The plan of every step: its own if something it reads lies there, else where what it reads lies.
+
+        A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is.
+        """
+        out: list[str] = []
+        for step in self.drawing.drawn.steps:
+            read = [out[arg] for arg in step.args]
+            out.append(step.panel if not read or step.panel in read else read[0])
+        return out
+
+    @cached_property
+    def panels(self) -> list[str]:
+        """The plans in drawing order, the mechanism's first."""
+        return list(dict.fromkeys((MECHANISM, *self.homes)))
+
+    @cached_property
+    def marks_on(self) -> dict[int, tuple[int, ...]]:
+        """For each line and each arc, the marks that lie on it by construction."""
+        found: dict[int, list[int]] = {}
+        for step in self.drawing.drawn.steps:
+            if step.op.gives in (LINE, CIRCLE):
+                found.setdefault(step.index, [])
+            for claim in step.op.claims:
+                if claim[0] == "on":
+                    self._note(found, step.index, step.args[claim[1]])
+        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in found.items()}
+
+    def _note(self, found: dict[int, list[int]], one: int, other: int) -> None:
+        steps = self.drawing.drawn.steps
+        curve, mark = (one, other) if steps[other].op.gives == POINT else (other, one)
+        if steps[mark].op.gives == POINT and steps[curve].op.gives in (LINE, CIRCLE):
+            found.setdefault(curve, []).append(mark)
+
+    def points(self, panel: str) -> list[int]:
+        """The points that lie on a plan, by step."""
+        steps = self.drawing.drawn.steps
+        return [i for i, home in enumerate(self.homes) if home == panel and steps[i].op.gives == POINT]
+
+    def spot(self, index: int) -> Spot:
+        """Where a point lies on its plan."""
+        x, y = self.drawing.values[index][:2]
+        return float(x), float(y)
+
+    def place(self, name: str) -> Spot:
+        """Where a point of the mechanism lies."""
+        x, y = self.drawing.scene.points[name]
+        return float(x), float(y)
+
+    def vectors(self, panel: str) -> list[Vector]:
+        """The vectors drawn on a plan."""
+        return [vector for vector in self.drawing.arrows if vector.panel == panel]
+
+    def kinds(self, panel: str) -> set[str]:
+        """The kinds of vector drawn on a plan."""
+        return {vector.kind for vector in self.vectors(panel)}
+
+    def figure(self, panel: str) -> Figure:
+        """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
+        ends = [self.spot(i) for vector in self.vectors(panel) for i in (vector.start, vector.end)]
+        marks = [self.spot(i) for i in self.points(panel)]
+        core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
+        box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
+        extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
+        return Figure(box, tuple(spot for far, spot in extra if far > 0))
+
+
+def around(spots: Sequence[Spot]) -> Rect:
+    """The box around some spots."""
+    xs, ys = [x for x, _ in spots], [y for _, y in spots]
+    return Rect(min(xs), min(ys), max(xs), max(ys))
+
+
+def _beyond(box: Rect, spot: Spot) -> float:
+    """How far a spot lies outside a box."""
+    x, y = spot
+    return max(box.left - x, x - box.right, box.bottom - y, y - box.top, 0.0)
+
+
+def grown(box: Rect, spot: Spot) -> Rect:
+    """The box made large enough to hold a spot."""
+    x, y = spot
+    return Rect(min(box.left, x), min(box.bottom, y), max(box.right, x), max(box.top, y))

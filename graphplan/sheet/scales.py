@@ -1,0 +1,86 @@
+"""Scales: how much of the scene one millimetre of paper stands for, in round values.
+
+The mechanism plan is drawn at k_s; the construction's kappa then ties the velocities to it, k_v = k_s/kappa, and the
+accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan. A plan that would be
+too small or too large is drawn at a round multiple of the scale, and says so.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
+MULTIPLES = (1, 2, 3, 5)
+
+
+def round_up(least: float) -> float:
+    """The smallest scale of the series 1, 2, 2.5, 4, 5 x 10^n that is not below `least`."""
+    if not least > 0 or math.isinf(least):
+        return 1.0
+    power = math.floor(math.log10(least))
+    candidates = (float(f"{step}e{n}") for n in (power - 1, power, power + 1) for step in SERIES)
+    return min(scale for scale in candidates if scale >= least * (1 - 1e-9))
+
+
+def multiple_below(most: float) -> Fraction:
+    """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
+    whole = [m * 10**n for n in range(12) for m in MULTIPLES]
+    series = [*(Fraction(1, m) for m in reversed(whole)), *map(Fraction, whole[1:])]
+    return max((m for m in series if m <= most * (1 + 1e-9)), default=series[0])
+
+
+def digits(value: float, count: int = 4) -> str:
+    """A number in at most `count` significant digits, never in the form 1e+05."""
+    if value == 0 or not math.isfinite(value):
+        return "0" if value == 0 else str(value)
+    text = f"{value:.{count}g}"
+    if "e" not in text:
+        return text
+    mantissa, power = text.split("e")
+    if -7 < int(power) < 7:
+        return f"{float(text):.{max(0, count - 1 - int(power))}f}"
+    return f"{mantissa}·10^{int(power)}"
+
+
+def times(multiple: Fraction) -> str:
+    """A multiple as it is said: x2, x1/2."""
+    return f"×{multiple}"
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The scales of one sheet: `k_s` in lengths per mm, the multiples of the other plans, and the construction's kappa."""
+
+    k_s: float
+    kappa: float
+    length: str
+    multiples: dict[str, Fraction]
+
+    @property
+    def k_v(self) -> float:
+        """Speed for one mm of a vector on the mechanism plan."""
+        return self.k_s / self.kappa
+
+    def of(self, panel: str) -> float:
+        """Scene lengths for one mm on a panel."""
+        return self.k_s / float(self.multiples.get(panel, 1))
+
+    def speed(self, panel: str) -> float:
+        """Speed for one mm of a vector on a panel."""
+        return self.of(panel) / self.kappa
+
+    def acceleration(self, panel: str) -> float:
+        """Acceleration for one mm of a vector on a panel."""
+        return self.of(panel) / self.kappa**2
+
+    def said(self, panel: str, kinds: set[str]) -> list[str]:
+        """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
+        unit = self.length
+        lines = [f"k_s = {digits(self.k_s)} {unit}/mm"] if panel not in self.multiples else []
+        if kinds & {"velocity", "relative"}:
+            lines.append(f"k_v = {digits(self.speed(panel))} {unit}/s per mm")
+        if kinds & {"acceleration", "normal"}:
+            lines.append(f"k_a = {digits(self.acceleration(panel))} {unit}/s² per mm")
+        return lines

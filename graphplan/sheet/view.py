@@ -1,0 +1,67 @@
+"""From plan units to millimetres: each plan's own window onto its panel."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.sheet.display import Rect, Spot
+from graphplan.sheet.planes import Figure, grown
+from graphplan.sheet.scales import multiple_below, round_up
+
+COARSER = 2.05  # how much smaller a plan may be drawn so that auxiliary marks stay on the sheet
+
+
+@dataclass(frozen=True)
+class View:
+    """One plan on its panel: `scale` in mm per unit, and where the plan's origin falls."""
+
+    rect: Rect
+    scale: float
+    origin: Spot
+
+    def __call__(self, spot: Spot) -> Spot:
+        return self.origin[0] + self.scale * spot[0], self.origin[1] + self.scale * spot[1]
+
+
+def least(box: Rect, room: Rect) -> float:
+    """Units per mm that make a box just fit."""
+    return max(box.width / room.width, box.height / room.height)
+
+
+def _boxes(figure: Figure, room: Rect, most: float) -> list[Rect]:
+    """The core's box and then, mark by mark, the larger ones that do not need more than `most` units per mm."""
+    boxes = [figure.core]
+    for spot in figure.extra:
+        if not all(map(math.isfinite, spot)):
+            continue
+        box = grown(boxes[-1], spot)
+        if least(box, room) <= most:
+            boxes.append(box)
+    return boxes
+
+
+def plan_scale(figure: Figure, room: Rect) -> tuple[float, Rect]:
+    """The round k_s of the mechanism plan in this room, and the box that is then on paper."""
+    core = round_up(least(figure.core, room))
+    box = _boxes(figure, room, core * COARSER if figure.core.width or figure.core.height else math.inf)[-1]
+    k_s = round_up(least(box, room))
+    return k_s, _boxes(figure, room, k_s)[-1]
+
+
+def plan_multiple(figure: Figure, room: Rect, k_s: float) -> tuple[Fraction, Rect]:
+    """The round multiple of the mechanism plan's scale for another plan, and the box that is then on paper."""
+    fits = least(figure.core, room)
+    core = multiple_below(k_s / fits) if fits else Fraction(1)
+    box = _boxes(figure, room, float(k_s / core) * COARSER)[-1]
+    wide = least(box, room)
+    multiple = multiple_below(k_s / wide) if wide else Fraction(1)
+    return multiple, _boxes(figure, room, k_s / float(multiple))[-1]
+
+
+def view(box: Rect, room: Rect, units_per_mm: float) -> View:
+    """A window with the box in the middle of its room."""
+    (x, y), (cx, cy) = room.centre, box.centre
+    scale = 1 / units_per_mm
+    return View(room, scale, (x - cx * scale, y - cy * scale))

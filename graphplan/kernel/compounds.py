@@ -37,7 +37,7 @@ def bisector(d: Any, P: Any, Q: Any) -> Any:
     return u[0], u[1], -(u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
 
 
-@primitive((POINT, POINT), POINT, COMPASSES, "Halve {0}{1} in {out}.", claims=(("same", (0, -1), (-1, 1)),))
+@primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.", claims=(("same", (0, -1), (-1, 1)),))
 def midpoint(d: Any, P: Any, Q: Any) -> Any:
     """The point halfway between two points."""
     return (P[0] + Q[0]) / 2, (P[1] + Q[1]) / 2
@@ -51,21 +51,21 @@ def foot(d: Any, l: Any, P: Any) -> Any:
     return P[0] - l[0] * off, P[1] - l[1] * off
 
 
-@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector {0}{1}: mark {out}.",
+@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
            claims=(("same", (0, 1), (2, -1)),))  # fmt: skip
 def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ laid off from R."""
     return R[0] + (Q[0] - P[0]), R[1] + (Q[1] - P[1])
 
 
-@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off {0}{1} turned a quarter counter-clockwise: "
-           "mark {out}.", claims=(("quarter", (0, 1), (2, -1)),))  # fmt: skip
+@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
+           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),))  # fmt: skip
 def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ, turned a quarter counter-clockwise, laid off from R."""
     return R[0] - (Q[1] - P[1]), R[1] + (Q[0] - P[0])
 
 
-@primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector {1}{2}: draw {out}.",
+@primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector from {1} to {2}: draw {out}.",
            claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0)  # fmt: skip
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
     """A line moved by the vector PQ."""

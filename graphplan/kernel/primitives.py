@@ -42,7 +42,7 @@ def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     return a, b, -(a * P[0] + b * P[1])
 
 
-@primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw the line {0}{1}.",
+@primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw the line through {0} and {1}.",
            claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))  # fmt: skip
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
@@ -75,14 +75,14 @@ def meet(d: Any, k: Any, l: Any) -> Any:
     return (k[1] * l[2] - l[1] * k[2]) / w, (k[2] * l[0] - l[2] * k[0]) / w
 
 
-@primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses to {0}{1}.", claims=(("span", 0, 1),))
+@primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses from {0} to {1}.", claims=(("span", 0, 1),))
 def opening(d: Any, P: Any, Q: Any) -> Any:
     """The distance of two points, in the compasses."""
     dx, dy = Q[0] - P[0], Q[1] - P[1]
     return (dx * dx + dy * dy,)
 
 
-@primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike the arc {out} with the opening {1}.",
+@primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
            claims=(("centre", 0), ("opened", 1)), where=0)  # fmt: skip
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
@@ -114,7 +114,7 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx
 
 
-@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times {0}{1}: mark {out}.",
+@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
            claims=(("along", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ laid off from R."""
@@ -122,8 +122,8 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     return R[0] + r * (Q[0] - P[0]), R[1] + r * (Q[1] - P[1])
 
 
-@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times {0}{1}, turned a quarter "
-           "counter-clockwise: mark {out}.", claims=(("across", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
+@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times the vector from {0} to {1}, "
+           "turned a quarter counter-clockwise: mark {out}.", claims=(("across", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
     r = d.lift(ratio)

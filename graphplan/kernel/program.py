@@ -187,7 +187,7 @@ class Program:
         step = self.steps[index]
         if step.name:
             return step.name
-        if step.op.name in ("line", "opening"):
+        if step.op.name == "line" and all(self.steps[arg].name for arg in step.args):
             return "".join(self.text(arg) for arg in step.args)
         return f"{'arc' if step.op.gives == CIRCLE else step.op.gives} {self.number(index)}"
 

@@ -10,6 +10,9 @@ from graphplan.errors import Fault
 _LONGEST = 300
 """Characters of one part of a fault line: a name may be a novel, an error line may not."""
 
+_GUESSES = 50
+"""Only so many faults are given suggestions: guessing is slow, and nobody reads further."""
+
 
 class Faults:
     """The faults found so far; each is kept once, in the order in which they were found."""
@@ -22,13 +25,18 @@ class Faults:
         """All faults, first found first."""
         return tuple(self._found)
 
+    def __len__(self) -> int:
+        return len(self._found)
+
     def add(self, where: str, what: str, instead: str) -> None:
         """Note one fault."""
         self._found[Fault(one_line(where), one_line(what), one_line(instead))] = None
 
     def unknown(self, where: str, kind: str, name: str, known: Iterable[str]) -> None:
         """Note that there is no such `kind` (point, link, ...), with the names that were probably meant."""
-        self.add(where, f"there is no {kind} {name}", perhaps(name, known, kind))
+        anything = f"a {kind} that the scene has"
+        instead = perhaps(name, known, kind) if len(self) < _GUESSES else anything
+        self.add(where, f"there is no {kind} {name}", instead)
 
     def none_in(self, *tables: str) -> bool:
         """Whether the scene's top-level tables of these names are free of faults."""

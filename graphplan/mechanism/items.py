@@ -87,13 +87,13 @@ class Item:
             self.fault("commas between points", 'points separated by blanks alone, such as "A B"')
             return None
         names = text.split()
-        before = len(self.faults.found)
+        before = len(self.faults)
         for name in dict.fromkeys(names):
             if name not in known:
                 self.faults.unknown(self.where, "point", name, known)
             elif names.count(name) > 1:
                 self.fault(f"point {name} is named twice", "each point once")
-        return tuple(names) if len(self.faults.found) == before else None
+        return tuple(names) if len(self.faults) == before else None
 
     def table(self) -> dict[str, Item] | None:
         """The items of a table."""

@@ -72,7 +72,7 @@ def parse(text: str, name: str) -> Scene:
     """The scene that a TOML text says; `name` stands in error lines."""
     faults = Faults()
     scene = _read(_toml(text, name), name, faults)
-    if faults.found:
+    if len(faults):
         raise SceneError(name, faults.found)
     return scene
 
@@ -145,8 +145,8 @@ def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
 def _placements(points: dict[str, Item], table: Item) -> dict[str, Placement]:
     placements: dict[str, Placement] = {}
     for point, item in points.items():
-        if not point or "," in point or point.split() != [point]:
-            item.fault("a point's name has blanks or commas, or is empty", "a name without them, such as A2")
+        if "," in point or point.split() != [point] or not point.isprintable():
+            item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
         placement = read_placement(item, points)
         if placement is not None:
             placements[point] = placement
@@ -178,10 +178,10 @@ def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | fl
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
     if faults.none_in("points", "slides"):
         check_use(scene, guides | centres, faults)
-    check_joints(scene, placed, faults)
     if not scene.moving:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
     elif faults.none_in("links", "slides", "drive", "motion"):
         check_connections(scene, faults)
         if faults.none_in("links"):
             check_mobility(scene, faults)
+    check_joints(scene, placed, faults)

@@ -49,8 +49,8 @@ def read_links(item: Item, points: Collection[str]) -> dict[str, tuple[str, ...]
         named = entry.points(points)
         if named == ():
             entry.fault("a link without points", 'its points, such as "A B"')
-        if not name.strip():
-            entry.fault("a link without a name", 'a name, such as 1 = "A B"')
+        if not name.strip() or not name.isprintable():
+            entry.fault("a link without a readable name", 'a name, such as 1 = "A B"')
         links[name] = named or ()
     return links
 
@@ -102,7 +102,7 @@ def _read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None]
         return None
     through = points_of(direction)
     if any(name not in names.placed for name in through):
-        return None  # the point has its own fault
+        return (Fraction(1), Fraction(0)), (through[0], through[1])  # the point has its own fault; look for more
     try:
         x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
     except Misfit as misfit:
@@ -183,6 +183,8 @@ def _read_sliding(row: Item, names: Names, guides: dict[tuple[str, str], Slide])
     if pair is None or speed is None:
         return None
     slide = guides.get(pair)
+    if slide is None and not row.faults.none_in("slides", "links"):
+        return None  # the slide may be among those that have faults
     if slide is None:
         known = [f'slide = ["{link}", "{along}"]' for link, along in guides]
         meant = [f'slide = ["{link}", "{along}"]' for link, along in guides if (along, link) == pair]
@@ -220,7 +222,7 @@ def read_motions(item: Item, names: Names) -> dict[str, Motion]:
             item.faults.unknown(entry.where, "point", point, names.points)
         elif point in names.links.get(FRAME, ()):
             entry.fault(f"{point} is a point of the frame, which stands still", "a point of moving links only")
-        elif point not in held:
+        elif point not in held and entry.faults.none_in("links"):
             entry.fault(f"no link has the point {point}", "a point of a link")
         if fields is not None:
             rest: Vector | None = (Fraction(0), Fraction(0))
@@ -243,7 +245,7 @@ def read_question(item: Item, names: Names) -> tuple[str, ...]:
     asked: dict[str, None] = {}
     for entry in item.value:
         point = Item(entry, item.where, item.faults).name_of("point", names.points)
-        if point is not None and point not in movable | fixed:
+        if point is not None and point not in movable | fixed and item.faults.none_in("links"):
             item.fault(f"no link has the point {point}, so it has no motion", "a point of a link")
         elif point is not None:
             asked[point] = None

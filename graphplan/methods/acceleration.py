@@ -178,7 +178,8 @@ class Normal(Plan):
         points = self.pose.points
         if X == side:
             m, w = self.velocity.relative(link, K, X)
-            return self.board.normal(points[K], points[X], m, w, self.figure(link, K))
+            why = f"the relative normal acceleration of {X} about {K}"
+            return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
         ends = self.figure(link, K), self.figure(link, side)
         return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
 
@@ -230,7 +231,8 @@ class Normal(Plan):
         link, P = self._pivot(known, new, B)
         turning = self.velocity.about(link, P, B)
         slip = self.velocity.slip(known, new, B)
-        return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start)
+        why = f"the Coriolis acceleration of the pair {slide.name}, twice the half-vector"
+        return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
         """A point of either link to measure their common turning about: fixed to the frame, if there is one."""

@@ -122,7 +122,7 @@ class Plan:
                 self._locus((X, body), self._slipped(body, A, X, like), move)
             case Carry(body, A, B, X):
                 ends = [self.point(A[0]), self._locus_in(body, A), self.point(B[0]), self._locus_in(body, B)]
-                line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B))
+                line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B, X))
                 self._locus((X, body), self._outward(body, X, line), move)
             case Settle(body, K, X, B):
                 self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
@@ -311,10 +311,12 @@ class Plan:
             self.pose.points[place[0]] = self.board.meet(*homes, name=self.pose.letter(body))
         self._end(place, self.board.meet(self._locus_in(body, A), self._locus_in(body, B)), move)
 
-    def _letters(self, body: str, A: Locus, B: Locus) -> dict[str, str]:
-        """Letters for the auxiliary point of a body and its end."""
+    def _letters(self, body: str, A: Locus, B: Locus, X: Place) -> dict[str, str]:
+        """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
         letter = self.pose.letter(body)
-        return {"Q": letter, "q": self.end_name((letter, "")), "U": f"U_{body}"}
+        trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
+                 for mark in ("'", "''")}  # fmt: skip
+        return {"Q": letter, "q": self.end_name((letter, "")), "U": f"U_{body}", **trial}
 
     # ---- relative poles and trials --------------------------------------------------------------------------------
 

@@ -295,7 +295,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(PRESS, ("M = {", '"M 1" = [0, 0]\nM = {')),
-        'points."M 1": a point\'s name has blanks or commas, or is empty; a name without them, such as A2',
+        'points."M 1": a point\'s name is empty or has blanks or commas; a name without them, such as A2',
     ),
     (
         changed(PRESS, ("distance = 25", "distance = 25, form = 'A'")),
@@ -423,8 +423,14 @@ def test_faults() -> None:
 
 def test_all_faults_are_told_at_once() -> None:
     """Faults that do not follow from each other are gathered, each once, none invented."""
-    text = changed(PRESS, ("O = [0, 0]", "O = [0]"), ('"O A"', '"O AA AA"'), ("omega", "omega = 1\nrpm"), ("title", "titel"))
+    text = changed(
+        PRESS, ("O = [0, 0]", "O = [0]"), ('"O A"', '"O AA AA"'), ("omega", "omega = 1\nrpm"), ("title", "titel")
+    )
     assert [line.split(":")[0] for line in faults(text)] == ["titel", "points.O", "links.1", "drive.1"]
+    text = changed(ACTUATOR, ("C = [30, 40]", "C = [30]"), ("A = [60, 80]", 'A = "far"'))
+    assert [line.split(":")[0] for line in faults(text)] == ["points.C", "points.A"]
+    text = changed(ACTUATOR, ('at = "D"', 'at = "C"'))
+    assert [line.split(":")[0] for line in faults(text)] == ["slides.1.at"]
 
 
 def test_the_tables_of_faults_are_full_lines() -> None:
@@ -470,7 +476,10 @@ PIECES = st.sampled_from(
 
 
 @settings(max_examples=400, deadline=None)
-@given(st.sampled_from([PRESS, OPEN, ACTUATOR]), st.lists(st.tuples(st.integers(0, 600), st.integers(0, 30), PIECES), max_size=5))
+@given(
+    st.sampled_from([PRESS, OPEN, ACTUATOR]),
+    st.lists(st.tuples(st.integers(0, 600), st.integers(0, 30), PIECES), max_size=5),
+)
 @example("a = " + "9" * 5000, [])
 @example("a" + ".a" * 5000 + " = 1", [])
 def test_any_text_is_a_scene_or_a_scene_error(text: str, edits: list[tuple[int, int, str]]) -> None:
@@ -484,7 +493,9 @@ def test_any_text_is_a_scene_or_a_scene_error(text: str, edits: list[tuple[int, 
         assert all(line.isprintable() for line in error.lines)
 
 
-WORDS = st.sampled_from(["O", "A", "B", "M", "1", "2", "3", "frame", "O A", "A B", "B M", "left", "all", "velocity", "on", ""])
+WORDS = st.sampled_from(
+    ["O", "A", "B", "M", "1", "2", "3", "frame", "O A", "A B", "B M", "left", "all", "velocity", "on", ""]
+)
 VALUES = st.recursive(
     st.one_of(WORDS.map(lambda word: f'"{word}"'), st.sampled_from(["0", "1", "-2.5", "1e60", "90", "inf", "true", "07:32:00"])),
     lambda inner: st.one_of(

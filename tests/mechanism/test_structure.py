@@ -210,6 +210,25 @@ def test_the_order_in_which_links_are_written_does_not_matter(case: Case, chance
     assert written == shuffled
 
 
+@given(st.lists(st.tuples(st.integers(0, 99), st.integers(0, 99)), min_size=1, max_size=20))
+def test_what_is_built_of_dyads_falls_apart_into_them(attached: list[tuple[int, int]]) -> None:
+    """Dyads hung one after another on any points of what moves already, or of the frame, are found again."""
+    point = iter(chr(c) for c in range(0x4E00, 0x9FFF))
+    origin, tip = next(point), next(point)
+    links, moving, fixed, dyads = [f"1={origin}{tip}"], [tip], origin, []
+    for i, (one, other) in enumerate(attached):
+        inner, pivot, end = next(point), next(point), next(point)
+        first = moving[one % len(moving)]
+        second = pivot if other % 3 else moving[other % len(moving)]
+        if second in (pivot, first):
+            second, fixed = pivot, fixed + pivot
+        links += [f"a{i}={first}{inner}", f"b{i}={inner}{second}{end}"]
+        moving += [inner, end]
+        dyads.append({f"a{i}", f"b{i}"})
+    found = [set(group.links) for group in structure(chain(" ".join([*links[::-1], f"frame={fixed}"]))).groups]
+    assert sorted(found, key=sorted) == sorted(dyads, key=sorted)
+
+
 def test_smallest_loops() -> None:
     """A cube has five independent loops of four edges; a tree has none; two loops with a common path are told apart."""
     cube = {v: frozenset(v ^ bit for bit in (1, 2, 4)) for v in range(8)}

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import Any
 
 from graphplan.errors import ConstructionError, Undrawable
@@ -11,10 +11,15 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 
 
-def evaluate(program: Program, domain: Domain, given: Mapping[str, Mapping[str, Any]] | None = None) -> list[Any]:
+def evaluate(
+    program: Program,
+    domain: Domain,
+    given: Mapping[str, Mapping[str, Any]] | None = None,
+    after: Callable[[Step], None] | None = None,
+) -> list[Any]:
     """The value of every step, in order.
 
-    Reads a program, a number domain and, by name, other parameters for `given` points.
+    Reads a program, a number domain and, by name, other parameters for `given` points; calls `after` after each step.
     Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
     """
     values: list[Any] = []
@@ -25,6 +30,8 @@ def evaluate(program: Program, domain: Domain, given: Mapping[str, Mapping[str, 
             values.append(step.op.rule(domain, *[values[arg] for arg in step.args], **params))
         except Undrawable as fault:
             raise error_at(program, step, fault) from None
+        if after is not None:
+            after(step)
     return values
 
 

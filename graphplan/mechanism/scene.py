@@ -47,7 +47,10 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
         fault = Fault("file", "this is a directory", "a scene file")
     except FileNotFoundError:
         packaged = [entry.name.removesuffix(".toml") for entry in _packaged()]
-        fault = Fault("file", "no such file and no packaged scene", perhaps(written, packaged, "file"))
+        instead = (
+            perhaps(written, packaged, "scene") if packaged else "the path of a scene file, or - for standard input"
+        )
+        fault = Fault("file", "no such file and no packaged scene", instead)
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
         fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
     raise SceneError(name, (fault,))

@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterable
+
+from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
+from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
 from graphplan.methods.plan import Plan
@@ -23,7 +28,7 @@ class Draughtsman:
         self.board = Board()
         self.pose = Pose(self.board, scene)
         self.tempo = tempo(scene)
-        self.moves = planner.plan()
+        self.moves = planner.moves or planner.plan()
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
 
@@ -36,7 +41,7 @@ class Draughtsman:
         if self.scene.find.acceleration:
             self._accelerations(velocity)
         program = freeze(self.board, self.marks)
-        return Construction(self.scene, self.tempo, program, tuple(self.readings), turned=not self.polar)
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves))
 
     def _accelerations(self, velocity: Velocity) -> None:
         kind = PolarAcceleration if self.polar else Normal
@@ -81,12 +86,77 @@ class Draughtsman:
                 self._read(kind, slide.name, plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end)
 
 
+def _ways(moves: Iterable[Move]) -> str:
+    """How the rings of links are broken, if there are any."""
+    ways = []
+    for move in moves:
+        if isinstance(move, Pole):
+            ways.append(f"relative pole of links {move.bodies[0]} and {move.bodies[1]}")
+        elif isinstance(move, Trial):
+            ways.append(f"false position of {move.at[0][0]}")
+            ways.extend(filter(None, [_ways(move.moves)]))
+    return ", ".join(ways)
+
+
+METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
+PLANS = ("orthogonal", "polar")
+MOST_TRIALS = 6  # how many places for a trial figure are weighed against each other
+
+
 def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False) -> Construction:
-    """The construction of what the scene asks for."""
-    planner = Planner(Network(scene), poles=method != "trial")
-    construction = Draughtsman(scene, planner, polar=plan == "polar").draw()
-    construction.prefer, construction.strict = PREFER.get(method, ""), strict
-    return construction
+    """The construction of what the scene asks for.
+
+    `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
+    construction says why. `plan` is orthogonal or polar; `strict` draws with compasses and straightedge alone.
+    Fails with `Refused` where no move of the planner reaches what is asked; numbers are not looked at before they are
+    read, so a singular pose shows then.
+    """
+    if method not in ("", *METHODS):
+        raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
+    if plan not in PLANS:
+        raise Refused(f"plan {plan}", "there is no such plan", f"one of {', '.join(PLANS)}")
+    network = Network(scene)
+    drawn = [Draughtsman(scene, planner, plan == "polar").draw() for planner in _planners(network, method)]
+    best = min(drawn, key=_rank) if len(drawn) > 1 else drawn[0]
+    best.prefer, best.strict = METHODS.get(method, ""), strict
+    if len(drawn) > 1:
+        best.notes = [f"ring of links: {best.ways} (flattest crossing {_flattest(best):.0f} degrees), the best of "
+                      f"{len(drawn)} ways that were weighed"]  # fmt: skip
+    return best
 
 
-PREFER = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
+def _planners(network: Network, method: str) -> list[Planner]:
+    """The ways through the mechanism: one, or where facts run in rings one for each pole or place of a trial."""
+    first = Planner(network, poles=method != "trial")
+    first.plan()
+    rings = first.options or [move for move in first.moves if isinstance(move, Pole)]
+    if not rings or method == "poles":
+        return [first]
+    trial = first
+    if not first.options:
+        trial = Planner(network, poles=False)
+        trial.plan()
+    ways = [] if trial is first else [first]
+    for choice in range(min(MOST_TRIALS, trial.options[0])):
+        ways.append(Planner(network, poles=first.poles and trial is first, choice=(choice,)))
+    return ways
+
+
+def _flattest(construction: Construction) -> float:
+    """The smallest angle in degrees at which two lines of a construction have to meet; 0 where they do not."""
+    try:
+        values = construction.truth
+    except ConstructionError:
+        return 0.0
+    angles = [90.0]
+    for step in construction.program.steps:
+        if step.op.name == "meet":
+            (a, b, _), (c, d, _) = (values[arg] for arg in step.args)
+            angles.append(math.degrees(math.asin(min(1.0, abs(a * d - b * c) / math.hypot(a, b) / math.hypot(c, d)))))
+    return min(angles)
+
+
+def _rank(construction: Construction) -> tuple[bool, float]:
+    """Fewest steps among those whose lines all cross well; else the best crossing."""
+    angle = _flattest(construction)
+    return angle < 15, float(len(construction.program)) if angle >= 15 else -angle

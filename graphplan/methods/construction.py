@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.tempo import Tempo
+
+if TYPE_CHECKING:
+    from graphplan.methods.batch import Poses
 
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
@@ -58,9 +61,10 @@ class Construction:
     program: Program
     readings: tuple[Reading, ...]
     turned: bool
-    method: dict[str, list[str]] = field(default_factory=dict)
+    ways: str = ""
     prefer: str = ""
     strict: bool = False
+    notes: list[str] = field(default_factory=list)
 
     @cached_property
     def truth(self) -> list[Any]:
@@ -96,6 +100,39 @@ class Construction:
                 for s in self.drawn.steps]  # fmt: skip
 
     @property
+    def forms(self) -> list[str]:
+        """The forms chosen for this pose, each with the reason, by step number."""
+        chosen = [s for s in self.drawn.steps if s.form and s.form.partition(":")[0] in ("carry", "settle", "coriolis")]
+        return self.notes + [f"step {self.drawn.number(s.index)}: {s.reason}" for s in chosen]
+
+    @cached_property
+    def method(self) -> dict[str, list[str]]:
+        """How velocities and accelerations are found, in a few words each."""
+        found: dict[str, list[str]] = {}
+        for step in self.drawn.steps:
+            kind = ACCELERATION if step.panel in ("N-plan", "acceleration plan") else VELOCITY
+            names = found.setdefault(kind, [])
+            op, _, form = step.form.partition(": ")
+            if op == "carry":
+                names.append("auxiliary points" if form == "auxiliary point" else form.partition(" on ")[0])
+        for kind in (VELOCITY, ACCELERATION):
+            if any(reading.kind == kind for reading in self.readings):
+                names = found.setdefault(kind, [])
+                names.extend(filter(None, [self.ways]))
+                if "auxiliary points" in names:
+                    names[names.index("auxiliary points")] = "auxiliary points " + ", ".join(self._letters())
+                found[kind] = list(dict.fromkeys(n for n in names if n != "auxiliary points")) or [PLAIN[self.turned, kind]]
+            else:
+                found.pop(kind, None)
+        return found
+
+    def _letters(self) -> list[str]:
+        """The letters of the auxiliary points."""
+        names = {step.names.get("Q", "") for step in self.program.steps if step.op.name == "carry"}
+        drawn = {step.name for step in self.drawn.steps}
+        return sorted(name for name in names & drawn if name)
+
+    @property
     def kappa(self) -> float:
         """Drawn velocity over true velocity, in seconds; for accelerations its square."""
         return float(self.tempo.kappa)
@@ -112,12 +149,17 @@ class Construction:
                 found.append(Arrow(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
         return tuple(found)
 
-    def read(self, domain: Domain, given: Mapping[str, Mapping[str, Any]] | None = None) -> dict[str, dict[str, Any]]:
+    def read(
+        self,
+        domain: Domain,
+        given: Mapping[str, Mapping[str, Any]] | None = None,
+        after: Callable[[Step], None] | None = None,
+    ) -> dict[str, dict[str, Any]]:
         """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
 
-        `given` overrides the coordinates of named points.
+        `given` overrides the coordinates of named points; `after` is called after each step.
         """
-        values = evaluate(self.program, domain, given)
+        values = evaluate(self.program, domain, given, after)
         wanted = [values[index] for index in self.program.wanted]
         results: dict[str, dict[str, Any]] = {}
         for reading in self.readings:
@@ -125,6 +167,12 @@ class Construction:
             value = READERS[reading.kind](marks, domain.lift(self.tempo.unit), self.turned)
             results.setdefault(reading.kind, {})[reading.of] = value
         return results
+
+    def evaluate(self, points: Mapping[str, Any]) -> Poses:
+        """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still."""
+        from graphplan.methods.batch import batch
+
+        return batch(self, points)
 
     @cached_property
     def _floats(self) -> dict[str, dict[str, Any]]:
@@ -139,6 +187,14 @@ class Construction:
     def acceleration(self) -> dict[str, complex]:
         """The accelerations asked for, in length units of the scene per second squared."""
         return {name: complex(*pair) for name, pair in self._floats.get(ACCELERATION, {}).items()}
+
+
+PLAIN = {
+    (True, VELOCITY): "parallels on the mechanism plan",
+    (True, ACCELERATION): "plan of relative normal accelerations",
+    (False, VELOCITY): "polar velocity plan",
+    (False, ACCELERATION): "polar acceleration plan",
+}
 
 
 def _difference(one: Any, two: Any) -> Any:

@@ -28,7 +28,7 @@ def chain(links: str, slides: str = "", drives: str = "1", motions: str = "") ->
         source="",
         name="chain",
         units=Units(),
-        points={p: (rest, rest) for p in points},
+        points=dict.fromkeys(points, (rest, rest)),
         placements={},
         links=named,
         slides=tuple(Slide(link, along, at, (Fraction(1), rest)) for link, along, at in pairs),
@@ -240,4 +240,5 @@ def test_smallest_loops() -> None:
 
 def test_roman() -> None:
     """Classes are written in Roman numerals."""
-    assert [roman(n) for n in (1, 2, 3, 4, 5, 6, 9, 14, 40, 99)] == "I II III IV V VI IX XIV XL XCIX".split()
+    numerals = {1: "I", 2: "II", 3: "III", 4: "IV", 9: "IX", 14: "XIV", 40: "XL", 99: "XCIX"}
+    assert {number: roman(number) for number in numerals} == numerals

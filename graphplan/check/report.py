@@ -1,0 +1,146 @@
+"""The construction beside the analytic solver: what both say, and by how much they differ."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+from typing import Any
+
+from graphplan.errors import ConstructionError, Refused, SingularPose
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+from graphplan.solver import Rates, solve
+
+EPSILON = 2.0**-52
+SAFETY = 100  # roundings of the mechanism's own condition that a difference may have
+
+# What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.
+KINDS = {
+    "velocity": ("velocity", "omega", "slide velocity"),
+    "acceleration": ("acceleration", "alpha", "slide acceleration"),
+}
+
+
+@dataclass(frozen=True)
+class Report:
+    """A construction with its numbers, exact or in floats, and the second opinion on them."""
+
+    drawing: Construction
+    rates: Rates
+    results: dict[str, dict[str, Any]]
+    exact: bool
+
+    @property
+    def scene(self) -> Scene:
+        return self.drawing.scene
+
+    @cached_property
+    def check(self) -> dict[str, Any]:
+        """For velocities and accelerations the largest difference beside the largest value of its kind."""
+        found = {}
+        for kind, parts in KINDS.items():
+            asked = [part for part in parts if part in self.results]
+            if asked:
+                found[kind] = max(self._difference(part) for part in asked)
+        return found
+
+    def _difference(self, part: str) -> Any:
+        """The largest difference of one kind of reading, beside its largest value."""
+        truth: Mapping[str, Any] = getattr(self.rates, part.replace(" ", "_"))
+        ours = self.results[part]
+        gap = max(_size(_less(ours[name], truth[name])) for name in ours)
+        largest = max((_size(value) for value in truth.values()), default=0)
+        return gap / largest if largest else gap
+
+    @property
+    def tolerance(self) -> float:
+        """What rounding may make of the mechanism's own condition; nothing where the numbers are exact."""
+        return 0.0 if self.exact else max(1e-12, SAFETY * EPSILON * self.rates.condition)
+
+    @property
+    def agrees(self) -> bool:
+        return all(difference <= self.tolerance for difference in self.check.values())
+
+    def data(self) -> dict[str, Any]:
+        """What `graphplan solve` prints."""
+        scene, results = self.scene, self.results
+        return {
+            "title": scene.title,
+            "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
+            "points": self._merged(scene.points, velocity="velocity", acceleration="acceleration"),
+            "links": self._merged(scene.moving, omega="omega", alpha="alpha"),
+            "slides": self._merged((s.name for s in scene.slides), velocity="slide velocity",
+                                   acceleration="slide acceleration"),  # fmt: skip
+            "method": self.drawing.method,
+            "check": {kind: _number(value) if value else 0 for kind, value in self.check.items()},
+            "steps": len(self.drawing.drawn) - self.drawing.drawn.givens,
+            **({} if results else {"note": "nothing was asked for"}),
+        }
+
+    def _merged(self, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+        """Readings of several kinds by name, as JSON takes them."""
+        table = {}
+        for name in names:
+            entry = {k: _number(self.results[kind][name]) for k, kind in kinds.items()
+                     if name in self.results.get(kind, {})}  # fmt: skip
+            if entry:
+                table[name] = entry
+        return table
+
+
+def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "orthogonal",
+           strict: bool = False) -> Report:  # fmt: skip
+    """Construct, read, solve and compare.
+
+    Fails with `SingularPose`, which names the links and the lines that should meet; with `Refused` where --exact meets
+    an irrational scene, or where no construction reaches what is asked.
+    """
+    if exact and scene.irrational:
+        raise Refused("exact numbers", f"{'; '.join(scene.irrational)}", "leave out --exact, or give coordinates")
+    drawing = construct(scene, method=method, plan=plan, strict=strict)
+    domain: Domain = Fractions() if exact else Floats()
+    try:
+        rates = solve(scene, exact)
+    except SingularPose as singular:
+        raise SingularPose(singular.why, singular.links, _miss(drawing, domain)) from None
+    return Report(drawing, rates, drawing.read(domain), exact)
+
+
+def _miss(drawing: Construction, domain: Domain) -> str:
+    """The lines that should meet and do not: where the construction stops, or where its lines cross flattest."""
+    try:
+        drawing.read(domain)
+    except ConstructionError as error:
+        return f"{error.drawing}: {error.why}"
+    flattest = min((step for step in drawing.program.steps if step.op.name == "meet"),
+                   key=lambda step: _sine(drawing, step.args), default=None)  # fmt: skip
+    if flattest is None:
+        return ""
+    one, two = (drawing.program.text(arg) for arg in flattest.args)
+    return f"{one} and {two} should meet in {drawing.program.text(flattest.index)} and are parallel"
+
+
+def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
+    (a, b, _), (c, d, _) = (drawing.truth[line] for line in lines)
+    return float(abs(a * d - b * c) / ((a * a + b * b) * (c * c + d * d)) ** 0.5)
+
+
+def _less(one: Any, two: Any) -> Any:
+    return (one[0] - two[0], one[1] - two[1]) if isinstance(one, tuple) else one - two
+
+
+def _size(value: Any) -> Any:
+    return max(abs(value[0]), abs(value[1])) if isinstance(value, tuple) else abs(value)
+
+
+def _number(value: Any) -> Any:
+    """A number as JSON takes it: floats as they are, fractions as a string p/q."""
+    if isinstance(value, tuple):
+        return [_number(part) for part in value]
+    return str(value) if isinstance(value, Fraction) else value + 0.0

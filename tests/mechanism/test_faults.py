@@ -1,0 +1,364 @@
+"""Faults: what is said about text that is no scene; and that nothing else ever happens to it."""
+
+from __future__ import annotations
+
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+from scene_texts import ACTUATOR, OPEN, PRESS, changed
+
+from graphplan.errors import SceneError
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene import parse
+
+
+def faults(text: str) -> list[str]:
+    """The fault lines of a text, without the name of the file."""
+    with pytest.raises(SceneError) as error:
+        parse(text, "f.toml")
+    assert all(line.startswith("f.toml: ") for line in error.value.lines)
+    return [line.removeprefix("f.toml: ") for line in error.value.lines]
+
+
+FAULTS: list[tuple[str, str]] = [
+    # the text
+    ("", "file: it is empty; a scene with [points], [links] and [[drive]]"),
+    ("a = ", "end of file: this is no TOML: Invalid value; text that follows toml.io"),
+    (
+        "\n a b",
+        "line 2, column 4: this is no TOML: Expected '=' after a key in a key/value pair; text that follows toml.io",
+    ),
+    ("a = " + "[" * 9999, "file: tables or lists are nested too deeply; a scene as the manual shows it"),
+    ("[points]\n[links]", "points: the scene has no points; [points] with entries such as A = [0, 0]"),
+    ("[points]\n[links]", 'links: the scene has no links; [links] with entries such as 1 = "O A"'),
+    ("points = 3", "points: the number 3 where a table is wanted; a table of keys and values"),
+    # keys
+    (PRESS + "[point]", "point: unknown key; perhaps points"),
+    (changed(PRESS, ("omega", "omga")), "drive.1.omga: unknown key; perhaps omega"),
+    (changed(PRESS, ("pick =", "pik =")), "points.B.pik: unknown key; perhaps pick"),
+    (changed(PRESS, ("through", "trough")), "points.B.on.trough: unknown key; perhaps through"),
+    (changed(PRESS, ("at = ", "att = ")), "slides.1.att: unknown key; perhaps at"),
+    (PRESS + "[find]\nvelocities = 'all'", "find.velocities: unknown key; perhaps velocity"),
+    (changed(OPEN, ("velocity", "speed")), "motion.K.speed: unknown key; one of velocity, acceleration"),
+    (PRESS + "[units]\nlenght = 'm'", "units.lenght: unknown key; perhaps length"),
+    (PRESS + "[units]\nlength = 'km'", 'units.length: the string "km" is not known here; perhaps m'),
+    (PRESS + "[units]\nlength = 3", "units.length: the number 3 is not known here; one of mm, cm, m, in, ft"),
+    ("title = 3" + PRESS.replace("title", "source"), "title: the number 3 where a text is wanted; a text in quotes"),
+    (
+        "gravity = 9.81" + PRESS,
+        "gravity: the number 9.81 where two numbers are wanted; two numbers such as [10, 5]",
+    ),
+    *[
+        (f"{PRESS}[{table}]", f"{table}: forces are not constructed by this version; leave the table out")
+        for table in ("masses", "forces", "moments", "balance")
+    ],
+    # points
+    (changed(PRESS, ("O = [0, 0]", "O = [0, true]")), "points.O: true where a number is wanted; a number such as 12.5"),
+    (
+        changed(PRESS, ("O = [0, 0]", 'O = [0, "1"]')),
+        'points.O: the string "1" where a number is wanted; a number such as 12.5',
+    ),
+    (
+        changed(PRESS, ("O = [0, 0]", "O = [0, nan]")),
+        "points.O: nan is no usable number; a finite number between 1e-60 and 1e60 in size",
+    ),
+    (
+        changed(PRESS, ("O = [0, 0]", "O = [0, -1e999999999]")),
+        "points.O: -1e999999999 is no usable number; a finite number between 1e-60 and 1e60 in size",
+    ),
+    (
+        changed(PRESS, ("O = [0, 0]", f"O = [0, {'9' * 4000}]")),
+        "points.O: an integer of absurd size is no usable number; a finite number between 1e-60 and 1e60 in size",
+    ),
+    (
+        changed(PRESS, ("O = [0, 0]", "O = [0, 1, 2]")),
+        "points.O: a list of 3 where two numbers are wanted; two numbers such as [10, 5]",
+    ),
+    (
+        changed(PRESS, ("O = [0, 0]", "O.x = 0\nO.y = 0")),
+        "points.O: a table with the keys x, y places no point; "
+        'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }',
+    ),
+    (
+        changed(PRESS, ("M = {", '"M 1" = [0, 0]\nM = {')),
+        'points."M 1": a point\'s name is empty or has blanks or commas; a name without them, such as A2',
+    ),
+    (
+        changed(PRESS, ("distance = 25", "distance = 25, form = 'A'")),
+        "points.M.form: unknown key; one of on, distance",
+    ),
+    (
+        changed(PRESS, (', pick = "right"', "")),
+        'points.B: pick is missing; pick = "right" (further along) or "left" (back along) the line\'s direction',
+    ),
+    (changed(PRESS, ('"right"', '"rigth"')), 'points.B.pick: the string "rigth" is not known here; perhaps right'),
+    (
+        changed(PRESS, ("{ A = 50 }", "{ A = 50, O = 3 }")),
+        "points.B.distances: distances from 2 points; distances from 1, as the other keys ask",
+    ),
+    (
+        changed(PRESS, ("{ A = 50 }", "{ A = 0 }")),
+        "points.B.distances.A: the distance 0 is not positive; a distance above 0",
+    ),
+    (changed(PRESS, ("{ A = 50 }", "{ AA = 50 }")), "points.B.distances.AA: there is no point AA; perhaps A"),
+    (
+        changed(PRESS, ("{ A = 50 }", "{ A = 39.5 }")),
+        "points.B: the arc around A (radius 39.5) does not meet the line, which is 40 away; a radius of at least 40",
+    ),
+    (
+        changed(PRESS, ("direction = [1, 0] }", "direction = [0, 0] }")),
+        "points.B.on.direction: the direction is zero; a vector that is not [0, 0]",
+    ),
+    (
+        changed(PRESS, ("M = {", 'A2 = { distances = { O = 730, A = 30 }, side = "left" }\nM = {')),
+        "points.A2: compass arcs around O (radius 730) and A (radius 30) do not meet, the centres are 50 apart; "
+        "radii that differ by at most 50",
+    ),
+    (
+        changed(PRESS, ("M = {", 'A2 = { distances = { O = 20, A = 29 }, side = "left" }\nM = {')),
+        "points.A2: compass arcs around O (radius 20) and A (radius 29) do not meet, the centres are 50 apart; "
+        "radii whose sum is at least 50",
+    ),
+    (
+        changed(PRESS, ("M = {", 'O2 = [0, 0]\nA2 = { distances = { O = 2, O2 = 2 }, side = "left" }\nM = {')),
+        "points.A2: the compass centres O and O2 coincide; centres that lie apart",
+    ),
+    (
+        changed(PRESS, ('on = "A B"', 'on = "A O2"'), ("M = {", "O2 = [30, 40]\nM = {")),
+        "points.M: the points A O2 coincide and give no direction; two points that lie apart",
+    ),
+    (
+        changed(PRESS, ('on = "A B"', 'on = "A B O"')),
+        'points.M.on: the string "A B O" where two points are wanted; two points such as "A B"',
+    ),
+    (
+        changed(PRESS, ("A = [30, 40]", 'A = { from = "M", distance = 1, angle = 0 }')),
+        "points.A: points A, B, M are placed from each other; coordinates for one of them",
+    ),
+    (
+        changed(PRESS, ("A = [30, 40]", 'A = { from = "A", distance = 1, angle = 0 }')),
+        "points.A: it is placed from itself; coordinates for one of them",
+    ),
+    (
+        changed(PRESS, ("M = {", "Z = [1, 1]\nM = {")),
+        "points.Z: no link has this point; its name in a link, or no such point",
+    ),
+    # links
+    (
+        changed(PRESS, ('"O A"', '"O, A"')),
+        'links.1: commas between points; points separated by blanks alone, such as "A B"',
+    ),
+    (
+        changed(PRESS, ('"O A"', '["O", "A"]')),
+        'links.1: a list of 2 where a string of points is wanted; points separated by blanks, such as "A B"',
+    ),
+    (changed(PRESS, ('"O A"', '"O A O"')), "links.1: point O is named twice; each point once"),
+    (changed(PRESS, ('"O A"', '"O a"')), "links.1: there is no point a; perhaps A"),
+    (changed(PRESS, ('3 = "B"', '3 = " "')), 'links.3: a link without points; its points, such as "A B"'),
+    (
+        changed(PRESS, ('3 = "B"', "3 = 'B'\n4 = 'M'\n5 = 'N'"), ("M = {", "N = [5, 5]\nM = {")),
+        "links.5: link 5 shares no joint or slide with any other; a point that it shares with another link, or a slide",
+    ),
+    (
+        changed(PRESS, ('3 = "B"', "3 = 'B'\n4 = 'N P'\n5 = 'N'"), ("M = {", "N = [5, 5]\nP = [0, 9]\nM = {")),
+        "links.4: link 4 hangs on neither the frame nor a given motion; "
+        "a point that it shares with another link, or a slide",
+    ),
+    (
+        changed(PRESS, ("A = [30, 40]", "A = [0, 0]")),
+        "links.1: the joints O and A coincide; joints that lie apart, or one name for both",
+    ),
+    ('[points]\nA = [0, 0]\n[links]\nframe = "A"', 'links: no link moves; a link besides the frame, such as 1 = "O A"'),
+    # slides
+    (
+        changed(PRESS, ("[[slides]]", "[slides]")),
+        "slides: a table with the keys link, along, at, direction where a list of tables is wanted; "
+        "[[slides]], in double brackets",
+    ),
+    (
+        changed(PRESS, ('link = "3"', "link = 3")),
+        'slides.1.link: the number 3 where the name of a link is wanted; a name in quotes, such as "3"',
+    ),
+    (changed(PRESS, ('link = "3"', 'link = "5"')), "slides.1.link: there is no link 5; one of 1, 2, 3, frame"),
+    (changed(PRESS, ('along = "frame"', 'along = "3"')), "slides.1: link 3 slides along itself; two different links"),
+    (changed(PRESS, ('at = "B"', 'at = "A"')), "slides.1.at: A is no point of the sliding link 3; one of B"),
+    (
+        changed(PRESS, ("direction = [1, 0]\n\n", 'direction = "O"\n\n')),
+        'slides.1.direction: the string "O" where two points are wanted; two points such as "O A"',
+    ),
+    (
+        changed(PRESS, ("direction = [1, 0]\n\n", "direction = [0, 0.0]\n\n")),
+        "slides.1.direction: the direction is zero; a vector that is not [0, 0]",
+    ),
+    (
+        changed(PRESS, ("direction = [1, 0]\n\n", "direction = true\n\n")),
+        "slides.1.direction: true where a number is wanted; a number such as 12.5",
+    ),
+    (
+        PRESS + '[[slides]]\nlink = "frame"\nalong = "3"\nat = "O"\ndirection = [1, 0]',
+        "slides.2: a second slide between links frame and 3; one slide between two links",
+    ),
+    # drives
+    (
+        PRESS[: PRESS.index("[[drive]]")],
+        "drive: mobility 1 but no drives; 1 more [[drive]], since links 1 2 3 can still move",
+    ),
+    (
+        PRESS + '[[drive]]\nlink = "2"\nomega = 1',
+        "drive: mobility 1 but 2 drives; fewer drives, or fewer joints and slides",
+    ),
+    (
+        PRESS + '[[drive]]\nlink = "1"\nomega = 1',
+        "drive.2: a second drive between links 1 and frame; one drive between two links",
+    ),
+    (
+        changed(PRESS, ('2 = "A M B"', '2 = "A"\n4 = "M B"')),
+        "drive: mobility 4 but 1 drive; 3 more [[drive]], since links 2 4 3 can still move",
+    ),
+    (
+        changed(OPEN, ("[motion.L]\nvelocity = [0, 1]", "")),
+        "drive: mobility 5 but 1 drive and 1 given motion (two degrees each); "
+        "2 more [[drive]], since links 1 2 3 can still move",
+    ),
+    (changed(PRESS, ('link = "1"', 'link = "frame"')), "drive.1.link: the frame is driven; a moving link"),
+    (
+        PRESS + 'relative_to = "1"',
+        "drive.1: link 1 is driven relative to itself; another link, or no relative_to for the frame",
+    ),
+    (PRESS + "rpm = 3", "drive.1: omega and rpm are both given; either omega in rad/s or rpm"),
+    (changed(PRESS, ("omega = 0.1", "")), "drive.1: omega is missing; either omega in rad/s or rpm"),
+    (changed(PRESS, ('link = "1"\nomega', "omega")), 'drive.1: link is missing; the driven link, such as link = "1"'),
+    (
+        changed(PRESS, ("omega = 0.1", "omega = 1979-05-27")),
+        "drive.1.omega: a date or time where a number is wanted; a number such as 12.5",
+    ),
+    (
+        changed(ACTUATOR, ('["rod", "barrel"]', '["barrel", "rod"]')),
+        'drive.1.slide: no slide of link barrel along link rod; perhaps slide = ["rod", "barrel"]',
+    ),
+    (
+        changed(ACTUATOR, ('["rod", "barrel"]', '["boom", "rod"]')),
+        'drive.1.slide: no slide of link boom along link rod; one of slide = ["rod", "barrel"]',
+    ),
+    (
+        changed(ACTUATOR, ('["rod", "barrel"]', '"rod"')),
+        'drive.1.slide: the string "rod" where two links are wanted; two links such as ["3", "2"]',
+    ),
+    (changed(ACTUATOR, ("speed = 0.5", "")), "drive.1: speed is missing; a length per second, such as speed = 0.5"),
+    # motions and questions
+    (
+        PRESS + "[motion.O]\nvelocity = [1, 1]",
+        "motion.O: O is a point of the frame, which stands still; a point of moving links only",
+    ),
+    (changed(OPEN, ("motion.L", "motion.l")), "motion.l: there is no point l; perhaps L"),
+    (
+        changed(OPEN, ("[0, 1]", "1")),
+        "motion.L.velocity: the number 1 where two numbers are wanted; two numbers such as [10, 5]",
+    ),
+    (PRESS + '[find]\nvelocity = ["C"]', "find.velocity: there is no point C; one of O, A, B, M"),
+    (
+        PRESS + '[find]\nvelocity = "A"',
+        'find.velocity: the string "A" where a list of points is wanted; a list such as ["A", "C"], or "all"',
+    ),
+    (
+        changed(PRESS, ("M = {", "Z = [9, 9]\nM = {")) + '[find]\nacceleration = ["Z"]',
+        "find.acceleration: no link has the point Z, so it has no motion; a point of a link",
+    ),
+    # bracing
+    (
+        changed(PRESS, ('3 = "B"', '3 = "B"\n4 = "O A"\n5 = "M N"'), ("M = {", "N = [5, 5]\nM = {")),
+        "links: links 1 4 are overbraced while link 5 is loose; "
+        "joints, slides and drives that hold each link just once",
+    ),
+    (
+        changed(PRESS, ('3 = "B"', '3 = "B"\n4 = "O M"\n5 = "A N"'), ("M = {", "N = [5, 5]\nM = {")),
+        "links: links 1 2 3 4 are overbraced while link 5 is loose; "
+        "joints, slides and drives that hold each link just once",
+    ),
+]
+
+
+def test_faults() -> None:
+    """Every fault has its one line: where it stands, what is wrong, what would be right."""
+    for text, line in FAULTS:
+        assert line in faults(text), text
+
+
+def test_all_faults_are_told_at_once() -> None:
+    """Faults that do not follow from each other are gathered, each once, none invented."""
+    text = changed(
+        PRESS, ("O = [0, 0]", "O = [0]"), ('"O A"', '"O AA AA"'), ("omega", "omega = 1\nrpm"), ("title", "titel")
+    )
+    assert [line.split(":")[0] for line in faults(text)] == ["titel", "points.O", "links.1", "drive.1"]
+    text = changed(ACTUATOR, ("C = [30, 40]", "C = [30]"), ("A = [60, 80]", 'A = "far"'))
+    assert [line.split(":")[0] for line in faults(text)] == ["points.C", "points.A"]
+    text = changed(ACTUATOR, ('at = "D"', 'at = "C"'))
+    assert [line.split(":")[0] for line in faults(text)] == ["slides.1.at"]
+
+
+def test_faults_are_full_lines() -> None:
+    """Whatever stands in a scene, a fault is one printable line with a place, a reason and a remedy."""
+    for line in faults(PRESS + '[motion."a\\nb"]\n[find]\nvelocity = ["\\u0007"]'):
+        assert line.isprintable()
+        assert line.count(": ") >= 1 and "; " in line
+
+
+PIECES = st.sampled_from(
+    [
+        *"[]{}=\"',.\n# -019",
+        *("nan", "1e400", "true", "1979-05-27", "0x" + "f" * 5000, "9" * 5000, "\\u0000", "\ud7ff", "\x00"),
+        *("[[drive]]\n", "[points]\n", "[find]\n", "[[", "1 = ", "angle = ", "frame", "slides", "motion.A", "A B"),
+    ]
+)
+
+
+@settings(max_examples=400, deadline=None)
+@given(
+    st.sampled_from([PRESS, OPEN, ACTUATOR]),
+    st.lists(st.tuples(st.integers(0, 600), st.integers(0, 30), PIECES), max_size=5),
+)
+@example("a = " + "9" * 5000, [])
+@example("a" + ".a" * 5000 + " = 1", [])
+def test_any_text_is_a_scene_or_a_scene_error(text: str, edits: list[tuple[int, int, str]]) -> None:
+    """However a scene's text is spoilt, nothing but a SceneError comes out, each line printable."""
+    for place, length, piece in edits:
+        text = text[:place] + piece + text[place + length :]
+    try:
+        assert isinstance(parse(text, "fuzz"), Scene)
+    except SceneError as error:
+        assert error.lines
+        assert all(line.isprintable() for line in error.lines)
+
+
+WORDS = st.sampled_from(
+    ["O", "A", "B", "M", "1", "2", "3", "frame", "O A", "A B", "B M", "left", "all", "velocity", "on", ""]
+)
+VALUES = st.recursive(
+    st.one_of(
+        WORDS.map(lambda word: f'"{word}"'),
+        st.sampled_from(["0", "1", "-2.5", "1e60", "90", "inf", "true", "07:32:00"]),
+    ),
+    lambda inner: st.one_of(
+        st.lists(inner, max_size=3).map(lambda items: f"[{', '.join(items)}]"),
+        st.dictionaries(
+            st.sampled_from(["from", "distance", "angle", "distances", "on", "side", "pick", "A", "O"]),
+            inner,
+            max_size=3,
+        ).map(lambda table: "{" + ", ".join(f"{key} = {value}" for key, value in table.items()) + "}"),
+    ),
+    max_leaves=6,
+)
+
+
+@settings(max_examples=400, deadline=None)
+@given(st.sampled_from([PRESS, OPEN, ACTUATOR]), st.integers(0, 40), VALUES)
+def test_any_value_anywhere_is_a_scene_or_a_scene_error(text: str, line: int, value: str) -> None:
+    """Whatever value stands behind any key, nothing but a SceneError comes out."""
+    lines = text.splitlines()
+    rows = [i for i, row in enumerate(lines) if "=" in row]
+    row = rows[line % len(rows)]
+    lines[row] = f"{lines[row].split('=')[0]} = {value}"
+    try:
+        parse("\n".join(lines), "fuzz")
+    except SceneError as error:
+        assert error.lines

@@ -69,7 +69,7 @@ class Report:
 
     def data(self) -> dict[str, Any]:
         """What `graphplan solve` prints."""
-        scene, results = self.scene, self.results
+        scene = self.scene
         return {
             "title": scene.title,
             "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
@@ -80,7 +80,6 @@ class Report:
             "method": self.drawing.method,
             "check": {kind: _number(value) if value else 0 for kind, value in self.check.items()},
             "steps": len(self.drawing.drawn) - self.drawing.drawn.givens,
-            **({} if results else {"note": "nothing was asked for"}),
         }
 
     def _merged(self, names: Iterable[str], **kinds: str) -> dict[str, Any]:

@@ -1,0 +1,67 @@
+"""The command line: one module a subcommand, and what they share."""
+
+from __future__ import annotations
+
+import argparse
+import importlib
+import os
+import sys
+from collections.abc import Sequence
+
+from graphplan.errors import GraphplanError
+
+SUBCOMMANDS = ("draw", "steps", "solve", "check")
+
+EXAMPLES = """\
+examples:
+  graphplan draw alt-eight-link -o sheet.svg    the construction sheet of a packaged scene
+  graphplan steps scene.toml                    the construction in words, step by step
+  graphplan solve scene.toml --exact            velocities and accelerations as fractions
+  graphplan check scene.toml                    the construction beside the analytic solver
+
+exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose is singular
+"""
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run one subcommand; its exit status."""
+    parser = _parser()
+    options = parser.parse_args(argv)
+    try:
+        status = int(options.run(options))
+        sys.stdout.flush()
+        return status
+    except GraphplanError as error:
+        for line in error.lines:
+            print(line, file=sys.stderr)
+        return error.status
+    except BrokenPipeError:
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
+    except KeyboardInterrupt:
+        return 130
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(
+        prog="graphplan",
+        description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as ordered "
+        "compass-and-straightedge steps, and checks them.",
+        epilog=EXAMPLES,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    for name in SUBCOMMANDS:
+        module = importlib.import_module(f"graphplan.commands.{name}")
+        summary, _, details = (module.__doc__ or "").partition("\n")
+        command = commands.add_parser(
+            name,
+            help=summary[0].lower() + summary[1:].rstrip("."),
+            description=summary,
+            epilog=details.strip() or None,
+            formatter_class=argparse.RawDescriptionHelpFormatter,
+        )
+        command.add_argument("scene", metavar="SCENE", help="a scene file, - for standard input, or a packaged scene")
+        module.options(command)
+        command.set_defaults(run=module.run)
+    return parser

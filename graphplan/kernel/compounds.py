@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, COMPASSES, DIVIDERS, primitive
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, primitive
 
 
 def _vector(P: Any, Q: Any) -> Any:

@@ -146,7 +146,7 @@ class Expander:
     def _crossing(self, k: int, l: int) -> float:
         """The sine of the angle between two lines."""
         (a, b, _), (c, e, _) = self.values[k], self.values[l]
-        return abs(a * e - b * c) / math.hypot(a, b) / math.hypot(c, e)
+        return float(abs(a * e - b * c) / math.hypot(a, b) / math.hypot(c, e))
 
     def _explain(self, op: Primitive, before: int, ranked: list[Trial], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is and why; at its last what it is good for."""
@@ -191,4 +191,4 @@ def _line_gap(one: Any, two: Any, centre: tuple[float, float], size: float) -> f
     p = (one[0] * centre[0] + one[1] * centre[1] + one[2]) / n
     foot = centre[0] - one[0] / n * p, centre[1] - one[1] / n * p
     gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
-    return gap + size * abs(one[0] * two[1] - one[1] * two[0]) / n / m
+    return float(gap + size * abs(one[0] * two[1] - one[1] * two[0]) / n / m)

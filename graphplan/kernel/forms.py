@@ -12,7 +12,6 @@ from typing import Any
 from graphplan.kernel import compounds, primitives  # noqa: F401  (forms extend the records made there)
 from graphplan.kernel.kinds import form
 
-
 # ---- straightedge and compasses ---------------------------------------------------------------------------------
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from dataclasses import replace
 
-from graphplan.kernel.program import Board, Mark, Program
+from graphplan.kernel.program import Board, Mark, Program, Step
 
 
 def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
@@ -22,9 +22,32 @@ def pruned(program: Program) -> Program:
         if needed[step.index]:
             for arg in step.args:
                 needed[arg] = True
-    place, steps = {}, []
+    place: dict[int, int] = {}
+    steps: list[Step] = []
     for step in program.steps:
         if needed[step.index]:
             place[step.index] = len(steps)
             steps.append(replace(step, index=len(steps), args=tuple(place[arg] for arg in step.args)))
     return Program(tuple(steps), tuple(place[index] for index in program.wanted))
+
+
+def gathered(program: Program) -> tuple[Program, list[int]]:
+    """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
+    order: list[int] = []
+    left = list(range(len(program)))
+    done = [False] * len(program)
+    while left:
+        panel = program.steps[left[0]].panel
+        later = []
+        for index in left:
+            step = program.steps[index]
+            if step.panel == panel and all(done[arg] for arg in step.args):
+                done[index] = True
+                order.append(index)
+            else:
+                later.append(index)
+        left = later
+    place = {index: position for position, index in enumerate(order)}
+    steps = [replace(program.steps[index], index=place[index], args=tuple(place[arg] for arg in program.steps[index].args))
+             for index in order]  # fmt: skip
+    return Program(tuple(steps), tuple(place[index] for index in program.wanted)), order

@@ -5,7 +5,7 @@ A mark is a name for a step's result and nothing more: it has no coordinates, so
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -56,7 +56,7 @@ class Mark:
         raise TypeError("a mark has no value while the construction is recorded: branch on the scene, not on the pose")
 
     __bool__ = __float__ = __lt__ = __gt__ = __le__ = __ge__ = _refuse
-    __eq__ = _refuse  # type: ignore[assignment]
+    __eq__ = _refuse
     __hash__ = object.__hash__
 
     def __repr__(self) -> str:
@@ -90,7 +90,7 @@ class Board:
         finally:
             self._context = before
 
-    def __getattr__(self, op: str) -> Any:
+    def __getattr__(self, op: str) -> Callable[..., Mark]:
         if op not in TABLE:
             raise AttributeError(op)
         return lambda *args, **given: self.draw(TABLE[op], args, **given)

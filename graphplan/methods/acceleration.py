@@ -19,9 +19,7 @@ from graphplan.methods.plan import Plan, Vector
 from graphplan.methods.poses import Pose
 from graphplan.methods.velocity import Velocity
 
-GREEK = dict(zip("ABCDEFGHIKLMNOPRSTUVWXYZ", (
-    "alpha beta gamma delta epsilon phi gamma eta iota kappa lambda mu nu omega pi rho sigma tau upsilon psi omega xi "
-    "psi zeta").split(), strict=True))  # fmt: skip
+GREEK = dict(zip("ABCDEFGHIKLMNOPRSTUVWXYZ", ["alpha", "beta", "gamma", "delta", "epsilon", "phi", "gamma", "eta", "iota", "kappa", "lambda", "mu", "nu", "omega", "pi", "rho", "sigma", "tau", "upsilon", "psi", "omega", "xi", "psi", "zeta"], strict=True))  # fmt: skip
 
 LAWS: dict[type, str] = {
     Swing: "what is left of the relative acceleration is tangential, square to the line of the points",
@@ -176,7 +174,7 @@ class Normal(Plan):
         """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
         side = self._side(link, K) or X
         points = self.pose.points
-        if X == side:
+        if side == X:
             m, w = self.velocity.relative(link, K, X)
             why = f"the relative normal acceleration of {X} about {K}"
             return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)

@@ -34,7 +34,8 @@ class Poses:
 def batch(construction: Construction, points: Mapping[str, Any]) -> Poses:
     """The construction replayed over the poses in `points`."""
     n, given = _coordinates(construction, points)
-    domain, faults, program = Arrays(), {}, construction.program
+    domain, program = Arrays(), construction.program
+    faults: dict[int, str] = {}
 
     def note(step: Step) -> None:
         for code, why, bad in domain.faults:

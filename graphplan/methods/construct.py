@@ -13,8 +13,8 @@ from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
-from graphplan.methods.planner import Planner
 from graphplan.methods.plan import Plan
+from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
@@ -71,10 +71,8 @@ class Draughtsman:
             P = names[0] if names else ""
             R = next((p for p in names if self.scene.points[p] != self.scene.points[P]), "")
             if R:
-                ends = [plan.end_in(link, p) for p in (P, R)]
-                begins = [plan.figure(link, p) for p in (P, R)]
-                points = self.pose.points
-                self._read(kind, link, points[P], points[R], begins[0], ends[0], begins[1], ends[1])
+                vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
+                self._read(kind, link, self.pose.points[P], self.pose.points[R], *vectors)
 
     def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The sliding of each pair whose point is asked for."""
@@ -129,8 +127,8 @@ def _planners(network: Network, method: str) -> list[Planner]:
     """The ways through the mechanism: one, or where facts run in rings one for each pole or place of a trial."""
     first = Planner(network, poles=method != "trial")
     first.plan()
-    rings = first.options or [move for move in first.moves if isinstance(move, Pole)]
-    if not rings or method == "poles":
+    ring = first.options or any(isinstance(move, Pole) for move in first.moves)
+    if not ring or method == "poles":
         return [first]
     trial = first
     if not first.options:

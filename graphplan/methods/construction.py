@@ -12,6 +12,7 @@ from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.tempo import Tempo
@@ -85,14 +86,19 @@ class Construction:
         return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-9 * (abs(centre[0]) + 1)))
 
     @cached_property
+    def _gathered(self) -> tuple[Program, list[Any]]:
+        program, order = gathered(self._expander.run())
+        return program, [self._expander.values[index] for index in order]
+
+    @property
     def drawn(self) -> Program:
         """The program in single movements."""
-        return self._expander.run()
+        return self._gathered[0]
 
     @property
     def values(self) -> list[Any]:
         """The float value of every step of `drawn`."""
-        return self._expander.values if self.drawn.steps else []
+        return self._gathered[1]
 
     def sentences(self) -> list[str]:
         """Each drawn step in words, with the law or purpose where there is one."""

@@ -274,8 +274,8 @@ class Planner:
         for body in loose:
             ends = self.places[body]
             if len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
-                pair = [next(b for b in self._at(place) if b != body) for place in ends]
-                bars.setdefault(frozenset(pair), []).append((body, *sorted(ends, key=lambda e: pair[ends.index(e)])))
+                (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
+                bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair_of, found in bars.items():
             if len(found) == 2 and pair_of not in self.joined and all(self._fit(b) for b in pair_of):
                 self._join(pair_of, found)

@@ -45,10 +45,10 @@ def tempo(scene: Scene) -> Tempo:
     for drive in scene.drives:
         if isinstance(drive, TurningDrive) and drive.omega:
             return Tempo(abs(drive.omega))
-    speeds = [abs(d.speed) for d in scene.drives if isinstance(d, SlidingDrive)]
-    speeds += [max(abs(v) for v in motion.velocity) for motion in scene.motions.values()]
-    fastest = max(speeds, default=0)
-    return Tempo(_round(5 * float(fastest) / _size(scene)) if fastest else Fraction(1))
+    speeds: list[Number] = [abs(d.speed) for d in scene.drives if isinstance(d, SlidingDrive)]
+    speeds += [abs(v) for motion in scene.motions.values() for v in motion.velocity]
+    fastest = max(map(float, speeds), default=0.0)
+    return Tempo(_round(5 * fastest / _size(scene)) if fastest else Fraction(1))
 
 
 def _size(scene: Scene) -> float:

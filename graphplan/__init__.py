@@ -22,4 +22,4 @@ __version__ = "0.1.0"
 __all__ = [
     "Construction", "ConstructionError", "GraphplanError", "Refused", "Scene", "SceneError", "SingularPose",
     "analytic", "construct", "load", "parse", "sheet",
-]  # fmt: skip
+]

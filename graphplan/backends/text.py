@@ -17,7 +17,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
     lines = [scene.title, *filter(None, [scene.source]), ""]
     lines += [f"Structure: {line}" for line in structure]
     lines += ["", f"Given, on the mechanism plan: {', '.join(s.name for s in drawn.steps[: drawn.givens])}.",
-              _tempo(drawing), ""]  # fmt: skip
+              _tempo(drawing), ""]
     panel = ""
     for step, sentence in zip(drawn.steps[drawn.givens :], drawing.sentences()[drawn.givens :], strict=True):
         if step.panel != panel:
@@ -33,7 +33,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
 def _tempo(drawing: Construction) -> str:
     unit = drawing.scene.units.length
     return (f"Velocities are drawn {drawing.kappa:.6g} s long: {unit} on the plan for {unit}/s; "
-            f"accelerations {drawing.kappa**2:.6g} s^2 long.")  # fmt: skip
+            f"accelerations {drawing.kappa**2:.6g} s^2 long.")
 
 
 def _numbered(number: int, sentence: str) -> list[str]:
@@ -63,7 +63,7 @@ def steps(drawing: Construction, structure: Iterable[str] = ()) -> dict[str, Any
             "reason": step.reason,
             "links": list(step.links),
             "value": list(values[step.index]),
-        })  # fmt: skip
+        })
     return {
         "title": drawing.scene.title,
         "source": drawing.scene.source,

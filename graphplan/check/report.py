@@ -76,7 +76,7 @@ class Report:
             "points": self._merged(scene.points, velocity="velocity", acceleration="acceleration"),
             "links": self._merged(scene.moving, omega="omega", alpha="alpha"),
             "slides": self._merged((s.name for s in scene.slides), velocity="slide velocity",
-                                   acceleration="slide acceleration"),  # fmt: skip
+                                   acceleration="slide acceleration"),
             "method": self.drawing.method,
             "check": {kind: _number(value) if value else 0 for kind, value in self.check.items()},
             "steps": len(self.drawing.drawn) - self.drawing.drawn.givens,
@@ -87,14 +87,14 @@ class Report:
         table = {}
         for name in names:
             entry = {k: _number(self.results[kind][name]) for k, kind in kinds.items()
-                     if name in self.results.get(kind, {})}  # fmt: skip
+                     if name in self.results.get(kind, {})}
             if entry:
                 table[name] = entry
         return table
 
 
 def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "orthogonal",
-           strict: bool = False) -> Report:  # fmt: skip
+           strict: bool = False) -> Report:
     """Construct, read, solve and compare.
 
     Fails with `SingularPose`, which names the links and the lines that should meet; with `Refused` where --exact meets
@@ -118,7 +118,7 @@ def _miss(drawing: Construction, domain: Domain) -> str:
     except ConstructionError as error:
         return f"{error.drawing}: {error.why}"
     flattest = min((step for step in drawing.program.steps if step.op.name == "meet"),
-                   key=lambda step: _sine(drawing, step.args), default=None)  # fmt: skip
+                   key=lambda step: _sine(drawing, step.args), default=None)
     if flattest is None:
         return ""
     one, two = (drawing.program.text(arg) for arg in flattest.args)

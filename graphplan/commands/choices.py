@@ -39,7 +39,8 @@ def write(text: str, path: str | None) -> None:
     except OSError as error:
         if temporary and os.path.exists(temporary):
             os.unlink(temporary)
-        raise Refused(f"{path}: output", f"cannot be written ({error.strerror})", "name a file in a folder that can") from None
+        why = f"cannot be written ({error.strerror})"
+        raise Refused(f"{path}: output", why, "name a file in a folder that can be written to") from None
 
 
 def _umask() -> int:

@@ -7,4 +7,4 @@ from graphplan.kernel.program import Board, Mark, Program, Step
 __all__ = [
     "CIRCLE", "FAILURES", "LINE", "OPENING", "POINT", "TABLE",
     "Board", "Mark", "Primitive", "Program", "Step", "compounds", "forms", "primitives",
-]  # fmt: skip
+]

@@ -29,7 +29,7 @@ def _turned(u: Any, turn: str) -> Any:
 
 
 @primitive((POINT, POINT), LINE, COMPASSES, "Draw {out}, the perpendicular bisector of {0}{1}.",
-           claims=(("halfway", 0, 1),), fails=("points-coincide",))  # fmt: skip
+           claims=(("halfway", 0, 1),), fails=("points-coincide",))
 def bisector(d: Any, P: Any, Q: Any) -> Any:
     """The perpendicular bisector of two points."""
     u = _vector(P, Q)
@@ -37,14 +37,15 @@ def bisector(d: Any, P: Any, Q: Any) -> Any:
     return u[0], u[1], -(u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
 
 
-@primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.", claims=(("same", (0, -1), (-1, 1)),))
+@primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.",
+           claims=(("same", (0, -1), (-1, 1)),))
 def midpoint(d: Any, P: Any, Q: Any) -> Any:
     """The point halfway between two points."""
     return (P[0] + Q[0]) / 2, (P[1] + Q[1]) / 2
 
 
 @primitive((LINE, POINT), POINT, SET_SQUARES, "From {1} drop the perpendicular on {0}: mark its foot {out}.",
-           claims=(("on", 0), ("upright", 0, 1)))  # fmt: skip
+           claims=(("on", 0), ("upright", 0, 1)))
 def foot(d: Any, l: Any, P: Any) -> Any:
     """The foot of the perpendicular from a point to a line."""
     off = (l[0] * P[0] + l[1] * P[1] + l[2]) / (l[0] * l[0] + l[1] * l[1])
@@ -52,21 +53,21 @@ def foot(d: Any, l: Any, P: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
-           claims=(("same", (0, 1), (2, -1)),))  # fmt: skip
+           claims=(("same", (0, 1), (2, -1)),))
 def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ laid off from R."""
     return R[0] + (Q[0] - P[0]), R[1] + (Q[1] - P[1])
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
-           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),))  # fmt: skip
+           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),))
 def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ, turned a quarter counter-clockwise, laid off from R."""
     return R[0] - (Q[1] - P[1]), R[1] + (Q[0] - P[0])
 
 
 @primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector from {1} to {2}: draw {out}.",
-           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0)  # fmt: skip
+           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0)
 def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
     """A line moved by the vector PQ."""
     return l[0], l[1], l[2] - (l[0] * (Q[0] - P[0]) + l[1] * (Q[1] - P[1]))
@@ -74,7 +75,7 @@ def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "Divide {3}{4} in {out} as {2} divides {0}{1}.",
-           claims=(("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)), fails=("points-coincide",))  # fmt: skip
+           claims=(("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)), fails=("points-coincide",))
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
     u = _vector(A, B)
@@ -86,7 +87,7 @@ def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "On {3}{4} draw the figure similar to {0}{1}{2}, its sides {turn}: mark {out}.",
            claims=(("image", 0, 2, 3, -1), ("image", 1, 2, 4, -1)), fails=("points-coincide",), params=("turn",),
-           source="Rosenauer 1939, No. 14; Ozols 1974, 5-2")  # fmt: skip
+           source="Rosenauer 1939, No. 14; Ozols 1974, 5-2")
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
     u = _vector(A, B)
@@ -99,7 +100,7 @@ def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> 
 @primitive((POINT, LINE, POINT, LINE, POINT), LINE, STRAIGHTEDGE,
            "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a point of their link.",
            claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
-           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1)  # fmt: skip
+           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1)
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 
@@ -116,7 +117,7 @@ def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, SET_SQUARES,
            "From {1}, the image of {0}, and the locus {3}, mark {out}, the image of {2}.",
-           claims=(("on", 3), ("image", 0, 2, 1, -1)), fails=("lines-parallel",), params=("turn",))  # fmt: skip
+           claims=(("on", 3), ("image", 0, 2, 1, -1)), fails=("lines-parallel",), params=("turn",))
 def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:
     """The image of A, where the image of C is known and both A and B of the same link have a locus.
 
@@ -136,7 +137,7 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
            "Construct the relative normal acceleration of {1} about {0} from the relative velocity {2}{3}; "
            "from {4} lay it off: mark {out}.",
            claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
-           fails=("points-coincide",), source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22")  # fmt: skip
+           fails=("points-coincide",), source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22")
 def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """The end a of the vector ka = v^2/KA, parallel to KA and away from k, v being the length mw.
 
@@ -149,10 +150,10 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
-           "Construct half the Coriolis vector of the pair at {1} from its orthogonal relative velocity {1}{3} and that "
-           "of the guide's turning about {0}, {1}{2}; from {4} lay it off twice, reversed: mark {out}.",
+           "Construct half the Coriolis vector at {1} from the orthogonal relative velocity {1}{3} and that of the "
+           "guide's turning about {0}, {1}{2}; from {4} lay it off twice, reversed: mark {out}.",
            claims=(("coriolis", 0, 1, 2, 3, 4),), fails=("points-coincide",),
-           source="Ozols 1974, 5-3, fig. 5-24")  # fmt: skip
+           source="Ozols 1974, 5-3, fig. 5-24")
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """b less the Coriolis vector: BT : BP is the guide's turning, BR the orthogonal relative velocity of the pair."""
     u = _vector(B, P)
@@ -164,7 +165,7 @@ def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
            "nothing.", claims=(("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
-           fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14", where=0)  # fmt: skip
+           fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14", where=0)
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
     scale = (l1[0] * l2[0] + l1[1] * l2[1]) / (l2[0] * l2[0] + l2[1] * l2[1])

@@ -39,4 +39,5 @@ def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionErr
     """The rule's fault with its step attached, in the letters of the sheet."""
     names = ", ".join(program.text(arg) for arg in step.args)
     drawing = f"{program.text(step.index)} = {step.op.name}({names})"
-    return ConstructionError(fault.code, program.number(step.index), drawing, fault.why, FAILURES[fault.code][1], step.links)
+    what_to_do = FAILURES[fault.code][1]
+    return ConstructionError(fault.code, program.number(step.index), drawing, fault.why, what_to_do, step.links)

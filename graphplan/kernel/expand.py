@@ -26,7 +26,7 @@ BY_SET_SQUARE = frozenset({
     "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
     "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
     "quarter", "bisector",
-})  # fmt: skip
+})
 STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
 
 
@@ -93,7 +93,7 @@ class Expander:
         return Program(tuple(self.board.steps), tuple(place[index].step.index for index in self.program.wanted))
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             why: str = "", names: Mapping[str, str] | None = None) -> Mark:  # fmt: skip
+             why: str = "", names: Mapping[str, str] | None = None) -> Mark:
         """Draw one operation: as one step if it is one, else in its best form."""
         trials = [] if op.name in self.keep else [self._try(op, args, params, truth, name) for name in op.forms]
         ranked = sorted((trial for trial in trials if trial), key=self._rank)
@@ -108,7 +108,7 @@ class Expander:
         return not (self.prefer and trial.form.startswith(self.prefer)), *trial.rank
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
-                name: str = "") -> Mark:  # fmt: skip
+                name: str = "") -> Mark:
         """Record one step and give it its value."""
         mark = self.board.draw(op, args, why=why, name=name, **params)
         if mark.step.index == len(self.values):
@@ -117,7 +117,7 @@ class Expander:
         return mark
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             form: str) -> Trial | None:  # fmt: skip
+             form: str) -> Trial | None:
         """Draw a form without letters, look at it, take it back."""
         before = len(self.board.steps)
         try:
@@ -173,6 +173,11 @@ class Pencil:
         if verb not in TABLE:
             raise AttributeError(verb)
         return lambda *args, name="", **params: self._draw(TABLE[verb], args, name, params)
+
+    def side(self, P: Mark, Q: Mark) -> Mark:
+        """The line through two points, whichever way it runs: drawn once for both orders."""
+        one, two = sorted((P, Q), key=lambda mark: mark.step.index)
+        return self._draw(TABLE["line"], (one, two), "", {})
 
     def _draw(self, op: Primitive, args: tuple[Mark, ...], name: str, params: dict[str, Any]) -> Mark:
         expander, letter = self._expander, (self._names or {}).get(name, "")

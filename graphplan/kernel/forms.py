@@ -12,7 +12,7 @@ from typing import Any
 from graphplan.kernel import compounds, primitives  # noqa: F401  (forms extend the records made there)
 from graphplan.kernel.kinds import form
 
-# ---- straightedge and compasses ---------------------------------------------------------------------------------
+# ---- straightedge and compasses -----------------------------------------------------------------------------
 
 
 @form("bisector", "arcs")
@@ -24,7 +24,7 @@ def _(s: Any, P: Any, Q: Any) -> Any:
 
 @form("midpoint", "arcs")
 def _(s: Any, P: Any, Q: Any) -> Any:
-    return s.meet(s.line(P, Q), s.bisector(P, Q))
+    return s.meet(s.side(P, Q), s.bisector(P, Q))
 
 
 @form("foot", "perpendicular")
@@ -40,7 +40,7 @@ def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
 
 @form("transfer", "parallelogram")
 def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
-    return s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q))
+    return s.meet(s.parallel(s.side(P, Q), R), s.parallel(s.side(P, R), Q))
 
 
 @form("quarter", "dividers")
@@ -81,18 +81,18 @@ for _way in ("on", "back"):
         form("parallel", f"rhombus, {_way}, {_side}")(_rhombus(_way, _side))
 
 
-# ---- figures in proportion ----------------------------------------------------------------------------------------
+# ---- figures in proportion ----------------------------------------------------------------------------------
 
 
 def _ray(way: str) -> Callable[..., Any]:
     """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
 
     def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-        PQ = s.line(P, Q)
+        PQ = s.side(P, Q)
         ray = s.perpendicular(PQ, P)
         B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
         C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
-        return s.meet(s.parallel(s.line(B1, Q), C1), PQ)
+        return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
 
     return drawn
 
@@ -104,7 +104,7 @@ form("divide", "ray, beyond")(_ray("back"))
 @form("similar", "sides")
 def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     side = getattr(s, turn)
-    return s.meet(side(s.line(A, C), a), side(s.line(B, C), b))
+    return s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
 
 
 @form("similar", "ray")
@@ -122,7 +122,7 @@ def _(s: Any, l: Any, P: Any, Q: Any) -> Any:
     return s.parallel(l, s.transfer(P, Q, s.foot(l, P)))
 
 
-# ---- loci of a link with two facts ------------------------------------------------------------------------------
+# ---- loci of a link with two facts --------------------------------------------------------------------------
 
 
 def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
@@ -139,20 +139,20 @@ def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
 def _(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
     Q = s.meet(_home(s, alpha, A, turn), _home(s, beta, B, turn), name="Q")
     q = s.meet(alpha, beta, name="q")
-    return getattr(s, turn)(s.line(Q, C), q)
+    return getattr(s, turn)(s.side(Q, C), q)
 
 
 def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
     """The image of C in one trial figure, its side A'B' fitted between the loci."""
     a = s.pick(alpha, A, B, ratio=ratio, name="A" + mark)
-    b = s.meet(getattr(s, turn)(s.line(A, B), a), beta, name="B" + mark)
+    b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
     return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
 
 
 def _one_trial(ratio: float) -> Callable[..., Any]:
     def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         c = _trial(s, A, alpha, B, beta, C, turn, ratio, "'")
-        return s.line(s.meet(alpha, beta, name="U"), c)
+        return s.side(s.meet(alpha, beta, name="U"), c)
 
     return drawn
 
@@ -160,7 +160,7 @@ def _one_trial(ratio: float) -> Callable[..., Any]:
 def _two_trials(one: float, two: float) -> Callable[..., Any]:
     def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
         c = _trial(s, A, alpha, B, beta, C, turn, one, "'")
-        return s.line(c, _trial(s, A, alpha, B, beta, C, turn, two, "''"))
+        return s.side(c, _trial(s, A, alpha, B, beta, C, turn, two, "''"))
 
     return drawn
 
@@ -173,16 +173,16 @@ for _name, _pair in (("", (0.3, -0.3)), (" further out", (0.7, 0.2))):
 
 @form("settle", "its own locus")
 def _(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
-    return s.meet(getattr(s, turn)(s.line(C, A), c), alpha)
+    return s.meet(getattr(s, turn)(s.side(C, A), c), alpha)
 
 
 @form("settle", "the other locus")
 def _(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
-    b = s.meet(getattr(s, turn)(s.line(C, B), c), beta)
+    b = s.meet(getattr(s, turn)(s.side(C, B), c), beta)
     return s.similar(C, B, A, c, b, turn=turn)
 
 
-# ---- accelerations ------------------------------------------------------------------------------------------------
+# ---- accelerations ------------------------------------------------------------------------------------------
 
 
 def _semicircle(side: str) -> Callable[..., Any]:
@@ -191,7 +191,7 @@ def _semicircle(side: str) -> Callable[..., Any]:
     def drawn(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
         M = s.midpoint(K, A)
         D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(A, s.opening(m, w)), side=side)
-        return s.transfer(s.foot(s.line(K, A), D), A, k)
+        return s.transfer(s.foot(s.side(K, A), D), A, k)
 
     return drawn
 
@@ -200,10 +200,10 @@ def _companion(way: str) -> Callable[..., Any]:
     """v > KA: the velocity is a leg, KA its projection; the hypotenuse is v^2/KA."""
 
     def drawn(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
-        KA = s.line(K, A)
+        KA = s.side(K, A)
         arc = s.circle(A, s.opening(m, w))
         D = s.line_meets_circle(s.perpendicular(KA, K), arc, way=way)
-        E = s.meet(KA, s.perpendicular(s.line(A, D), D))
+        E = s.meet(KA, s.perpendicular(s.side(A, D), D))
         return s.transfer(E, A, k)
 
     return drawn
@@ -224,27 +224,27 @@ def _laid_off_twice(s: Any, B: Any, half: Any, b: Any) -> Any:
 
 @form("coriolis", "at the pair")
 def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
-    half = s.meet(s.parallel(s.line(R, P), T), s.line(B, R), name="K")
+    half = s.meet(s.parallel(s.side(R, P), T), s.side(B, R), name="K")
     return _laid_off_twice(s, B, half, b)
 
 
 @form("coriolis", "at another point of the guide's link")
 def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     D, T1 = s.quarter(B, P, B), s.quarter(B, T, B)
-    half = s.meet(s.parallel(s.line(R, D), T1), s.line(B, R), name="K")
+    half = s.meet(s.parallel(s.side(R, D), T1), s.side(B, R), name="K")
     return _laid_off_twice(s, B, half, b)
 
 
-# ---- false position -----------------------------------------------------------------------------------------------
+# ---- false position -----------------------------------------------------------------------------------------
 
 
 @form("false_position", "errors as ordinates")
 def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     E1, E2 = s.transfer(s.foot(l1, Z1), Z1, A1), s.transfer(s.foot(l2, Z2), Z2, A2)
-    return s.meet(s.line(A1, A2), s.line(E1, E2))
+    return s.meet(s.side(A1, A2), s.side(E1, E2))
 
 
 @form("false_position", "errors as ordinates, turned")
 def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     E1, E2 = s.quarter(s.foot(l1, Z1), Z1, A1), s.quarter(s.foot(l2, Z2), Z2, A2)
-    return s.meet(s.line(A1, A2), s.line(E1, E2))
+    return s.meet(s.side(A1, A2), s.side(E1, E2))

@@ -18,7 +18,7 @@ POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
 SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
     "scale", "straightedge", "set squares", "compasses", "dividers", "pencil",
-)  # fmt: skip
+)
 
 Claim = tuple[Any, ...]
 
@@ -70,7 +70,7 @@ FAILURES: dict[str, tuple[str, str]] = {
     ),
     "trials-agree": ("both trial figures miss by the same amount", "another pose: this one is singular"),
     "not-rational": ("a root is irrational", "leave out --exact"),
-}  # fmt: skip
+}
 
 
 def primitive(

@@ -48,6 +48,6 @@ def gathered(program: Program) -> tuple[Program, list[int]]:
                 later.append(index)
         left = later
     place = {index: position for position, index in enumerate(order)}
-    steps = [replace(program.steps[index], index=place[index], args=tuple(place[arg] for arg in program.steps[index].args))
-             for index in order]  # fmt: skip
+    old = [program.steps[index] for index in order]
+    steps = [replace(s, index=place[s.index], args=tuple(place[arg] for arg in s.args)) for s in old]
     return Program(tuple(steps), tuple(place[index] for index in program.wanted)), order

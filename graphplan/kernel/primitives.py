@@ -35,7 +35,7 @@ def begin(d: Any, /, *, plan: str, number: int) -> Any:
 
 
 @primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in its given direction.",
-           claims=(("on", 0),), params=("dx", "dy"))  # fmt: skip
+           claims=(("on", 0),), params=("dx", "dy"))
 def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """The line through a point in a direction that the scene gives."""
     a, b = -d.lift(dy), d.lift(dx)
@@ -43,7 +43,7 @@ def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw the line through {0} and {1}.",
-           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))  # fmt: skip
+           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
     dx, dy = Q[0] - P[0], Q[1] - P[1]
@@ -53,21 +53,21 @@ def line(d: Any, P: Any, Q: Any) -> Any:
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
-           claims=(("on", 1), ("parallel", 0)))  # fmt: skip
+           claims=(("on", 1), ("parallel", 0)))
 def parallel(d: Any, l: Any, P: Any) -> Any:
     """The parallel to a line through a point, running the same way."""
     return l[0], l[1], -(l[0] * P[0] + l[1] * P[1])
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
-           claims=(("on", 1), ("perpendicular", 0)))  # fmt: skip
+           claims=(("on", 1), ("perpendicular", 0)))
 def perpendicular(d: Any, l: Any, P: Any) -> Any:
     """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
     return -l[1], l[0], l[1] * P[0] - l[0] * P[1]
 
 
 @primitive((LINE, LINE), POINT, PENCIL, "Mark {out} where {0} meets {1}.",
-           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",))  # fmt: skip
+           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",))
 def meet(d: Any, k: Any, l: Any) -> Any:
     """The intersection of two lines."""
     one, two = k[0] * l[1], l[0] * k[1]
@@ -83,14 +83,14 @@ def opening(d: Any, P: Any, Q: Any) -> Any:
 
 
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
-           claims=(("centre", 0), ("opened", 1)), where=0)  # fmt: skip
+           claims=(("centre", 0), ("opened", 1)), where=0)
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
     return C[0], C[1], o[0]
 
 
 @primitive((LINE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, the crossing further {way} along it.",
-           claims=(("on", 0), ("on", 1), ("way", 0, 1)), fails=("line-misses-circle",), params=("way",))  # fmt: skip
+           claims=(("on", 0), ("on", 1), ("way", 0, 1)), fails=("line-misses-circle",), params=("way",))
 def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
     """One of the two intersections of a line with a circle: further `on` or further `back` along the line."""
     n2 = l[0] * l[0] + l[1] * l[1]
@@ -102,7 +102,7 @@ def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
 
 @primitive((CIRCLE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, on the {side} of the line of centres.",
            claims=(("on", 0), ("on", 1), ("side", 0, 1)), fails=("circles-miss", "circles-concentric"),
-           params=("side",))  # fmt: skip
+           params=("side",))
 def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     """One of the two intersections of two circles: left or right of the ray from the first centre to the second."""
     dx, dy = m[0] - k[0], m[1] - k[1]
@@ -114,8 +114,9 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx
 
 
-@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
-           claims=(("along", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
+@primitive((POINT, POINT, POINT), POINT, SCALE,
+           "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
+           claims=(("along", (2, -1), (0, 1)),), params=("ratio",))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ laid off from R."""
     r = d.lift(ratio)
@@ -123,7 +124,8 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times the vector from {0} to {1}, "
-           "turned a quarter counter-clockwise: mark {out}.", claims=(("across", (2, -1), (0, 1)),), params=("ratio",))  # fmt: skip
+           "turned a quarter counter-clockwise: mark {out}.",
+           claims=(("across", (2, -1), (0, 1)),), params=("ratio",))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
     r = d.lift(ratio)
@@ -131,7 +133,7 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
-           params=("length",))  # fmt: skip
+           params=("length",))
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
     unit = d.sqrt(l[0] * l[0] + l[1] * l[1], "not-rational", "a length along this line is irrational")
@@ -146,7 +148,7 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial.",
-           claims=(("on", 0),), params=("ratio",), where=0)  # fmt: skip
+           claims=(("on", 0),), params=("ratio",), where=0)
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
     n2 = l[0] * l[0] + l[1] * l[1]

@@ -95,6 +95,11 @@ class Board:
             raise AttributeError(op)
         return lambda *args, **given: self.draw(TABLE[op], args, **given)
 
+    def side(self, P: Mark, Q: Mark) -> Mark:
+        """The line through two points, whichever way it runs: drawn once for both orders."""
+        one, two = sorted((P, Q), key=lambda mark: mark.step.index)
+        return self.line(one, two)
+
     def draw(
         self,
         op: Primitive,
@@ -117,7 +122,7 @@ class Board:
             raise ValueError(f"{op.name} was given a mark of another board")
         panel = args[op.where].step.panel if args else self._context["panel"]
         step = Step(len(self.steps), "", op, tuple(arg.step.index for arg in args), params,
-                    panel, why, self._context["links"], names or {}, form, reason)  # fmt: skip
+                    panel, why, self._context["links"], names or {}, form, reason)
         same = self._drawn.get(step.key)
         if same is not None and op.name != "given":  # coincident points of the pose stay apart
             if name and not same.step.name:

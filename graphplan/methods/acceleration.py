@@ -19,7 +19,11 @@ from graphplan.methods.plan import Plan, Vector
 from graphplan.methods.poses import Pose
 from graphplan.methods.velocity import Velocity
 
-GREEK = dict(zip("ABCDEFGHIKLMNOPRSTUVWXYZ", ["alpha", "beta", "gamma", "delta", "epsilon", "phi", "gamma", "eta", "iota", "kappa", "lambda", "mu", "nu", "omega", "pi", "rho", "sigma", "tau", "upsilon", "psi", "omega", "xi", "psi", "zeta"], strict=True))  # fmt: skip
+GREEK = {
+    "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
+    "I": "iota", "K": "kappa", "L": "lambda", "M": "mu", "N": "nu", "O": "omega", "P": "pi", "R": "rho",
+    "S": "sigma", "T": "tau", "U": "upsilon", "V": "psi", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
+}
 
 LAWS: dict[type, str] = {
     Swing: "what is left of the relative acceleration is tangential, square to the line of the points",
@@ -54,7 +58,7 @@ class Normal(Plan):
         self.order: dict[str, int] = {}
         self.anchors = self._anchors()
 
-    # ---- the links' figures -----------------------------------------------------------------------------------------
+    # ---- the links' figures ---------------------------------------------------------------------------------
 
     def _moving(self, link: str) -> bool:
         return self.net.body[link] != self.net.ground
@@ -187,7 +191,7 @@ class Normal(Plan):
         names = [p for p in scene.links[link] if p != K and scene.points[p] != at]
         return max(names, key=lambda p: len(scene.links_of[p]) > 1, default=None)
 
-    # ---- drives, guides, given motions --------------------------------------------------------------------------------
+    # ---- drives, guides, given motions ----------------------------------------------------------------------
 
     def start(self, weld: Weld, point: str) -> Mark:
         return self.pose.points[weld.slide.at if weld.slide else weld.at]
@@ -249,12 +253,12 @@ class Normal(Plan):
             start = self.moved(self.figure(bar, G[0]), self.figure(bar, D[0]), begin)
             origin = start if origin is None else origin
             tip = self.moved(end, start, origin)
-            side = self.board.line(self.point(D), self.point(G))
+            side = self.board.side(self.point(D), self.point(G))
             gaps.append(self.board.perpendicular(side, tip))
         assert origin is not None
         return origin, self.board.meet(*gaps)
 
-    # ---- letters --------------------------------------------------------------------------------------------------------
+    # ---- letters --------------------------------------------------------------------------------------------
 
     def end_name(self, place: Place) -> str:
         return f"{place[0]}_1" + (f"({place[1]})" if place[1] in self.net.body else "")

@@ -46,9 +46,9 @@ def batch(construction: Construction, points: Mapping[str, Any]) -> Poses:
     with np.errstate(all="ignore"):
         results = construction.read(domain, given, note)
     pairs = {kind: {name: _complex(pair, n) for name, pair in results.get(kind, {}).items()}
-             for kind in ("velocity", "acceleration")}  # fmt: skip
+             for kind in ("velocity", "acceleration")}
     rates = {kind: {name: np.broadcast_to(value, (n,)).copy() for name, value in results.get(kind, {}).items()}
-             for kind in ("omega", "alpha")}  # fmt: skip
+             for kind in ("omega", "alpha")}
     return Poses(**pairs, **rates, faults=dict(sorted(faults.items())))
 
 

@@ -119,7 +119,7 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
     best.prefer, best.strict = METHODS.get(method, ""), strict
     if len(drawn) > 1:
         best.notes = [f"ring of links: {best.ways} (flattest crossing {_flattest(best):.0f} degrees), the best of "
-                      f"{len(drawn)} ways that were weighed"]  # fmt: skip
+                      f"{len(drawn)} ways that were weighed"]
     return best
 
 

@@ -103,7 +103,7 @@ class Construction:
     def sentences(self) -> list[str]:
         """Each drawn step in words, with the law or purpose where there is one."""
         return [self.drawn.sentence(s.index) + (f" ({s.why[0].upper()}{s.why[1:]}.)" if s.why else "")
-                for s in self.drawn.steps]  # fmt: skip
+                for s in self.drawn.steps]
 
     @property
     def forms(self) -> list[str]:
@@ -127,7 +127,8 @@ class Construction:
                 names.extend(filter(None, [self.ways]))
                 if "auxiliary points" in names:
                     names[names.index("auxiliary points")] = "auxiliary points " + ", ".join(self._letters())
-                found[kind] = list(dict.fromkeys(n for n in names if n != "auxiliary points")) or [PLAIN[self.turned, kind]]
+                once = list(dict.fromkeys(name for name in names if name != "auxiliary points"))
+                found[kind] = once or [PLAIN[self.turned, kind]]
             else:
                 found.pop(kind, None)
         return found

@@ -1,7 +1,7 @@
 """The moves of a construction: what one turn of the planner adds to what is known.
 
-A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place whose
-end it carries and by its source: the body, slide or seed that gives it.
+A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place
+whose end it carries and by its source: the body, slide or seed that gives it.
 """
 
 from __future__ import annotations

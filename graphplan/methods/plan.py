@@ -1,11 +1,11 @@
 """A plan: how the moves are drawn, whatever the plan is of.
 
-Velocities and accelerations are one linear problem. On each plan the ends of a link's vectors are the image of the link,
-with parallel sides or a quarter turned (`turn`). What differs is where a point's vector begins:
+Velocities and accelerations are one linear problem. On each plan the ends of a link's vectors are the image of the
+link, with parallel sides or a quarter turned (`turn`). What differs is where a point's vector begins:
 
 - `home(place)` is the mark from which the place's vector is laid off;
-- `figure(link, X)` is the mark where X stands in the link's own figure: a joint's two links have it apart where a ring of
-  links does not close on the plan. Between home and figure all marks shift by that vector.
+- `figure(link, X)` is the mark where X stands in the link's own figure: a joint's two links have it apart where a ring
+  of links does not close on the plan. Between home and figure all marks shift by that vector.
 
 Plans: orthogonal velocities on the mechanism plan, relative normal accelerations, and the two polar plans.
 """
@@ -39,7 +39,7 @@ from graphplan.methods.network import POLE, Network, Place, Weld
 from graphplan.methods.poses import Pose
 
 Vector = tuple[Mark, Mark]
-TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where the trial figures stand on their locus, as a part of a link's length
+TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on their locus, in lengths of a link
 
 
 class Plan:
@@ -56,7 +56,7 @@ class Plan:
         self.known: dict[str, list[Place]] = {body: [] for body in net.members}
         self.pole_vectors: dict[tuple[Place, str], Vector] = {}
 
-    # ---- what a plan says of itself ---------------------------------------------------------------------------------
+    # ---- what a plan says of itself -------------------------------------------------------------------------
 
     def home(self, place: Place) -> Mark:
         raise NotImplementedError
@@ -98,7 +98,7 @@ class Plan:
         """The law by which a move is drawn, for the step that makes its mark."""
         return ""
 
-    # ---- drawing moves ------------------------------------------------------------------------------------------------
+    # ---- drawing moves --------------------------------------------------------------------------------------
 
     def draw(self, moves: Iterable[Move]) -> None:
         for move in moves:
@@ -116,7 +116,7 @@ class Plan:
                 self._end(place, self.seeded(place))
             case Swing(body, K, X):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
-                side = self.board.line(self.point(K), self.point(X))
+                side = self.board.side(self.point(K), self.point(X))
                 self._locus((X, body), getattr(self.board, self.turn)(side, through), move)
             case Slip(body, A, X, like):
                 self._locus((X, body), self._slipped(body, A, X, like), move)
@@ -176,7 +176,7 @@ class Plan:
         """The place on the mechanism plan."""
         return self.pose.points[place[0]]
 
-    # ---- between home and figure --------------------------------------------------------------------------------------
+    # ---- between home and figure ----------------------------------------------------------------------------
 
     def _inward(self, body: str, place: Place, mark: Mark) -> Mark:
         """A mark at a place's home, shifted into the figure of the body's top link."""
@@ -255,7 +255,7 @@ class Plan:
             return self.net.ground
         return next(b for b in alike if len(self.known[b]) > 1)
 
-    # ---- the single moves ---------------------------------------------------------------------------------------------
+    # ---- the single moves -----------------------------------------------------------------------------------
 
     def _slipped(self, body: str, A: Locus, X: Place, like: str) -> Mark:
         """A's locus moved along by the known vector from A's end to X's."""
@@ -315,14 +315,14 @@ class Plan:
         """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
         letter = self.pose.letter(body)
         trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
-                 for mark in ("'", "''")}  # fmt: skip
+                 for mark in ("'", "''")}
         return {"Q": letter, "q": self.end_name((letter, "")), "U": f"U_{body}", **trial}
 
-    # ---- relative poles and trials --------------------------------------------------------------------------------
+    # ---- relative poles and trials --------------------------------------------------------------------------
 
     def _pole(self, move: Pole) -> None:
         if move.place[0] not in self.pose.points:
-            bars = [self.board.line(self.point(one), self.point(two)) for _, one, two in move.bars]
+            bars = [self.board.side(self.point(one), self.point(two)) for _, one, two in move.bars]
             self.pose.points[move.place[0]] = self.board.meet(*bars, name=f"P_{move.bodies[0]}{move.bodies[1]}")
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector

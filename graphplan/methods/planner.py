@@ -13,6 +13,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from dataclasses import dataclass
+from itertools import pairwise
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Slide
@@ -71,7 +72,7 @@ class Planner:
         self.waiting: deque[str | Slide] = deque()
         self.queued: set[str | Slide] = set()
 
-    # ---- travelling -----------------------------------------------------------------------------------------------
+    # ---- travelling -----------------------------------------------------------------------------------------
 
     def plan(self) -> list[Move]:
         """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
@@ -83,7 +84,7 @@ class Planner:
                 return self.moves
             if not (self._auxiliary(loose) or (self.poles and self._pole(loose)) or self._try(loose)):
                 raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
-                              "check the drives, or ask for points of other links")  # fmt: skip
+                              "check the drives, or ask for points of other links")
 
     def _seed(self) -> None:
         ground = self.net.ground
@@ -222,7 +223,7 @@ class Planner:
         if body in self.net.slides_of or self.net.turning:
             self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
 
-    # ---- sliding pairs ----------------------------------------------------------------------------------------------
+    # ---- sliding pairs --------------------------------------------------------------------------------------
 
     def _through_slide(self, slide: Slide) -> None:
         """A known end in one link's plane gives the other link one locus, once."""
@@ -266,7 +267,7 @@ class Planner:
                 return True
         return False
 
-    # ---- relative poles -----------------------------------------------------------------------------------------------
+    # ---- relative poles -------------------------------------------------------------------------------------
 
     def _pole(self, loose: list[str]) -> bool:
         """Two bodies joined by two bars get their relative pole as a joint, if both have two facts."""
@@ -297,12 +298,12 @@ class Planner:
         self.moves.append(Pole((one, two), (bars[0], bars[1]), place))
         self._tell(place)
 
-    # ---- trials -------------------------------------------------------------------------------------------------------
+    # ---- trials ---------------------------------------------------------------------------------------------
 
     def _try(self, loose: list[str]) -> bool:
         """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
         loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
-                for source, rank in self.facts.get(place, {}).items() if rank == 1]  # fmt: skip
+                for source, rank in self.facts.get(place, {}).items() if rank == 1]
         if not loci or len(self.open) > 3:
             return False
         loci = list(dict.fromkeys(loci))
@@ -336,7 +337,7 @@ class Planner:
                 return X, (X, body)
         for K in ends:
             loci = list(self._loci(body, K))
-            for (R, _), (X, source) in zip(loci, loci[1:], strict=False):
+            for (R, _), (X, source) in pairwise(loci):
                 if R in told:
                     copy = (X[0], f"{body} trial")
                     self.moves.append(Figure(body, K, X, R=R, copy=copy))

@@ -25,10 +25,10 @@ class Pose:
         """The guide of a sliding pair, through the pair."""
         with self.board.on(MECHANISM):
             if slide.through is None:
-                return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])  # type: ignore[no-any-return]
+                return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)
             along = self.board.line(one, two)
-            return along if slide.at in slide.through else self.board.parallel(along, self.points[slide.at])  # type: ignore[no-any-return]
+            return along if slide.at in slide.through else self.board.parallel(along, self.points[slide.at])
 
     def letter(self, body: str) -> str:
         """The letter of a body's auxiliary point: Q, R, S, ... in the order of asking."""

@@ -41,13 +41,13 @@ class Tempo:
 
 
 def tempo(scene: Scene) -> Tempo:
-    """The scene's tempo: that of its first turning drive, else the fastest given speed drawn a fifth of the mechanism."""
+    """The scene's tempo: that of its first turning drive; else the fastest speed is drawn a fifth of the mechanism."""
     for drive in scene.drives:
         if isinstance(drive, TurningDrive) and drive.omega:
-            return Tempo(abs(drive.omega))
-    speeds: list[Number] = [abs(d.speed) for d in scene.drives if isinstance(d, SlidingDrive)]
-    speeds += [abs(v) for motion in scene.motions.values() for v in motion.velocity]
-    fastest = max(map(float, speeds), default=0.0)
+            return Tempo(drive.omega if drive.omega > 0 else -drive.omega)
+    speeds = [drive.speed for drive in scene.drives if isinstance(drive, SlidingDrive)]
+    speeds += [v for motion in scene.motions.values() for v in motion.velocity]
+    fastest = max((abs(float(speed)) for speed in speeds), default=0.0)
     return Tempo(_round(5 * fastest / _size(scene)) if fastest else Fraction(1))
 
 

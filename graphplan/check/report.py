@@ -25,6 +25,7 @@ KINDS = {
     "velocity": ("velocity", "omega", "slide velocity"),
     "acceleration": ("acceleration", "alpha", "slide acceleration"),
 }
+RATES = ("omega", "alpha")
 
 
 @dataclass(frozen=True)
@@ -42,21 +43,35 @@ class Report:
 
     @cached_property
     def check(self) -> dict[str, Any]:
-        """For velocities and accelerations the largest difference beside the largest value of its kind."""
+        """For velocities and accelerations the largest difference beside the largest value of its kind.
+
+        A link's rates count with what they make at the mechanism's extent.
+        """
         found = {}
         for kind, parts in KINDS.items():
-            asked = [part for part in parts if part in self.results]
-            if asked:
-                found[kind] = max(self._difference(part) for part in asked)
+            gaps = [self._gap(part) for part in parts if part in self.results]
+            truth = [self._truth(part).values() for part in parts if part not in RATES]
+            largest = max((_size(value) for values in truth for value in values), default=0)
+            if gaps:
+                found[kind] = max(gaps) / largest if largest else max(gaps)
         return found
 
-    def _difference(self, part: str) -> Any:
-        """The largest difference of one kind of reading, beside its largest value."""
+    def _truth(self, part: str) -> Mapping[str, Any]:
+        """The solver's values for one kind of reading."""
         truth: Mapping[str, Any] = getattr(self.rates, part.replace(" ", "_"))
-        ours = self.results[part]
+        return truth
+
+    def _gap(self, part: str) -> Any:
+        """The largest difference in one kind of reading."""
+        ours, truth = self.results[part], self._truth(part)
         gap = max(_size(_less(ours[name], truth[name])) for name in ours)
-        largest = max((_size(value) for value in truth.values()), default=0)
-        return gap / largest if largest else gap
+        return gap * self._extent if part in RATES else gap
+
+    @property
+    def _extent(self) -> Any:
+        """How far the mechanism extends, across or upwards."""
+        xs, ys = zip(*self.scene.points.values(), strict=True)
+        return max(max(xs) - min(xs), max(ys) - min(ys))
 
     @property
     def tolerance(self) -> float:

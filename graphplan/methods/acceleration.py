@@ -108,13 +108,10 @@ class Normal(Plan):
     def home(self, place: Place) -> Mark:
         point, link = place
         if link:
-            return self.figure(link if link in self.net.body else self._pole_link(place), point)
+            return self.figure(link, point)
         links = self.net.scene.links_of[point]
         moving = sorted((k for k in links if k in self.order), key=lambda k: self.order[k])
         return self.figure((moving or [k for k in links if k != FRAME] or [FRAME])[0], point)
-
-    def _pole_link(self, place: Place) -> str:
-        return next(link for link in self.net.members if place[0].startswith(f"P{link}"))
 
     def figure(self, link: str, point: str) -> Mark:
         if (link, point) not in self.figures:
@@ -126,7 +123,8 @@ class Normal(Plan):
         home = (point, "") if point in self.net.scene.links[link] else (point, link)
         links = [k for k in self.net.scene.links_of.get(point, ()) if k in self.order]
         first = min(links, key=lambda k: self.order[k], default=link)
-        return point.lower() if first == link and not home[1] else f"{point.lower()}({link})"
+        name = self.pose.spoken(point).lower()
+        return name if first == link and not home[1] else f"{name}({link})"
 
     def _grounded(self, link: str, point: str) -> Mark:
         """The figure of a crank is drawn on the crank itself: its points towards the pivot, as far as omega bids."""
@@ -261,10 +259,11 @@ class Normal(Plan):
     # ---- letters --------------------------------------------------------------------------------------------
 
     def end_name(self, place: Place) -> str:
-        return f"{place[0]}_1" + (f"({place[1]})" if place[1] in self.net.body else "")
+        return f"{self.pose.spoken(place[0])}_1" + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def locus_name(self, place: Place) -> str:
-        letter, rest = place[0][0].upper(), place[0][1:]
+        name = self.pose.spoken(place[0])
+        letter, rest = name[0].upper(), name[1:].strip("_")
         return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
 
     def law(self, move: Move) -> str:
@@ -295,10 +294,10 @@ class PolarAcceleration(Normal):
         return any({weld.link, weld.to} == {one, two} for weld in self.net.welds.values())
 
     def figure_name(self, link: str, point: str) -> str:
-        return f"n_{point.lower()}({link})"
+        return f"n_{self.pose.spoken(point).lower()}({link})"
 
     def end_name(self, place: Place) -> str:
-        return f"{place[0].lower()}'" + (f"({place[1]})" if place[1] in self.net.body else "")
+        return f"{self.pose.spoken(place[0]).lower()}'" + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def locus_name(self, place: Place) -> str:
         return ""

@@ -11,7 +11,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.moves import Move, Pole, Trial
+from graphplan.methods.moves import Auxiliary, Move, Pole, Trial
 from graphplan.methods.network import Network
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
@@ -125,19 +125,17 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
 
 def _planners(network: Network, method: str) -> list[Planner]:
     """The ways through the mechanism: one, or where facts run in rings one for each pole or place of a trial."""
-    first = Planner(network, poles=method != "trial")
-    first.plan()
-    ring = first.options or any(isinstance(move, Pole) for move in first.moves)
-    if not ring or method == "poles":
+    first = Planner(network, poles=method != "trial", auxiliaries=method != "trial")
+    travelled = [type(move) for move in first.plan()]
+    if method == "poles" or not {Pole, Auxiliary, Trial} & set(travelled):
         return [first]
-    trial = first
-    if not first.options:
-        trial = Planner(network, poles=False)
+    ways = [first]
+    for allowed in ({"poles": True, "auxiliaries": False}, {"poles": False, "auxiliaries": False}):
+        trial = Planner(network, **allowed)
         trial.plan()
-    ways = [] if trial is first else [first]
-    for choice in range(min(MOST_TRIALS, trial.options[0])):
-        ways.append(Planner(network, poles=first.poles and trial is first, choice=(choice,)))
-    return ways
+        most = min(MOST_TRIALS, trial.options[0]) if trial.options else 1
+        ways += [Planner(network, **allowed, choice=(choice,)) for choice in range(most)]
+    return ways if method != "trial" else ways[1:] or ways
 
 
 def _flattest(construction: Construction) -> float:

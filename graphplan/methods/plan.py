@@ -309,7 +309,8 @@ class Plan:
         homes = [getattr(self.board, self.turn)(self.loci[locus], self.point(locus[0])) for locus in (A, B)]
         if place[0] not in self.pose.points:
             self.pose.points[place[0]] = self.board.meet(*homes, name=self.pose.letter(body))
-        self._end(place, self.board.meet(self._locus_in(body, A), self._locus_in(body, B)), move)
+        end = self.board.meet(self._locus_in(body, A), self._locus_in(body, B))
+        self._end(place, self._outward(body, place, end), move)
 
     def _letters(self, body: str, A: Locus, B: Locus, X: Place) -> dict[str, str]:
         """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""

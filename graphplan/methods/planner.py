@@ -50,12 +50,13 @@ class _Open:
 class Planner:
     """Plans one network.
 
-    `poles` allows relative poles; `choice` says, trial by trial, at which of the possible loci it begins (0 where it
-    says nothing); `options` then tells how many there were.
+    `poles` allows relative poles, `auxiliaries` auxiliary points for sliding pairs; `choice` says, trial by trial, at
+    which of the possible loci it begins (0 where it says nothing); `options` then tells how many there were.
     """
 
-    def __init__(self, network: Network, *, poles: bool = True, choice: tuple[int, ...] = ()):
-        self.net, self.poles, self.choice = network, poles, choice
+    def __init__(self, network: Network, *, poles: bool = True, auxiliaries: bool = True,
+                 choice: tuple[int, ...] = ()):
+        self.net, self.poles, self.auxiliaries, self.choice = network, poles, auxiliaries, choice
         self.options: list[int] = []
         self.moves: list[Move] = []
         self.facts: dict[Place, dict[str, int]] = {}
@@ -82,7 +83,8 @@ class Planner:
             loose = [body for body in self.places if not self._known(body)]
             if not loose and not self.open:
                 return self.moves
-            if not (self._auxiliary(loose) or (self.poles and self._pole(loose)) or self._try(loose)):
+            if not ((self.poles and self._pole(loose)) or (self.auxiliaries and self._auxiliary(loose))
+                    or self._try(loose)):
                 raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
 
@@ -104,7 +106,7 @@ class Planner:
 
     def _queue(self, *nodes: str | Slide) -> None:
         for node in nodes:
-            if node not in self.queued and node not in self.retired:
+            if node not in self.queued:
                 self.queued.add(node)
                 self.waiting.append(node)
 
@@ -114,7 +116,9 @@ class Planner:
             self.queued.discard(node)
             if isinstance(node, Slide):
                 self._through_slide(node)
-            elif node != self.net.ground and node not in self.retired:
+            elif node in self.retired:
+                self._turning_known(node)
+            elif node != self.net.ground:
                 self._through_body(node)
 
     def _file(self, place: Place, source: str, rank: int, *, marked: bool = False) -> None:
@@ -259,7 +263,7 @@ class Planner:
             slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
             loci = list(self._loci(body, ("", "")))
             if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
-                place = (f"Q{body}", self.net.link_at(body, loci[0][0]))
+                place = (f"auxiliary point of {body}", self.net.link_at(body, loci[0][0]))
                 self._add_place(body, place)
                 self.bodies[place] = [body]
                 self.moves.append(Auxiliary(body, loci[0], loci[1], place))
@@ -289,7 +293,7 @@ class Planner:
 
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
         one, two = sorted(pair)
-        place = (f"P{one}{two}", POLE)
+        place = (f"pole of {one} and {two}", POLE)
         self.bodies[place] = [one, two]
         for body in (one, two):
             self._add_place(body, place)

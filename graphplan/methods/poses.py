@@ -30,6 +30,10 @@ class Pose:
             along = self.board.line(one, two)
             return along if slide.at in slide.through else self.board.parallel(along, self.points[slide.at])
 
+    def spoken(self, point: str) -> str:
+        """The letter of a point, auxiliary points and poles among them."""
+        return self.points[point].step.name if point in self.points else point
+
     def letter(self, body: str) -> str:
         """The letter of a body's auxiliary point: Q, R, S, ... in the order of asking."""
         if body not in self._letters:

@@ -83,7 +83,7 @@ class Orthogonal(Velocity):
         return self.board.step_off(*base, at, ratio=ratio) if ratio else at
 
     def end_name(self, place: Place) -> str:
-        return f"v_{place[0].lower()}" + (f"({place[1]})" if place[1] in self.net.body else "")
+        return f"v_{self.pose.spoken(place[0]).lower()}" + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def relative(self, link: str, K: str, A: str) -> Vector:
         return self.moved(self.pose.points[A], self.pose.points[K], self.end_in(link, K)), self.end_in(link, A)
@@ -133,7 +133,7 @@ class Polar(Velocity):
         return self.board.step_across(*base, at, ratio=ratio) if ratio else at
 
     def end_name(self, place: Place) -> str:
-        return place[0].lower() + (f"({place[1]})" if place[1] in self.net.body else "")
+        return self.pose.spoken(place[0]).lower() + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def relative(self, link: str, K: str, A: str) -> Vector:
         return self.end_in(link, K), self.end_in(link, A)

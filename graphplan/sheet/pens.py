@@ -34,10 +34,12 @@ FAINT = Pen(0.0, GREY, fill=GREY)
 
 # the mechanism
 LINK = Pen(0.7)
-PLATE = Pen(0.7, fill=TINT)
+PLATE = Pen(0.0, fill=TINT)
 PAIR = Pen(0.35, fill=PAPER)
 BLOCK = Pen(0.5, fill=PAPER)
 GROUND = Pen(0.5)
+GROUND_FILL = Pen(0.35, fill=PAPER)
+SOLID = Pen(0.0, fill=INK)
 HATCH = Pen(0.18)
 BALLOON = Pen(0.18, GREY, fill=PAPER)
 DRIVE = Pen(0.35)

@@ -11,8 +11,9 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.kernel.program import Program
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Scene
 from graphplan.sheet.display import Rect, Spot
 
@@ -29,8 +30,6 @@ class Vector(Protocol):
     @property
     def label(self) -> str: ...
     @property
-    def panel(self) -> str: ...
-    @property
     def start(self) -> int: ...
     @property
     def end(self) -> int: ...
@@ -42,20 +41,19 @@ class Drawing(Protocol):
     @property
     def scene(self) -> Scene: ...
     @property
-    def program(self) -> Program: ...
-    @property
     def drawn(self) -> Program: ...
     @property
     def values(self) -> Sequence[Any]: ...
     @property
-    def arrows(self) -> Sequence[Any]: ...
+    def arrows(self) -> Sequence[Vector]: ...
     @property
     def kappa(self) -> float: ...
     @property
     def method(self) -> dict[str, list[str]]: ...
     @property
-    def results(self) -> dict[str, Any]: ...
+    def forms(self) -> list[str]: ...
     def sentences(self) -> list[str]: ...
+    def read(self, domain: Domain) -> dict[str, dict[str, Any]]: ...
 
 
 @dataclass(frozen=True)
@@ -80,9 +78,16 @@ class Planes:
         """
         out: list[str] = []
         for step in self.drawing.drawn.steps:
-            read = [out[arg] for arg in step.args]
-            out.append(step.panel if not read or step.panel in read else read[0])
+            out.append(self._home(step, out))
         return out
+
+    def _home(self, step: Step, homes: Sequence[str]) -> str:
+        if not step.args:
+            number = step.params.get("number", 1)
+            return step.panel if number == 1 else f"{step.panel}, part {number}"
+        steps = self.drawing.drawn.steps
+        read = [homes[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [homes[step.args[0]]]
+        return next((home for home in reversed(read) if home.startswith(step.panel)), read[0])
 
     @cached_property
     def panels(self) -> list[str]:
@@ -123,8 +128,8 @@ class Planes:
         return float(x), float(y)
 
     def vectors(self, panel: str) -> list[Vector]:
-        """The vectors drawn on a plan."""
-        return [vector for vector in self.drawing.arrows if vector.panel == panel]
+        """The vectors drawn on a plan; one that begins on another plan cannot be."""
+        return [v for v in self.drawing.arrows if self.homes[v.start] == self.homes[v.end] == panel]
 
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan."""

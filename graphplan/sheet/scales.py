@@ -31,17 +31,18 @@ def multiple_below(most: float) -> Fraction:
     return max((m for m in series if m <= most * (1 + 1e-9)), default=series[0])
 
 
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
 def digits(value: float, count: int = 4) -> str:
-    """A number in at most `count` significant digits, never in the form 1e+05."""
-    if value == 0 or not math.isfinite(value):
-        return "0" if value == 0 else str(value)
-    text = f"{value:.{count}g}"
+    """A number in at most `count` significant digits, with a power of ten only where it is very large or small."""
+    text = f"{value + 0.0:.{count}g}"
     if "e" not in text:
-        return text
+        return text.replace("-", "−")
     mantissa, power = text.split("e")
-    if -7 < int(power) < 7:
-        return f"{float(text):.{max(0, count - 1 - int(power))}f}"
-    return f"{mantissa}·10^{int(power)}"
+    if 0 < int(power) < 7:
+        return f"{float(text):.0f}".replace("-", "−")
+    return f"{mantissa.replace('-', '−')}·10{str(int(power)).translate(SUPERSCRIPTS)}"
 
 
 def times(multiple: Fraction) -> str:

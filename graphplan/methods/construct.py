@@ -2,22 +2,22 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable
 
-from graphplan.errors import ConstructionError, Refused
+from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.moves import Auxiliary, Move, Pole, Trial
+from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
+from graphplan.methods.ways import best_way
 
 
 class Draughtsman:
@@ -28,7 +28,7 @@ class Draughtsman:
         self.board = Board()
         self.pose = Pose(self.board, scene)
         self.tempo = tempo(scene)
-        self.moves = planner.moves or planner.plan()
+        self.moves = planner.moves
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
 
@@ -98,7 +98,6 @@ def _ways(moves: Iterable[Move]) -> str:
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 PLANS = ("orthogonal", "polar")
-MOST_TRIALS = 6  # how many places for a trial figure are weighed against each other
 
 
 def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False) -> Construction:
@@ -113,46 +112,6 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
     if plan not in PLANS:
         raise Refused(f"plan {plan}", "there is no such plan", f"one of {', '.join(PLANS)}")
-    network = Network(scene)
-    drawn = [Draughtsman(scene, planner, plan == "polar").draw() for planner in _planners(network, method)]
-    best = min(drawn, key=_rank) if len(drawn) > 1 else drawn[0]
+    best = best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, plan == "polar").draw())
     best.prefer, best.strict = METHODS.get(method, ""), strict
-    if len(drawn) > 1:
-        best.notes = [f"ring of links: {best.ways} (flattest crossing {_flattest(best):.0f} degrees), the best of "
-                      f"{len(drawn)} ways that were weighed"]
     return best
-
-
-def _planners(network: Network, method: str) -> list[Planner]:
-    """The ways through the mechanism: one, or where facts run in rings one for each pole or place of a trial."""
-    first = Planner(network, poles=method != "trial", auxiliaries=method != "trial")
-    travelled = [type(move) for move in first.plan()]
-    if method == "poles" or not {Pole, Auxiliary, Trial} & set(travelled):
-        return [first]
-    ways = [first]
-    for allowed in ({"poles": True, "auxiliaries": False}, {"poles": False, "auxiliaries": False}):
-        trial = Planner(network, **allowed)
-        trial.plan()
-        most = min(MOST_TRIALS, trial.options[0]) if trial.options else 1
-        ways += [Planner(network, **allowed, choice=(choice,)) for choice in range(most)]
-    return ways if method != "trial" else ways[1:] or ways
-
-
-def _flattest(construction: Construction) -> float:
-    """The smallest angle in degrees at which two lines of a construction have to meet; 0 where they do not."""
-    try:
-        values = construction.truth
-    except ConstructionError:
-        return 0.0
-    angles = [90.0]
-    for step in construction.program.steps:
-        if step.op.name == "meet":
-            (a, b, _), (c, d, _) = (values[arg] for arg in step.args)
-            angles.append(math.degrees(math.asin(min(1.0, abs(a * d - b * c) / math.hypot(a, b) / math.hypot(c, d)))))
-    return min(angles)
-
-
-def _rank(construction: Construction) -> tuple[bool, float]:
-    """Fewest steps among those whose lines all cross well; else the best crossing."""
-    angle = _flattest(construction)
-    return angle < 15, float(len(construction.program)) if angle >= 15 else -angle

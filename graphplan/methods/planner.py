@@ -11,8 +11,9 @@ facts has one too many: in a trial that is the closing condition.
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from itertools import pairwise
 
 from graphplan.errors import Refused
@@ -36,6 +37,8 @@ from graphplan.methods.moves import (
 from graphplan.methods.network import POLE, Network, Place
 
 TRIAL = "trial"
+MOST_TRIALS = 6  # at how many places a trial may begin
+DEEPEST = 4  # trials within trials
 Bar = tuple[str, Place, Place]
 
 
@@ -50,13 +53,12 @@ class _Open:
 class Planner:
     """Plans one network.
 
-    `poles` allows relative poles, `auxiliaries` auxiliary points for sliding pairs; `choice` says, trial by trial, at
-    which of the possible loci it begins (0 where it says nothing); `options` then tells how many there were.
+    Where facts run in rings there are several ways on: `choice` says, ring by ring, which is taken (the first where it
+    says nothing), and `options` then tells how many there were. `method` leaves out ways: "trial" all but trials.
     """
 
-    def __init__(self, network: Network, *, poles: bool = True, auxiliaries: bool = True,
-                 choice: tuple[int, ...] = ()):
-        self.net, self.poles, self.auxiliaries, self.choice = network, poles, auxiliaries, choice
+    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = ()):
+        self.net, self.method, self.choice = network, method, choice
         self.options: list[int] = []
         self.moves: list[Move] = []
         self.facts: dict[Place, dict[str, int]] = {}
@@ -83,8 +85,7 @@ class Planner:
             loose = [body for body in self.places if not self._known(body)]
             if not loose and not self.open:
                 return self.moves
-            if not ((self.poles and self._pole(loose)) or (self.auxiliaries and self._auxiliary(loose))
-                    or self._try(loose)):
+            if not self._break(loose):
                 raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
 
@@ -198,13 +199,15 @@ class Planner:
         return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
 
     def _settle(self, body: str, X: Place) -> Move | None:
-        """The end of X, where the body's known end came from its three loci: two of them are left to find it by."""
-        own = [source for source, rank in self.facts.get(X, {}).items() if rank == 1 and source != body]
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        others = [locus for locus in self._loci(body, X) if locus[0] not in known]
-        if own and others and len(known) == 1 and self._heard(known[0], body) == 1:
-            return Settle(body, known[0], (X, own[0]), others[0])
-        return None
+        """The end of X, in a body with three loci: from an end found by them, and the two others."""
+        loci = list(self._loci(body, ("", "")))
+        own = [locus for locus in loci if locus[0] == X]
+        known = [place for place, _ in loci if place in self.drawn and place != X]
+        if len(loci) < 3 or not own or not known:
+            return None
+        K = known[0]
+        self.moves.append(Swing(body, K, X))  # a locus that others may ask for; if nobody does, it is not drawn
+        return Settle(body, K, own[0], next(locus for locus in loci if locus[0] not in (K, X)))
 
     def _figure(self, body: str, X: Place) -> Move | None:
         """The end of X from the whole body."""
@@ -257,35 +260,52 @@ class Planner:
         if place not in self.places[body]:
             self.places[body].append(place)
 
-    def _auxiliary(self, loose: list[str]) -> bool:
-        """A body with two loci and a slide: its auxiliary point carries what the slide can pass on."""
+    # ---- rings ------------------------------------------------------------------------------------------------------
+
+    def _break(self, loose: list[str]) -> bool:
+        """Facts have stopped travelling: put in a relative pole, an auxiliary point or a trial."""
+        ways: list[Callable[[], None]] = []
+        if self.method != "trial":
+            ways += [partial(self._join, pair, bars) for pair, bars in self._pairs(loose)]
+        if self.method != "poles" or not ways:
+            if self.method != "trial":
+                ways += [partial(self._cross, body, one, two) for body, one, two in self._crossings(loose)]
+            ways += [partial(self._try, locus) for locus in self._trials(loose)[:MOST_TRIALS]]
+        if not ways:
+            return False
+        asked = len(self.options)
+        self.options.append(len(ways))
+        ways[self.choice[asked] if asked < len(self.choice) else 0]()
+        return True
+
+    def _crossings(self, loose: list[str]) -> Iterator[tuple[str, Locus, Locus]]:
+        """Bodies with two loci and a slide that could pass on what their crossing, an auxiliary point, tells."""
         for body in loose:
             slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
             loci = list(self._loci(body, ("", "")))
             if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
-                place = (f"auxiliary point of {body}", self.net.link_at(body, loci[0][0]))
-                self._add_place(body, place)
-                self.bodies[place] = [body]
-                self.moves.append(Auxiliary(body, loci[0], loci[1], place))
-                self._file(place, body, 2)
-                return True
-        return False
+                yield body, loci[0], loci[1]
+
+    def _cross(self, body: str, one: Locus, two: Locus) -> None:
+        place = (f"auxiliary point of {body}", self.net.link_at(body, one[0]))
+        self._add_place(body, place)
+        self.bodies[place] = [body]
+        self.moves.append(Auxiliary(body, one, two, place))
+        self._file(place, body, 2)
 
     # ---- relative poles -------------------------------------------------------------------------------------
 
-    def _pole(self, loose: list[str]) -> bool:
-        """Two bodies joined by two bars get their relative pole as a joint, if both have two facts."""
+    def _pairs(self, loose: list[str]) -> Iterator[tuple[frozenset[str], list[Bar]]]:
+        """Pairs of bodies joined by two bars, each with two facts: their relative pole serves as a joint."""
         bars: dict[frozenset[str], list[Bar]] = {}
         for body in loose:
             ends = self.places[body]
             if len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
-        for pair_of, found in bars.items():
-            if len(found) == 2 and pair_of not in self.joined and all(self._fit(b) for b in pair_of):
-                self._join(pair_of, found)
-                return True
-        return False
+        for pair, found in bars.items():
+            if len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair):
+                yield pair, found
 
     def _fit(self, body: str) -> bool:
         """A single link with two facts."""
@@ -304,19 +324,18 @@ class Planner:
 
     # ---- trials ---------------------------------------------------------------------------------------------
 
-    def _try(self, loose: list[str]) -> bool:
-        """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
+    def _trials(self, loose: list[str]) -> list[Locus]:
+        """Places with one locus, where an end may be assumed."""
+        if len(self.open) >= DEEPEST:
+            return []
         loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
                 for source, rank in self.facts.get(place, {}).items() if rank == 1]
-        if not loci or len(self.open) > 3:
-            return False
-        loci = list(dict.fromkeys(loci))
-        asked = len(self.options)
-        self.options.append(len(loci))
-        at = loci[self.choice[asked] if asked < len(self.choice) else 0]
+        return list(dict.fromkeys(loci))
+
+    def _try(self, at: Locus) -> None:
+        """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
         self.open.append(_Open(at, len(self.moves)))
         self._file(at[0], TRIAL + str(len(self.open)), 1, marked=True)
-        return True
 
     def _close(self, body: str) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
@@ -66,13 +67,16 @@ class Draughtsman:
         """The turning of each link of which two points are asked for, or one and another is at rest."""
         for link in self.scene.moving:
             names = [p for p in self.scene.links[link] if p in asked or FRAME in self.scene.links_of[p]]
-            names.sort(key=lambda p: p not in asked)
             names = [p for p in names if (p, "") in plan.ends]
-            P = names[0] if names else ""
-            R = next((p for p in names if self.scene.points[p] != self.scene.points[P]), "")
-            if R:
+            P, R = max(combinations(names, 2), key=lambda pair: self._apart(*pair), default=("", ""))
+            if set(names) & set(asked) and self._apart(P, R):
                 vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
                 self._read(kind, link, self.pose.points[P], self.pose.points[R], *vectors)
+
+    def _apart(self, P: str, R: str) -> float:
+        """How far apart two points are: a link's turning is read off its longest side."""
+        one, two = (self.scene.points.get(name, (0, 0)) for name in (P, R))
+        return max(abs(float(p - q)) for p, q in zip(one, two, strict=True))
 
     def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The sliding of each pair whose point is asked for."""

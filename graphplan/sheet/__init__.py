@@ -1,0 +1,21 @@
+"""The sheet: where a construction goes on paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from graphplan.sheet.planes import Drawing
+
+
+def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None) -> str:
+    """The construction sheet as SVG text.
+
+    Reads a construction, the sheet's name (such as `A3` or `A4 portrait`; without it the smallest good one) and what the
+    check against the analytic solver found, by kind. Fails with `Refused` where the words do not fit the paper named.
+    """
+    from graphplan.backends.svg import svg as write
+    from graphplan.sheet.layout import layout
+
+    return write(layout(drawing, paper, check))

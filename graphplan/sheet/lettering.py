@@ -70,8 +70,8 @@ def _alternatives(names: tuple[str, ...]) -> str:
     """A pattern for the names that need setting, longest first."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
-    parts = [re.escape(n) + (r"(?![a-z])" if n.isalpha() else "") for n in ranked]
-    return "(?<![a-z])(?:" + "|".join(parts) + ")" if parts else r"(?!)"
+    parts = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) for n in ranked]
+    return "|".join(parts) if parts else r"(?!)"
 
 
 def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:

@@ -143,9 +143,9 @@ class Linkage:
         t = (nearest[0] - seat[0]) * along[0] + (nearest[1] - seat[1]) * along[1]
         foot = off(seat, along, t)
         line = sorted([*reach, foot], key=lambda s: s[0] * along[0] + s[1] * along[1])
-        yield Polyline(pens.LINK, "links", None, (line[0], line[-1]))
+        yield from symbols.bar((line[0], line[-1]))
         if math.dist(foot, nearest) > NEAR:
-            yield Polyline(pens.LINK, "links", None, (foot, nearest))
+            yield from symbols.bar((foot, nearest))
 
     def _free_side(self, inner: Spot, along: Vector) -> float:
         """The side of a bar that the other links at an inner joint leave free."""

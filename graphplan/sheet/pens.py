@@ -34,6 +34,7 @@ FAINT = Pen(0.0, GREY, fill=GREY)
 
 # the mechanism
 LINK = Pen(0.7)
+BAR, HOLLOW = Pen(2.0), Pen(1.3, TINT)  # a bar is drawn as two lines, so that vectors along it show
 PLATE = Pen(0.0, fill=TINT)
 PAIR = Pen(0.35, fill=PAPER)
 BLOCK = Pen(0.5, fill=PAPER)
@@ -47,6 +48,7 @@ DRIVE = Pen(0.35)
 # what is constructed
 THIN = Pen(0.18, GREY)
 PRODUCED = Pen(0.18, GREY, (4.0, 0.9, 0.5, 0.9))
+NORMAL = Pen(0.35)
 LOCUS = Pen(0.25, GREEN)
 ARC = Pen(0.18, GREY)
 DOT = Pen(0.0, INK, fill=INK)
@@ -58,4 +60,4 @@ VECTORS = {
     "normal": Pen(0.35, INK, fill=INK),
     "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
 }
-HEADS = {"velocity": 3.2, "acceleration": 3.2, "normal": 2.4, "relative": 2.4}
+HEADS = {"velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4}

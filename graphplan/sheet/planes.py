@@ -58,10 +58,14 @@ class Drawing(Protocol):
 
 @dataclass(frozen=True)
 class Figure:
-    """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much."""
+    """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
+
+    `nice` is room for half circles, taken where it costs nothing.
+    """
 
     core: Rect
     extra: tuple[Spot, ...]
+    nice: tuple[Spot, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -135,6 +139,23 @@ class Planes:
         """The kinds of vector drawn on a plan."""
         return {vector.kind for vector in self.vectors(panel)}
 
+    def diameter(self, step: Step) -> int | None:
+        """One end of a half circle's diameter: of an arc struck about the middle of two points through one of them."""
+        centre, opening = (self.drawing.drawn.steps[arg] for arg in step.args)
+        if centre.op.name == "midpoint" and opening.op.name == "opening" and centre.index in opening.args:
+            return next((arg for arg in opening.args if arg in centre.args), None)
+        return None
+
+    def _apexes(self, panel: str) -> list[Spot]:
+        """The highest points of the half circles on a plan."""
+        found = []
+        for step in self.drawing.drawn.steps:
+            if step.op.gives == CIRCLE and self.homes[step.index] == panel and self.marks_on[step.index]:
+                end = self.diameter(step)
+                if end is not None:
+                    found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(self.marks_on[step.index][0])))
+        return found
+
     def figure(self, panel: str) -> Figure:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
         ends = [self.spot(i) for vector in self.vectors(panel) for i in (vector.start, vector.end)]
@@ -142,7 +163,14 @@ class Planes:
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        return Figure(box, tuple(spot for far, spot in extra if far > 0))
+        return Figure(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
+
+
+def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:
+    """Where a half circle is farthest from its diameter, on the side of the crossing."""
+    dx, dy = end[0] - centre[0], end[1] - centre[1]
+    left = dx * (crossing[1] - centre[1]) - dy * (crossing[0] - centre[0]) >= 0
+    return (centre[0] - dy, centre[1] + dx) if left else (centre[0] + dy, centre[1] - dx)
 
 
 def around(spots: Sequence[Spot]) -> Rect:

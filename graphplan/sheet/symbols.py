@@ -70,7 +70,8 @@ def block(at: Spot, along: Vector) -> Item:
 
 def bar(spots: Sequence[Spot]) -> Iterator[Item]:
     """A link whose points lie on one line, in their order along it; inner joints do not cut it."""
-    yield Polyline(pens.LINK, "links", None, tuple(spots))
+    yield Polyline(pens.BAR, "links", None, tuple(spots))
+    yield Polyline(pens.HOLLOW, "links", None, tuple(spots))
 
 
 def elbow(at: Spot, along: Vector, side: float) -> Item:

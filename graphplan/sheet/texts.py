@@ -42,9 +42,10 @@ class Words:
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "", gap: float = 0.0) -> Iterator[Row]:
         """A paragraph, hanging from its number."""
         indent = INDENT if number else 0.0
-        for i, runs in enumerate(wrap(sentence_runs(text, self.names), SIZE, wide - indent)):
+        lines = wrap(sentence_runs(text, self.names), SIZE, wide - indent)
+        for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
-            yield Row((*label, Cell(indent, runs)), gap=gap if i == 0 else 0.0, step=step)
+            yield Row((*label, Cell(indent, runs)), gap=gap if i == 0 else 0.0, step=step, keep=min(3, len(lines) - 1 - i))
 
     def _steps(self, wide: float) -> Iterator[Row]:
         drawn, spoken = self.drawing.drawn, set[str]()

@@ -30,34 +30,32 @@ def least(box: Rect, room: Rect) -> float:
     return max(box.width / room.width, box.height / room.height)
 
 
-def _boxes(figure: Figure, room: Rect, most: float) -> list[Rect]:
-    """The core's box and then, mark by mark, the larger ones that do not need more than `most` units per mm."""
-    boxes = [figure.core]
-    for spot in figure.extra:
-        if not all(map(math.isfinite, spot)):
-            continue
-        box = grown(boxes[-1], spot)
-        if least(box, room) <= most:
-            boxes.append(box)
-    return boxes
+def _box(figure: Figure, room: Rect, most: float, nice: bool = False) -> Rect:
+    """The core's box, made larger mark by mark as long as it does not need more than `most` units per mm."""
+    box = figure.core
+    for spot in (*figure.extra, *(figure.nice if nice else ())):
+        larger = grown(box, spot)
+        if least(larger, room) <= most:
+            box = larger
+    return box
 
 
 def plan_scale(figure: Figure, room: Rect) -> tuple[float, Rect]:
     """The round k_s of the mechanism plan in this room, and the box that is then on paper."""
     core = round_up(least(figure.core, room))
-    box = _boxes(figure, room, core * COARSER if figure.core.width or figure.core.height else math.inf)[-1]
+    box = _box(figure, room, core * COARSER if figure.core.width or figure.core.height else math.inf)
     k_s = round_up(least(box, room))
-    return k_s, _boxes(figure, room, k_s)[-1]
+    return k_s, _box(figure, room, k_s, nice=True)
 
 
 def plan_multiple(figure: Figure, room: Rect, k_s: float) -> tuple[Fraction, Rect]:
     """The round multiple of the mechanism plan's scale for another plan, and the box that is then on paper."""
     fits = least(figure.core, room)
     core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _boxes(figure, room, float(k_s / core) * COARSER)[-1]
+    box = _box(figure, room, float(k_s / core) * COARSER)
     wide = least(box, room)
     multiple = multiple_below(k_s / wide) if wide else Fraction(1)
-    return multiple, _boxes(figure, room, k_s / float(multiple))[-1]
+    return multiple, _box(figure, room, k_s / float(multiple), nice=True)
 
 
 def view(box: Rect, room: Rect, units_per_mm: float) -> View:

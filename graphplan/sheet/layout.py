@@ -1,0 +1,166 @@
+"""From a construction to its sheet: paper, windows, strokes, letters and words, put together as one display list."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.sheet import clip, pens
+from graphplan.sheet.display import Item, Polygon, Rect, Sheet, Spot, Text
+from graphplan.sheet.labels import Wish, placed
+from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
+from graphplan.sheet.linkage import Linkage
+from graphplan.sheet.paper import CAPTION, MARGIN, SIZES, Arrangement, arrangements, room
+from graphplan.sheet.planes import MECHANISM, Drawing, Figure, Planes
+from graphplan.sheet.rows import fill, lettered
+from graphplan.sheet.scales import Scales, times
+from graphplan.sheet.strokes import Strokes
+from graphplan.sheet.symbols import RADIUS
+from graphplan.sheet.texts import Words
+from graphplan.sheet.title import TitleBlock, ratio
+from graphplan.sheet.view import View, plan_multiple, plan_scale, view
+
+SMALLEST = (115.0, 90.0), (85.0, 75.0)  # the mechanism's panel and any other
+SHORTEST = 9.0  # mm: a link shorter than this has no room for letters
+BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
+CAPTIONS = {MECHANISM: "Mechanism plan", "N-plan": "N-plan: relative normal accelerations"}
+
+
+@dataclass(frozen=True)
+class Composition:
+    """An arrangement with the scale and the window of each panel."""
+
+    arrangement: Arrangement
+    scales: Scales
+    views: dict[str, View]
+
+    @property
+    def score(self) -> float:
+        """How large the plans are: the mechanism counts most."""
+        others = sum(math.log(self.views[p].scale) for p in self.views if p != MECHANISM)
+        return math.log(self.views[MECHANISM].scale) + 0.5 * others
+
+    @property
+    def roomy(self) -> bool:
+        """Whether every panel has its least size."""
+        sizes = ((SMALLEST[p != MECHANISM], rect) for p, rect in self.arrangement.panels.items())
+        return all(rect.width >= wide and rect.height >= high for (wide, high), rect in sizes)
+
+
+def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None) -> Sheet:
+    """The sheet of a construction; `paper` names its size, else the smallest good one is taken.
+
+    Fails with `Refused` where the words do not fit the paper named.
+    """
+    planes = Planes(drawing)
+    words = Words(planes, check or {})
+    block = TitleBlock(drawing.scene.title, drawing.scene.source)
+    composition = _composed(planes, words, block, paper)
+    arrangement = composition.arrangement
+    items = [*_frame(arrangement), *_captions(composition, planes)]
+    for panel, window in composition.views.items():
+        items += _panel(planes, panel, window)
+    rows = fill(arrangement.rows, arrangement.columns)
+    items += lettered(rows or [])
+    items += block.items(arrangement.title, arrangement.paper.split()[0], ratio(composition.scales.k_s, composition.scales.length))
+    scales = {f"{name} {panel}": of(panel) for panel in composition.views for name, of in (
+        ("k", composition.scales.of), ("k_v", composition.scales.speed), ("k_a", composition.scales.acceleration))}  # fmt: skip
+    return Sheet(arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(_stacked(items)),
+                 drawing.scene.title, _description(composition, planes), tuple(drawing.sentences()), scales)  # fmt: skip
+
+
+# ---- the choice of paper ------------------------------------------------------------------------------------------
+
+
+def _composed(planes: Planes, words: Words, block: TitleBlock, paper: str | None) -> Composition:
+    """The best arrangement on the paper named, or on the smallest that shows everything at a good size."""
+    figures = {panel: planes.figure(panel) for panel in planes.panels}
+    papers = [paper] if paper else ["A4", "A4 portrait", *list(SIZES)[1:]]
+    best: Composition | None = None
+    for name in papers:
+        found = [_windows(a, figures, planes) for a in arrangements(name, planes.panels, words.rows, block.height)]
+        good = [c for c in found if c.roomy] or (found if paper else [])
+        if good:
+            best = max(good, key=lambda c: c.score)
+            if _shortest(planes) * best.views[MECHANISM].scale >= SHORTEST or name == "A2":
+                return best
+    if best is None:
+        raise Refused(f"paper {paper}", "the steps do not fit on it in legible letters", "a larger sheet, or none named")
+    return best
+
+
+def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], planes: Planes) -> Composition:
+    """The round scales and the windows for one arrangement."""
+    rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
+    inner = {panel: rect.inset(MARGIN, MARGIN, MARGIN, MARGIN) for panel, rect in rooms.items()}
+    k_s, box = plan_scale(figures[MECHANISM], inner[MECHANISM])
+    views = {MECHANISM: view(box, rooms[MECHANISM], k_s)}
+    multiples: dict[str, Fraction] = {}
+    for panel in planes.panels[1:]:
+        multiples[panel], box = plan_multiple(figures[panel], inner[panel], k_s)
+        views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
+    drawing = planes.drawing
+    return Composition(arrangement, Scales(k_s, drawing.kappa, drawing.scene.units.length, multiples), views)
+
+
+def _shortest(planes: Planes) -> float:
+    """The shortest distance of two joints of a link."""
+    links = planes.drawing.scene.links.values()
+    apart = (math.dist(planes.place(p), planes.place(q)) for names in links for p in names for q in names)
+    return min((distance for distance in apart if distance > 0), default=math.inf)
+
+
+# ---- what lies on the sheet ----------------------------------------------------------------------------------------
+
+
+def _frame(arrangement: Arrangement) -> Iterator[Item]:
+    for rect, pen in ((arrangement.frame, pens.FRAME), *((rect, pens.BORDER) for rect in arrangement.panels.values())):
+        corners = (rect.left, rect.bottom), (rect.right, rect.bottom), (rect.right, rect.top), (rect.left, rect.top)
+        yield Polygon(pen, "paper", None, corners)
+
+
+def _captions(composition: Composition, planes: Planes) -> Iterator[Item]:
+    """Over each plan what it is, and its scales."""
+    for panel, rect in composition.arrangement.panels.items():
+        multiple = composition.scales.multiples.get(panel)
+        name = CAPTIONS.get(panel, panel[0].upper() + panel[1:])
+        if panel == MECHANISM and "velocity" in planes.kinds(panel):
+            name += " with orthogonal velocities"
+        head = name + (f", {times(multiple)}" if multiple not in (None, 1) else "")
+        x, y = rect.left + 2.5, rect.top - 4.6
+        yield Text(pens.LETTERS, "text", None, (x, y), sentence_runs(head), 3.0, bold=True)
+        said = ",  ".join(composition.scales.said(panel, planes.kinds(panel)))
+        for i, runs in enumerate(wrap(sentence_runs(said), SIZE, rect.width - 5)):
+            if (below := 3.7 * (i + 1)) < CAPTION:
+                yield Text(pens.LETTERS, "text", None, (x, y - below), runs, SIZE)
+
+
+def _panel(planes: Planes, panel: str, window: View) -> list[Item]:
+    """One plan: the mechanism if it is its plan, the strokes, and the letters that avoid both."""
+    strokes = Strokes(planes, panel, window)
+    items, wishes = list(strokes.items()), list(strokes.wishes())
+    marks: list[Spot] = [spot for i, spot in strokes.spots.items() if strokes.shown(i)]
+    if panel == MECHANISM:
+        linkage = Linkage(planes.drawing.scene, window)
+        items += [cut for item in linkage.items() for cut in clip.clipped(item, window.rect)]
+        letters = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in linkage.letters().items()]
+        wishes = [*letters, *linkage.wishes(), *wishes]
+        marks += list(linkage.spots.values())
+    return items + placed(wishes, items, marks, window.rect)
+
+
+def _stacked(items: Iterable[Item]) -> list[Item]:
+    """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
+    rank = {layer: i for i, layer in enumerate(BACK)} | {layer: 10**7 + i for i, layer in enumerate(FRONT)}
+    return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
+
+
+def _description(composition: Composition, planes: Planes) -> str:
+    """What a reader who cannot see the sheet is told."""
+    steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
+    said = "; ".join(f"{panel}: {', '.join(composition.scales.said(panel, planes.kinds(panel)))}" for panel in composition.views)
+    return f"Graphical construction in {steps} steps. Scales: {said}."

@@ -1,0 +1,289 @@
+"""From drawing steps to pencil strokes: how much of each line and arc is drawn, on one panel.
+
+A line runs a little beyond the marks that lie on it; an arc is struck only about the crossings it serves; what leaves
+the panel breaks off at its edge and says where it goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.program import Step
+from graphplan.sheet import clip, pens
+from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polyline, Spot
+from graphplan.sheet.labels import Wish
+from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.planes import MECHANISM, Planes, Vector
+from graphplan.sheet.symbols import RADIUS
+from graphplan.sheet.view import View
+
+LAYER = "construction"
+BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
+STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
+SMALL = 2.0  # the figures of marks without a letter
+LAID_OFF = {"foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0}
+NEAR = 0.25
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """The part of a line that is drawn, and the marks outside the panel that its ends point to."""
+
+    start: Spot
+    end: Spot
+    to_start: int | None
+    to_end: int | None
+
+
+@dataclass(frozen=True)
+class Strokes:
+    """One plan on its panel, stroke by stroke."""
+
+    planes: Planes
+    panel: str
+    view: View
+
+    @cached_property
+    def steps(self) -> list[Step]:
+        homes = self.planes.homes
+        return [step for step in self.planes.drawing.drawn.steps if homes[step.index] == self.panel]
+
+    @cached_property
+    def spots(self) -> dict[int, Spot]:
+        """Where the points of this plan lie on paper."""
+        return {i: self.view(self.planes.spot(i)) for i in self.planes.points(self.panel)}
+
+    def shown(self, index: int) -> bool:
+        """Whether a point lies on the panel."""
+        return index in self.spots and self.view.rect.holds(self.spots[index])
+
+    def items(self) -> Iterator[Item]:
+        """Every stroke of the plan, cut off at the panel's edge, in drawing order."""
+        for step in self.steps:
+            for item in self._drawn(step):
+                yield from clip.clipped(item, self.view.rect)
+        for vector in self.planes.vectors(self.panel):
+            yield from self._arrow(vector)
+
+    def _drawn(self, step: Step) -> Iterator[Item]:
+        if step.op.gives == LINE:
+            yield from self._line(step)
+        elif step.op.gives == CIRCLE:
+            yield from self._arcs(step)
+        elif step.op.gives == POINT and step.op.name != "given":
+            yield from self._point(step)
+
+    # ---- points and vectors -------------------------------------------------------------------------------------------
+
+    def _point(self, step: Step) -> Iterator[Item]:
+        """A dot, and the stroke along which it was laid off."""
+        here = self.spots[step.index]
+        root = step.args[LAID_OFF[step.op.name]] if step.op.name in LAID_OFF else None
+        if root in self.spots and (root, step.index) not in self._vector_ends:
+            brought = self.planes.homes[step.args[0]] != self.panel
+            pen = pens.NORMAL if brought else pens.THIN
+            yield Polyline(pen, LAYER, step.index, (self.spots[root], here))
+        if self.shown(step.index):
+            size = 0.6 if step.op.name == "begin" else 0.42 if step.name else 0.28
+            yield Circle(pens.DOT, LAYER, step.index, here, size)
+
+    @cached_property
+    def _vector_ends(self) -> set[tuple[int, int]]:
+        return {(vector.start, vector.end) for vector in self.planes.vectors(self.panel)}
+
+    def _arrow(self, vector: Vector) -> Iterator[Item]:
+        """A vector with its head; one shorter than half a millimetre is only its mark."""
+        start, end = self.spots[vector.start], self.spots[vector.end]
+        long = math.dist(start, end)
+        if long >= 0.5:
+            head = min(pens.HEADS[vector.kind], 0.6 * long)
+            yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head)
+
+    # ---- lines --------------------------------------------------------------------------------------------------------
+
+    def _direction(self, step: Step) -> Spot:
+        a, b = (float(part) for part in self.planes.drawing.values[step.index][:2])
+        size = math.hypot(a, b) or 1.0
+        return b / size, -a / size
+
+    def _line(self, step: Step) -> Iterator[Item]:
+        stretch = self._stretches.get(step.index)
+        if stretch is None:
+            return
+        pen = pens.LOCUS if step.name else pens.PRODUCED if step.op.name in ("line", "guide") else pens.THIN
+        if step.op.name == "line" and len(self._on(step)) == 2:
+            pen = pens.THIN
+        for piece in self._bare(stretch):
+            yield Polyline(pen, LAYER, step.index, piece)
+        for tip, tail, mark in ((stretch.start, stretch.end, stretch.to_start), (stretch.end, stretch.start, stretch.to_end)):
+            if mark is not None:
+                yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, _towards(tip, tail, 4.0), tip, 2.0)
+
+    def _bare(self, stretch: Stretch) -> list[tuple[Spot, Spot]]:
+        """A stretch without the parts that run along a link: there the link is the line."""
+        start, end = stretch.start, stretch.end
+        long = math.dist(start, end)
+        cuts, done, pieces = sorted(self._links_along(start, end)) if self.panel == MECHANISM else [], 0.0, []
+        for low, high in (*cuts, (1.0, 1.0)):
+            if (low - done) * long > 0.3:
+                pieces.append((clip.between(start, end, done), clip.between(start, end, low)))
+            done = max(done, high)
+        return pieces
+
+    def _links_along(self, start: Spot, end: Spot) -> Iterator[tuple[float, float]]:
+        """Where links lie along a segment, as fractions of its length."""
+        (ux, uy), long = _unit(start, end), math.dist(start, end)
+        scene = self.planes.drawing.scene
+        for link in scene.moving:
+            spots = [self.view(self.planes.place(name)) for name in scene.links[link]]
+            off = [(x - start[0]) * uy - (y - start[1]) * ux for x, y in spots]
+            along = [((x - start[0]) * ux + (y - start[1]) * uy) / long for x, y in spots]
+            hit = [t for t, gap in zip(along, off, strict=True) if abs(gap) < 0.1]
+            if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
+                yield min(hit), max(hit)
+
+    def _on(self, step: Step) -> list[int]:
+        """The marks of this plan on a line or an arc."""
+        return [mark for mark in self.planes.marks_on.get(step.index, ()) if mark in self.spots]
+
+    @cached_property
+    def _stretches(self) -> dict[int, Stretch]:
+        found = {step.index: self._stretch(step) for step in self.steps if step.op.gives == LINE}
+        return {index: stretch for index, stretch in found.items() if stretch is not None}
+
+    def _stretch(self, step: Step) -> Stretch | None:
+        """What of a line is drawn: from mark to mark and a little beyond, as far as the panel goes."""
+        marks = self._on(step)
+        if not marks:
+            return None
+        (ux, uy), root = self._direction(step), self.spots[marks[0]]
+        along = sorted(((self.spots[m][0] - root[0]) * ux + (self.spots[m][1] - root[1]) * uy, m) for m in marks)
+        (first, low), (last, high) = along[0], along[-1]
+        beyond = self._beyond(step, last - first)
+        start = root[0] + (first - beyond) * ux, root[1] + (first - beyond) * uy
+        end = root[0] + (last + beyond) * ux, root[1] + (last + beyond) * uy
+        inside = clip.segment(self.view.rect, start, end) if math.dist(start, end) > 0 else None
+        if inside is None:
+            return None
+        return Stretch(clip.between(start, end, inside[0]), clip.between(start, end, inside[1]),
+                       None if self.shown(low) else low, None if self.shown(high) else high)  # fmt: skip
+
+    def _beyond(self, step: Step, long: float) -> float:
+        """How far past its outermost marks a line goes; the line through two points that serves as a direction does not."""
+        if step.op.name == "line" and len(self._on(step)) == 2:
+            return 0.0
+        if long < 1.0:
+            return ALONE
+        return LOCUS_BEYOND if step.name else BEYOND
+
+    # ---- arcs ---------------------------------------------------------------------------------------------------------
+
+    def _arcs(self, step: Step) -> Iterator[Item]:
+        x, y, r2 = (float(part) for part in self.planes.drawing.values[step.index])
+        centre, radius = self.view((x, y)), math.sqrt(max(r2, 0.0)) * self.view.scale
+        if radius < 1e-6:
+            return
+        crossings = [self.spots[mark] for mark in self._on(step)]
+        diameter = self.planes.diameter(step)
+        if diameter in self.spots and crossings:
+            half = _half(step, centre, radius, self.spots[diameter], crossings[0])
+            if all(map(self.view.rect.holds, half.spots())):
+                yield half
+                return
+        wide = min(WIDEST, max(FLATTEST, math.degrees(STRIKE / radius)))
+        for crossing in crossings:
+            middle = _angle(centre, crossing)
+            yield Arc(pens.ARC, LAYER, step.index, centre, radius, middle - wide, middle + wide)
+
+    # ---- letters ------------------------------------------------------------------------------------------------------
+
+    def wishes(self) -> Iterator[Wish]:
+        """The letters of the plan: marks, loci, vectors, and the numbers of marks without a letter."""
+        yield from self._point_letters()
+        for step in self.steps:
+            if step.index in self._stretches:
+                yield from self._line_letters(step, self._stretches[step.index])
+        for vector in self.planes.vectors(self.panel):
+            yield from self._vector_letter(vector)
+
+    def _point_letters(self) -> Iterator[Wish]:
+        """One letter for each place: marks that coincide stand together."""
+        groups: dict[Spot, list[Step]] = {}
+        for step in self.steps:
+            if step.op.gives == POINT and step.op.name != "given" and self.shown(step.index) and self._spoken(step):
+                spot = self.spots[step.index]
+                key = next((other for other in groups if math.dist(other, spot) < NEAR), spot)
+                groups.setdefault(key, []).append(step)
+        for spot, steps in groups.items():
+            lettered = [step for step in steps if step.name]
+            clear = RADIUS + 0.4 if self.panel == MECHANISM and self._at_joint(spot) else 0.6
+            if lettered:
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=",".join(s.name for s in lettered))
+            else:
+                number = str(self.planes.drawing.drawn.number(steps[0].index))
+                yield Wish(sentence_runs(number), (spot,), clear, SMALL, pens.FAINT, steps[0].index, f"point {number}")
+
+    def _at_joint(self, spot: Spot) -> bool:
+        return any(math.dist(self.view(self.planes.place(name)), spot) < 1.0 for name in self.planes.drawing.scene.points)
+
+    def _spoken(self, step: Step) -> bool:
+        """Whether a mark has a letter, or is spoken of by its number in a later step."""
+        return bool(step.name) or step.index in self._read
+
+    @cached_property
+    def _read(self) -> set[int]:
+        """The marks that later steps read by number; a line through two lettered points is spoken of by them."""
+        drawn = self.planes.drawing.drawn
+        return {arg for step in drawn.steps for arg in step.args if drawn.text(arg).endswith(f" {drawn.number(arg)}")}
+
+    def _line_letters(self, step: Step, stretch: Stretch) -> Iterator[Wish]:
+        ends = stretch.start, stretch.end
+        if step.name or step.index in self._read:
+            number = str(self.planes.drawing.drawn.number(step.index))
+            runs, size, pen = (name_runs(step.name), 2.5, pens.LETTERS) if step.name else (sentence_runs(number), SMALL, pens.FAINT)
+            spots = tuple(clip.between(*ends, t) for t in (0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5))
+            yield Wish(runs, spots, 0.5, size, pen, step.index, step.name or f"line {number}", free=True)
+        for spot, mark in zip(ends, (stretch.to_start, stretch.to_end), strict=True):
+            if mark is not None:
+                name = self.planes.drawing.drawn.text(mark)
+                yield Wish(sentence_runs(f"to {name}", (name,)), (_towards(spot, ends[spot == ends[0]], 2.0),), 0.6, 2.2,
+                           pens.FAINT, step.index, f"to {name} {step.index}")  # fmt: skip
+
+    def _vector_letter(self, vector: Vector) -> Iterator[Wish]:
+        """The vector's own letter at its middle, unless its end bears it."""
+        start, end = self.spots[vector.start], self.spots[vector.end]
+        if vector.label and vector.label != self.planes.drawing.drawn.steps[vector.end].name and math.dist(start, end) >= 0.5:
+            spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+            yield Wish(name_runs(vector.label), spots, 0.7, pen=pens.Pen(0.0, pens.VECTORS[vector.kind].colour, fill=pens.VECTORS[vector.kind].colour),
+                       step=vector.end, label=vector.label, free=True)  # fmt: skip
+
+
+def _unit(start: Spot, end: Spot) -> Spot:
+    long = math.dist(start, end)
+    return (end[0] - start[0]) / long, (end[1] - start[1]) / long
+
+
+def _listed(steps: list[Step]) -> Runs:
+    """Several names side by side."""
+    names = tuple(step.name for step in steps)
+    return sentence_runs(", ".join(names), names)
+
+
+def _half(step: Step, centre: Spot, radius: float, end: Spot, crossing: Spot) -> Arc:
+    """The half circle over a diameter, on the side of the crossing."""
+    start = _angle(centre, end)
+    left = math.sin(math.radians(_angle(centre, crossing) - start)) >= 0
+    return Arc(pens.ARC, LAYER, step.index, centre, radius, start if left else start - 180.0, start + 180.0 if left else start)
+
+
+def _angle(centre: Spot, spot: Spot) -> float:
+    return math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0]))
+
+
+def _towards(spot: Spot, other: Spot, far: float) -> Spot:
+    """A spot so many mm on the way to another."""
+    return clip.between(spot, other, far / (math.dist(spot, other) or 1.0))

@@ -1,0 +1,173 @@
+"""Constructions: what is drawn, what is not, and what is refused."""
+
+from __future__ import annotations
+
+import subprocess
+import sys
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+from random_mechanisms import GROUPS, mechanism
+from test_stability import basic_case
+
+import graphplan as gp
+from graphplan.check.report import report
+from graphplan.errors import Refused, SceneError
+from graphplan.mechanism.model import Find, Scene
+from graphplan.mechanism.structure import structure
+from graphplan.methods import acceleration, velocity
+from graphplan.methods.plan import Plan
+from graphplan.methods.planner import Planner
+from graphplan.methods.tempo import Tempo
+
+
+def asked(scene: Scene, velocity: str = "", acceleration: str = "") -> Scene:
+    """The scene with another question."""
+    return replace(scene, find=Find(tuple(velocity.split()), tuple(acceleration.split())))
+
+
+FOUR_BAR = """
+[points]
+O = [0, 0]
+A = [20, 10]
+B = [70, 40]
+C = [80, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C"
+[[drive]]
+link = "1"
+omega = 2.0
+alpha = 3
+"""
+
+
+def test_the_velocity_of_one_point_draws_no_more_than_it_needs() -> None:
+    """Asked for v_C of the basic case: no N-plan, and nothing of A, B, D, E but their lines' directions."""
+    drawing = gp.construct(asked(basic_case(), "C"))
+    assert {step.panel for step in drawing.drawn.steps} == {"mechanism"}
+    assert not {"v_a", "v_b", "v_d", "v_e"} & {step.name for step in drawing.drawn.steps}
+    assert set(drawing.velocity) == {"C"}
+
+
+def test_a_crank_point_needs_no_other_link() -> None:
+    """Asked for a point of the crank, nothing of the coupler and rocker is drawn."""
+    scene = gp.parse(FOUR_BAR, "four-bar")
+    drawing = gp.construct(asked(scene, "A", "A"))
+    assert {step.name for step in drawing.drawn.steps if step.op.name == "given"} == {"O", "A"}
+
+
+def test_results_are_true_vectors_in_scene_units() -> None:
+    """Velocities and accelerations are complex numbers, not turned and not scaled."""
+    drawing = gp.construct(gp.parse(FOUR_BAR, "four-bar"))
+    assert drawing.velocity["A"] == 2j * (20 + 10j)
+    assert drawing.acceleration["A"] == pytest.approx((3j - 4) * (20 + 10j))
+
+
+def test_arrays_give_what_single_poses_give() -> None:
+    """Replayed over n poses the program gives, pose by pose, what it gives for one."""
+    scene = gp.parse(FOUR_BAR, "four-bar")
+    drawing = gp.construct(scene)
+    places = np.array([70 + 40j, 60 + 45j, 75 + 38j])
+    poses = drawing.evaluate(points={"B": places})
+    for k, place in enumerate(places):
+        moved = {**scene.points, "B": (float(place.real), float(place.imag))}
+        single = gp.construct(replace(scene, points=moved))
+        assert poses.velocity["B"][k] == single.velocity["B"]
+        assert poses.acceleration["B"][k] == single.acceleration["B"]
+
+
+def test_singular_poses_in_an_array_are_nan_and_say_why() -> None:
+    """A dead centre among the poses gives nan there and nowhere else, with the reason."""
+    drawing = gp.construct(gp.parse(FOUR_BAR, "four-bar"))
+    poses = drawing.evaluate(points={"B": np.array([70 + 40j, 50 + 5j]), "C": np.array([80 + 0j, 80 + 0j])})
+    assert np.isfinite(poses.velocity["B"][0])
+    assert np.isnan(poses.velocity["B"][1])
+    assert "parallel" in poses.faults[1]
+
+
+def test_points_that_the_scene_lacks_are_refused() -> None:
+    """Evaluating with an unknown point says so."""
+    with pytest.raises(Refused, match="no such point"):
+        gp.construct(gp.parse(FOUR_BAR, "four-bar")).evaluate(points={"Z": [0j]})
+
+
+def test_unknown_methods_and_plans_are_refused() -> None:
+    """A method or plan that does not exist is refused with those that do."""
+    scene = gp.parse(FOUR_BAR, "four-bar")
+    with pytest.raises(Refused, match="auxiliary, trial, poles"):
+        gp.construct(scene, method="magic")
+    with pytest.raises(Refused, match="orthogonal, polar"):
+        gp.construct(scene, plan="square")
+
+
+def test_solving_imports_no_drawing_package() -> None:
+    """`graphplan solve` on one scene imports neither shapely, svgwrite nor matplotlib."""
+    code = ("import sys; from graphplan.commands import main; main(['solve', '-']); "
+            "print([m for m in ('shapely', 'svgwrite', 'matplotlib') if m in sys.modules], file=sys.stderr)")
+    done = subprocess.run([sys.executable, "-c", code], input=FOUR_BAR, capture_output=True, text=True, check=True)
+    assert done.stderr.strip() == "[]"
+
+
+def test_exact_numbers_of_an_irrational_scene_are_refused() -> None:
+    """Fractions are refused where the scene itself is irrational, with the place."""
+    scene = gp.parse(FOUR_BAR.replace("omega = 2.0", "rpm = 95"), "four-bar")
+    with pytest.raises(Refused, match="rpm"):
+        report(scene, exact=True)
+
+
+# A fault seeded in the planner or in a plan: what is replaced, by what. Each must show in the numbers or in a refusal.
+FAULTS = {
+    "a body hears its own word": (Planner, "_heard", lambda self, place, body: min(
+        2, sum(self.facts.get(place, {}).values()))),
+    "turning of a slide's partner is not heard": (Planner, "_like", lambda self, body: ""),
+    "the guide is drawn the wrong way": (velocity.Orthogonal, "across", False),
+    "figures are drawn with the wrong turn": (acceleration.Normal, "turn", "parallel"),
+    "no semicircle: normal accelerations are left out": (
+        acceleration.Normal, "_scaled", lambda self, link, K, X: self.figure(link, K)),
+    "no Coriolis vector": (acceleration.Normal, "_less_coriolis",
+                           lambda self, slide, known, new, B: self.figure(known, B)),
+    "relative poles without their shift": (acceleration.Normal, "pole_shift", lambda self, move: None),
+    "shifts between home and figure left out": (
+        Plan, "moved", lambda self, mark, one, two: two if mark is one else mark),
+    "drives turn the wrong way": (Tempo, "turning", lambda self, omega: -omega / self.unit),
+}
+
+
+def verdicts() -> list[str]:
+    """Each group in some poses: ok, or what is wrong with it."""
+    found = []
+    for group in sorted(GROUPS):
+        for seed in range(5):
+            scene = mechanism([group, "rpr"], seed)
+            try:
+                structure(scene)
+                found.append("ok" if not any(report(scene, exact=True, method="poles").check.values()) else "wrong")
+            except (SceneError, gp.SingularPose):
+                continue
+            except Exception as error:  # a fault may show as any refusal or failure
+                found.append(type(error).__name__)
+    return found
+
+
+def test_without_a_fault_nothing_is_found() -> None:
+    """The scenes that the seeded faults are tried on are all constructed exactly."""
+    assert set(verdicts()) == {"ok"}
+
+
+@pytest.mark.parametrize("fault", sorted(FAULTS))
+def test_seeded_faults_are_caught(fault: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """A fault in the planner or in a plan shows in the comparison with the solver."""
+    owner, name, value = FAULTS[fault]
+    monkeypatch.setattr(owner, name, value)
+    assert set(verdicts()) != {"ok"}
+
+
+def test_fractions_stay_fractions() -> None:
+    """Exact results are fractions, not floats in disguise."""
+    found = report(gp.parse(FOUR_BAR, "four-bar"), exact=True)
+    assert all(isinstance(n, Fraction | int) for pair in found.results["velocity"].values() for n in pair)

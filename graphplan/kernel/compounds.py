@@ -24,6 +24,13 @@ def _size(u: Any) -> Any:
     return abs(u[0]) + abs(u[1])
 
 
+def _apart(d: Any, P: Any, Q: Any, why: str = "the two points coincide") -> Any:
+    """The vector of two points that must not coincide."""
+    u = _vector(P, Q)
+    d.nonzero(_size(u), _size(P) + _size(Q), "points-coincide", why)
+    return u
+
+
 def _turned(u: Any, turn: str) -> Any:
     return u if turn == "parallel" else (-u[1], u[0])
 
@@ -31,10 +38,9 @@ def _turned(u: Any, turn: str) -> Any:
 @primitive((POINT, POINT), LINE, COMPASSES, "Draw {out}, the perpendicular bisector of {0}{1}.",
            claims=(("halfway", 0, 1),), fails=("points-coincide",))
 def bisector(d: Any, P: Any, Q: Any) -> Any:
-    """The perpendicular bisector of two points."""
-    u = _vector(P, Q)
-    d.nonzero(_size(u), _size(P) + _size(Q), "points-coincide", "the two points coincide")
-    return u[0], u[1], -(u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
+    """The perpendicular bisector of two points, running a quarter turn counter-clockwise of the first to the second."""
+    u = _apart(d, P, Q)
+    return -u[0], -u[1], (u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
 
 
 @primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.",
@@ -75,30 +81,31 @@ def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "Divide {3}{4} in {out} as {2} divides {0}{1}.",
-           claims=(("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)), fails=("points-coincide",))
+           claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",))
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
-    u = _vector(A, B)
-    u2 = d.nonzero(_dot(u, u), _dot(A, A) + _dot(B, B), "points-coincide", "the two points coincide")
-    t = _dot(_vector(A, C), u) / u2
+    u = _apart(d, A, B)
+    t = _dot(_vector(A, C), u) / _dot(u, u)
     return P[0] + t * (Q[0] - P[0]), P[1] + t * (Q[1] - P[1])
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "On {3}{4} draw the figure similar to {0}{1}{2}, its sides {turn}: mark {out}.",
-           claims=(("image", 0, 2, 3, -1), ("image", 1, 2, 4, -1)), fails=("points-coincide",), params=("turn",),
+           claims=(("image", 0, 1, 3, 4), ("image", 0, 2, 3, -1), ("image", 1, 2, 4, -1), ("likeness", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), params=("turn",),
            source="Rosenauer 1939, No. 14; Ozols 1974, 5-2")
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
-    u = _vector(A, B)
-    u2 = d.nonzero(_dot(u, u), _dot(A, A) + _dot(B, B), "points-coincide", "the two points coincide")
-    s = _dot(_vector(a, b), _turned(u, turn)) / u2
+    u = _apart(d, A, B)
+    s = _dot(_vector(a, b), _turned(u, turn)) / _dot(u, u)
     w = _turned(_vector(A, C), turn)
     return a[0] + s * w[0], a[1] + s * w[1]
 
 
 @primitive((POINT, LINE, POINT, LINE, POINT), LINE, STRAIGHTEDGE,
-           "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a point of their link.",
+           "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a "
+           "point of their link, the image's sides {turn}.",
            claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
            source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1)
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
@@ -116,8 +123,10 @@ def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str
 
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, SET_SQUARES,
-           "From {1}, the image of {0}, and the locus {3}, mark {out}, the image of {2}.",
-           claims=(("on", 3), ("image", 0, 2, 1, -1)), fails=("lines-parallel",), params=("turn",))
+           "From {1}, the image of {0}, and the loci {3} of {2} and {5} of {4}, mark {out}, the image of {2}, the image's "
+           "sides {turn}.",
+           claims=(("on", 3), ("image", 0, 2, 1, -1), ("carried", 0, 2, 4, 1, 5)),
+           fails=("lines-parallel",), params=("turn",))
 def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:
     """The image of A, where the image of C is known and both A and B of the same link have a locus.
 
@@ -127,9 +136,9 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
     m, n = alpha[0] * alpha[0] + alpha[1] * alpha[1], beta[0] * beta[0] + beta[1] * beta[1]
     p, q = alpha[0] * u[0] + alpha[1] * u[1], beta[0] * v[0] + beta[1] * v[1]
     e, f = alpha[0] * c[0] + alpha[1] * c[1] + alpha[2], beta[0] * c[0] + beta[1] * c[1] + beta[2]
-    weight = p * p / m + q * q / n
-    d.nonzero(weight, _dot(u, u) + _dot(v, v), "lines-parallel", "neither locus meets the line through the known image")
-    s = -(p * e / m + q * f / n) / weight
+    told = abs(p) / _size(alpha) + abs(q) / _size(beta)
+    d.nonzero(told, _size(u) + _size(v), "lines-parallel", "neither locus meets the line through the known image")
+    s = -(p * e / m + q * f / n) / (p * p / m + q * q / n)
     return c[0] + s * u[0], c[1] + s * u[1]
 
 
@@ -143,28 +152,26 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
     The relative normal acceleration of A about K is then the vector from a to k.
     """
-    u, v = _vector(K, A), _vector(m, w)
-    u2 = d.nonzero(_dot(u, u), _dot(K, K) + _dot(A, A), "points-coincide", "the two joints coincide")
-    s = _dot(v, v) / u2
+    u, v = _apart(d, K, A, "the two joints coincide"), _vector(m, w)
+    s = _dot(v, v) / _dot(u, u)
     return k[0] + s * u[0], k[1] + s * u[1]
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
            "Construct half the Coriolis vector at {1} from the orthogonal relative velocity {1}{3} and that of the "
            "guide's turning about {0}, {1}{2}; from {4} lay it off twice, reversed: mark {out}.",
-           claims=(("coriolis", 0, 1, 2, 3, 4),), fails=("points-coincide",),
+           claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            source="Ozols 1974, 5-3, fig. 5-24")
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """b less the Coriolis vector: BT : BP is the guide's turning, BR the orthogonal relative velocity of the pair."""
-    u = _vector(B, P)
-    u2 = d.nonzero(_dot(u, u), _dot(B, B) + _dot(P, P), "points-coincide", "the pole of the guide lies in the pair")
-    s = 2 * _dot(_vector(B, T), u) / u2
+    u = _apart(d, B, P, "the pole of the guide lies in the pair")
+    s = 2 * _dot(_vector(B, T), u) / _dot(u, u)
     return b[0] - s * (R[0] - B[0]), b[1] - s * (R[1] - B[1])
 
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
-           "nothing.", claims=(("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
+           "nothing.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
            fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14", where=0)
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""

@@ -27,7 +27,7 @@ def evaluate(
     for step in program.steps:
         params = {**step.params, **given[step.name]} if step.name in given else step.params
         try:
-            values.append(step.op.rule(domain, *[values[arg] for arg in step.args], **params))
+            values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
         except Undrawable as fault:
             raise error_at(program, step, fault) from None
         if after is not None:

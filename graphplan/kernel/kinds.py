@@ -62,6 +62,7 @@ TABLE: dict[str, Primitive] = {}
 FAILURES: dict[str, tuple[str, str]] = {
     "points-coincide": ("two points that should give a direction coincide", "move one of them, or ask for less"),
     "lines-parallel": ("two lines that should meet are parallel", "--method trial, or let the form be chosen"),
+    "no-direction": ("a given direction has no length", "give another direction"),
     "circles-miss": ("two circles do not meet", "check the lengths"),
     "circles-concentric": ("two circles have the same centre", "check the centres"),
     "line-misses-circle": ("the line passes the circle by", "check the lengths"),

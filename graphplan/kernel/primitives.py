@@ -22,27 +22,29 @@ from graphplan.kernel.kinds import (
 )
 
 
-@primitive((), POINT, SCALE, "Mark {out}, given by the pose.", params=("x", "y"))
+@primitive((), POINT, SCALE, "Mark {out} at ({x}, {y}), given by the pose.", claims=(("stands",),), params=("x", "y"))
 def given(d: Any, /, *, x: Any, y: Any) -> Any:
     """A point of the pose."""
     return d.lift(x), d.lift(y)
 
 
-@primitive((), POINT, PENCIL, "Mark {out} where there is room: the {plan} begins there.", params=("plan", "number"))
+@primitive((), POINT, PENCIL, "Mark {out} where there is room: beginning {number} of the {plan}.",
+           claims=(("stands",),), params=("plan", "number"))
 def begin(d: Any, /, *, plan: str, number: int) -> Any:
     """The place where a plan begins, its origin; `number` tells several beginnings on one plan apart."""
     return d.lift(0), d.lift(0)
 
 
-@primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in its given direction.",
-           claims=(("on", 0),), params=("dx", "dy"))
+@primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in the given direction ({dx}, {dy}).",
+           claims=(("on", 0), ("heads",)), fails=("no-direction",), params=("dx", "dy"))
 def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """The line through a point in a direction that the scene gives."""
     a, b = -d.lift(dy), d.lift(dx)
+    d.nonzero(abs(a) + abs(b), 0, "no-direction", "the direction has no length")
     return a, b, -(a * P[0] + b * P[1])
 
 
-@primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw the line through {0} and {1}.",
+@primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw {out} through {0} and {1}.",
            claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
@@ -75,7 +77,8 @@ def meet(d: Any, k: Any, l: Any) -> Any:
     return (k[1] * l[2] - l[1] * k[2]) / w, (k[2] * l[0] - l[2] * k[0]) / w
 
 
-@primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses from {0} to {1}.", claims=(("span", 0, 1),))
+@primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses from {0} to {1}: {out}.",
+           claims=(("span", 0, 1),))
 def opening(d: Any, P: Any, Q: Any) -> Any:
     """The distance of two points, in the compasses."""
     dx, dy = Q[0] - P[0], Q[1] - P[1]
@@ -116,16 +119,16 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
-           claims=(("along", (2, -1), (0, 1)),), params=("ratio",))
+           claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ laid off from R."""
     r = d.lift(ratio)
     return R[0] + r * (Q[0] - P[0]), R[1] + r * (Q[1] - P[1])
 
 
-@primitive((POINT, POINT, POINT), POINT, SCALE, "From {2} lay off {ratio} times the vector from {0} to {1}, "
-           "turned a quarter counter-clockwise: mark {out}.",
-           claims=(("across", (2, -1), (0, 1)),), params=("ratio",))
+@primitive((POINT, POINT, POINT), POINT, SCALE,
+           "From {2} lay off {ratio} times the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
+           claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
     r = d.lift(ratio)
@@ -133,7 +136,7 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
-           params=("length",))
+           claims=(("laid", 0, 1),), params=("length",))
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
     unit = d.sqrt(l[0] * l[0] + l[1] * l[1], "not-rational", "a length along this line is irrational")
@@ -141,14 +144,16 @@ def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     return P[0] + r * l[1], P[1] - r * l[0]
 
 
-@primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.", params=("dx", "dy"))
+@primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.",
+           claims=(("moved", (0, -1)),), params=("dx", "dy"))
 def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """A vector given by its components, laid off from a point."""
     return P[0] + d.lift(dx), P[1] + d.lift(dy)
 
 
-@primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial.",
-           claims=(("on", 0),), params=("ratio",), where=0)
+@primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance from {1} "
+           "to {2}.",
+           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0)
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
     n2 = l[0] * l[0] + l[1] * l[1]

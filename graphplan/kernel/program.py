@@ -174,7 +174,7 @@ class Program:
         for index, step in enumerate(self.steps):
             if step.index != index:
                 raise ValueError(f"step {step.index} stands at place {index}")
-            if any(arg >= index for arg in step.args):
+            if any(not 0 <= arg < index for arg in step.args):
                 raise ValueError(f"step {index} reads a mark that is not drawn yet")
             if tuple(self.steps[arg].op.gives for arg in step.args) != step.op.reads:
                 raise ValueError(f"step {index}: {step.op.name} reads {step.op.reads}")
@@ -183,6 +183,8 @@ class Program:
             if step.name and step.name in bound:
                 raise ValueError(f"the name {step.name} is bound twice")
             bound.add(step.name)
+        if any(not 0 <= index < len(self.steps) for index in self.wanted):
+            raise ValueError(f"the wanted marks {self.wanted} are not all drawn")
 
     def __len__(self) -> int:
         return len(self.steps)

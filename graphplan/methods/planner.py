@@ -181,12 +181,15 @@ class Planner:
 
     def _emit(self, body: str, X: Place, rank: int) -> None:
         """Tell a place what the body knows of it."""
-        move = self._figure(body, X) if rank == 2 else self._settle(body, X) or self._line(body, X)
-        if move is None:
+        whole = rank == 1 and (self._settle(body, X) or self._beside(body, X))
+        move = whole or (self._figure(body, X) if rank == 2 else self._line(body, X))
+        if not move:
             return
+        if isinstance(whole, (Settle, Figure)):
+            self.moves.append(Swing(body, whole.K, X))  # a locus that others may ask for; pruned if nobody does
         self.moves.append(move)
         self.told[body, X] = rank
-        self._file(X, body, rank, marked=isinstance(move, Settle))
+        self._file(X, body, rank, marked=bool(whole))
 
     def _line(self, body: str, X: Place) -> Move | None:
         """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
@@ -198,7 +201,7 @@ class Planner:
             return Slip(body, loci[0], X, like)
         return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
 
-    def _settle(self, body: str, X: Place) -> Move | None:
+    def _settle(self, body: str, X: Place) -> Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""
         loci = list(self._loci(body, ("", "")))
         own = [locus for locus in loci if locus[0] == X]
@@ -206,8 +209,13 @@ class Planner:
         if len(loci) < 3 or not own or not known:
             return None
         K = known[0]
-        self.moves.append(Swing(body, K, X))  # a locus that others may ask for; if nobody does, it is not drawn
         return Settle(body, K, own[0], next(locus for locus in loci if locus[0] not in (K, X)))
+
+    def _beside(self, body: str, X: Place) -> Figure | None:
+        """The end of X, which has a locus of its own, in a body of which an end and the turning are known."""
+        known = [place for place in self.places[body] if place in self.drawn and place != X]
+        like = self._like(body)
+        return Figure(body, known[0], X, like=like) if known and like and self.facts.get(X) else None
 
     def _figure(self, body: str, X: Place) -> Move | None:
         """The end of X from the whole body."""

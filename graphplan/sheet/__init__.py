@@ -12,8 +12,8 @@ if TYPE_CHECKING:
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None) -> str:
     """The construction sheet as SVG text.
 
-    Reads a construction, the sheet's name (such as `A3` or `A4 portrait`; without it the smallest good one) and what the
-    check against the analytic solver found, by kind. Fails with `Refused` where the words do not fit the paper named.
+    Reads a construction, the name of a sheet (such as `A3` or `A4 portrait`; without it the smallest good one is taken)
+    and what the check against the analytic solver found, by kind. Fails with `Refused` where the words do not fit.
     """
     from graphplan.backends.svg import svg as write
     from graphplan.sheet.layout import layout

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from itertools import pairwise
 
 from graphplan.sheet.display import Arc, Item, Polygon, Polyline, Rect, Spot
 
@@ -12,9 +13,8 @@ def segment(rect: Rect, start: Spot, end: Spot) -> tuple[float, float] | None:
     """The part of a segment inside a rectangle, as two fractions of its length (Liang and Barsky), or none."""
     low, high = 0.0, 1.0
     dx, dy = end[0] - start[0], end[1] - start[1]
-    for step, room in (
-        (-dx, start[0] - rect.left), (dx, rect.right - start[0]), (-dy, start[1] - rect.bottom), (dy, rect.top - start[1]),
-    ):  # fmt: skip
+    (x, y), steps = start, (-dx, dx, -dy, dy)
+    for step, room in zip(steps, (x - rect.left, rect.right - x, y - rect.bottom, rect.top - y), strict=True):
         if step == 0:
             if room < 0:
                 return None
@@ -48,7 +48,7 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
     """The runs of a chain that lie inside."""
     spots = item.spots if isinstance(item, Polyline) else (*item.spots, item.spots[0])
     chain: list[Spot] = []
-    for start, end in zip(spots, spots[1:], strict=False):
+    for start, end in pairwise(spots):
         inside = segment(rect, start, end)
         if inside is None:
             continue

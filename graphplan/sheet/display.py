@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 from graphplan.sheet.lettering import Run
 from graphplan.sheet.pens import Pen
+from graphplan.sheet.scales import Scales
 
 Spot = tuple[float, float]
 
@@ -138,4 +139,4 @@ class Sheet:
     title: str
     description: str
     sentences: tuple[str, ...]
-    scales: dict[str, float]
+    scales: Scales

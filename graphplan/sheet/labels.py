@@ -98,7 +98,9 @@ def shapes(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
     """What letters should not cover, with its price per mm of stroke or per mm^2 of surface."""
     for item in items:
         price = 1.0 + 5.0 * item.pen.width
-        if isinstance(item, Polyline):
+        if isinstance(item, Polyline) and item.pen.width > 0.6:
+            yield shapely.LineString(item.spots).buffer(item.pen.width / 2, 2), 5.0
+        elif isinstance(item, Polyline):
             yield shapely.LineString(item.spots), price
         elif isinstance(item, Arc):
             yield shapely.LineString(item.spots()), price
@@ -159,8 +161,9 @@ def _chosen(boxes: np.ndarray[Any, Any], cost: np.ndarray[Any, Any], edges: np.n
     """One place for every letter: greedily, the fewest good places first, then sweeps of improvement."""
     count = len(edges) - 1
     spans = [slice(int(edges[i]), int(edges[i + 1])) for i in range(count)]
-    lavish = [(int((cost[span] < cost[span].min() + 1.5).sum()), -float(cost[span].min()), i) for i, span in enumerate(spans)]
-    order = [i for *_, i in sorted(lavish)]
+    cheapest = [float(cost[span].min()) for span in spans]
+    choices = [int((cost[span] < least + 1.5).sum()) for span, least in zip(spans, cheapest, strict=True)]
+    order = sorted(range(count), key=lambda i: (choices[i], -cheapest[i], i))
     choice = [-1] * count
     for _ in range(SWEEPS):
         before = list(choice)

@@ -10,7 +10,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.sheet import clip, pens
-from graphplan.sheet.display import Item, Polygon, Rect, Sheet, Spot, Text
+from graphplan.sheet.display import Item, Polygon, Sheet, Spot, Text
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.linkage import Linkage
@@ -60,17 +60,17 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     words = Words(planes, check or {})
     block = TitleBlock(drawing.scene.title, drawing.scene.source)
     composition = _composed(planes, words, block, paper)
-    arrangement = composition.arrangement
+    arrangement, scales = composition.arrangement, composition.scales
     items = [*_frame(arrangement), *_captions(composition, planes)]
     for panel, window in composition.views.items():
         items += _panel(planes, panel, window)
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
-    items += block.items(arrangement.title, arrangement.paper.split()[0], ratio(composition.scales.k_s, composition.scales.length))
-    scales = {f"{name} {panel}": of(panel) for panel in composition.views for name, of in (
-        ("k", composition.scales.of), ("k_v", composition.scales.speed), ("k_a", composition.scales.acceleration))}  # fmt: skip
-    return Sheet(arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(_stacked(items)),
-                 drawing.scene.title, _description(composition, planes), tuple(drawing.sentences()), scales)  # fmt: skip
+    items += block.items(arrangement.title, arrangement.paper.split()[0], ratio(scales.k_s, scales.length))
+    return Sheet(
+        arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(_stacked(items)),
+        drawing.scene.title, _description(composition, planes), tuple(drawing.sentences()), scales,
+    )  # fmt: skip
 
 
 # ---- the choice of paper ------------------------------------------------------------------------------------------
@@ -89,7 +89,7 @@ def _composed(planes: Planes, words: Words, block: TitleBlock, paper: str | None
             if _shortest(planes) * best.views[MECHANISM].scale >= SHORTEST or name == "A2":
                 return best
     if best is None:
-        raise Refused(f"paper {paper}", "the steps do not fit on it in legible letters", "a larger sheet, or none named")
+        raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
     return best
 
 
@@ -162,5 +162,5 @@ def _stacked(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, planes: Planes) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
-    said = "; ".join(f"{panel}: {', '.join(composition.scales.said(panel, planes.kinds(panel)))}" for panel in composition.views)
-    return f"Graphical construction in {steps} steps. Scales: {said}."
+    said = [f"{panel}: {', '.join(composition.scales.said(panel, planes.kinds(panel)))}" for panel in composition.views]
+    return f"Graphical construction in {steps} steps. Scales: {'; '.join(said)}."

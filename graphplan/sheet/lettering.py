@@ -17,8 +17,9 @@ SUBSCRIPT, DROP = 0.72, 0.22
 
 _ADVANCES = {
     278: "'ijlīļ", 295: "IJ", 318: " ,.·’", 337: "/:;\\|", 338: "ι", 227: "′", 352: "f", 361: "-", 374: "″",
-    390: "()[]", 392: "t", 401: "!²³⁰¹⁴⁵⁶⁷⁸⁹", 528: "⁻", 411: "r", 460: '"', 500: "*_`°–", 518: "“”„", 521: "sš", 525: "zž", 531: "?",
-    541: "ε", 544: "ζ", 550: "cčç", 557: "LΓ", 558: "ξ", 559: "ν", 575: "F", 578: "χ", 579: "kυķ", 589: "κ",
+    390: "()[]", 392: "t", 401: "!²³⁰¹⁴⁵⁶⁷⁸⁹", 528: "⁻", 411: "r", 460: '"', 500: "*_`°–", 518: "“”„",
+    521: "sš", 525: "zž", 531: "?", 541: "ε", 544: "ζ", 550: "cčç",
+    557: "LΓ", 558: "ξ", 559: "ν", 575: "F", 578: "χ", 579: "kυķ", 589: "κ",
     592: "vxyγλ", 602: "πτ", 603: "P", 611: "TY", 612: "oδθοö", 613: "aāä", 615: "eēéè", 630: "ß", 632: "EΞΣĒ",
     634: "hnuησņūü", 635: "Sbdgpqρģ", 636: "$0123456789{}μ", 638: "β", 656: "K", 659: "α", 660: "φψ", 684: "AVΔΛÄĀ",
     685: "XZ", 686: "B", 695: "R", 698: "CČ", 732: "UÜ", 748: "N", 752: "HΠ", 764: "Ω", 770: "D", 775: "G", 780: "&",
@@ -28,10 +29,11 @@ _ADVANCES = {
 ADVANCE = {char: width / 1000 for width, chars in _ADVANCES.items() for char in chars}
 _BOLD = 1.25  # DejaVu Sans Bold is wider than the book weight by at most this
 
-GREEK = dict(zip(
-    "alpha beta gamma delta epsilon zeta eta theta iota kappa lambda mu nu xi pi rho sigma tau phi chi psi omega".split(),
-    "αβγδεζηθικλμνξπρστφχψω", strict=True,
-))  # fmt: skip
+GREEK = {
+    "alpha": "α", "beta": "β", "gamma": "γ", "delta": "δ", "epsilon": "ε", "zeta": "ζ", "eta": "η", "theta": "θ",
+    "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
+    "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)

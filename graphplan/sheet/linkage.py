@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Scene, Slide, TurningDrive
-from graphplan.sheet import pens, symbols
-from graphplan.sheet.display import Item, Polyline, Spot
+from graphplan.sheet import symbols
+from graphplan.sheet.display import Item, Spot
 from graphplan.sheet.labels import Wish
 from graphplan.sheet.lettering import Run, sentence_runs
 from graphplan.sheet.symbols import LONG, Vector, off, turn, unit
@@ -43,14 +43,19 @@ class Linkage:
         for drive in self.scene.drives:
             if isinstance(drive, TurningDrive) and drive.omega:
                 yield from self._driven(drive)
+        yield from self._pairs()
+
+    def _pairs(self) -> Iterator[Item]:
+        """A circle for each joint and each driven point; a dot for a point that only traces."""
         seen: list[Spot] = []
-        for name in self.scene.joints:
+        pairs = [*self.scene.joints, *self.scene.motions]
+        for name in [*pairs, *self.scene.points]:
             spot = self.spots[name]
             if all(math.dist(spot, other) > NEAR for other in seen):
                 seen.append(spot)
-                yield symbols.revolute(spot)
+                yield symbols.revolute(spot) if name in pairs else symbols.tracer(spot)
 
-    # ---- ground -------------------------------------------------------------------------------------------------------
+    # ---- ground ----------------------------------------------------------------------------------------------------
 
     @property
     def _pivots(self) -> list[str]:
@@ -63,6 +68,11 @@ class Linkage:
         here = self.spots[name]
         others = [self.spots[p] for link in links for p in self.scene.links[link]]
         return [spot for spot in others if math.dist(spot, here) > NEAR]
+
+    def _around(self, at: Spot) -> list[Spot]:
+        """The other ends of the moving links at all the points of a place."""
+        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return [other for name in here for other in self.neighbours(name)]
 
     def _ground(self, name: str) -> Vector:
         """Downwards, unless a link goes there."""
@@ -79,20 +89,17 @@ class Linkage:
     def _guide(self, slide: Slide) -> Iterator[Item]:
         """The fixed guide of a slide on the frame, or the ground of a fixed block; hatched away from the mechanism."""
         at, along = self._seat(slide), self._along(slide)
-        if slide.along == FRAME:
-            yield from symbols.guideway(at, along, self._outer(slide, at, along))
-        elif slide.link == FRAME:
+        if FRAME in (slide.along, slide.link):
             yield from symbols.guideway(at, along, self._outer(slide, at, along))
 
     def _outer(self, slide: Slide, at: Spot, along: Vector) -> float:
         """The side of a guide that the mechanism leaves free."""
-        others = [spot for name, spot in self.spots.items() if math.dist(spot, at) < NEAR for spot in self.neighbours(name)]
-        lean = sum(turn(at, off(at, along, 1.0), spot) for spot in others)
+        lean = sum(turn(at, off(at, along, 1.0), other) for other in self._around(at))
         if abs(lean) > 1e-6:
             return -1.0 if lean > 0 else 1.0
         return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
 
-    # ---- links --------------------------------------------------------------------------------------------------------
+    # ---- links -----------------------------------------------------------------------------------------------------
 
     def _along(self, slide: Slide) -> Vector:
         x, y = (float(part) for part in slide.direction)
@@ -118,9 +125,9 @@ class Linkage:
     def _link(self, link: str) -> Iterator[Item]:
         spots = self._distinct(link)
         for slide in self.scene.slides:
-            if slide.along == link and (len(spots) > 1 or self._seat(slide) == self.spots[slide.at]):
-                yield from self._rail(slide, spots)
-            elif slide.link == link and self._seat(slide) != self.spots[slide.at]:
+            seated = self._seat(slide) == self.spots[slide.at]
+            guides = slide.along == link and (len(spots) > 1 or seated)
+            if guides or (slide.link == link and not seated):
                 yield from self._rail(slide, spots)
         if len(spots) < 2:
             return
@@ -149,9 +156,8 @@ class Linkage:
 
     def _free_side(self, inner: Spot, along: Vector) -> float:
         """The side of a bar that the other links at an inner joint leave free."""
-        lean = sum(turn(inner, off(inner, along, 1.0), other) / (math.dist(inner, other) or 1.0)
-                   for name, spot in self.spots.items() if math.dist(spot, inner) < NEAR
-                   for other in self.neighbours(name))  # fmt: skip
+        ahead = off(inner, along, 1.0)
+        lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._around(inner))
         return -1.0 if lean > 0 else 1.0
 
     def _driven(self, drive: TurningDrive) -> Iterator[Item]:
@@ -162,7 +168,7 @@ class Linkage:
             here = self.spots[pairs[0]]
             yield from symbols.drive(here, unit(here, self.spots[others[0]]), 1.0 if drive.omega > 0 else -1.0)
 
-    # ---- letters ------------------------------------------------------------------------------------------------------
+    # ---- letters ---------------------------------------------------------------------------------------------------
 
     def wishes(self) -> Iterator[Wish]:
         """The numbers of the links, beside their middles."""
@@ -173,8 +179,8 @@ class Linkage:
                 yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
             elif symbols.straight(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
-                yield Wish(runs, tuple(_between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7)), 0.8, label=f"link {link}",
-                           balloon=True, free=True)  # fmt: skip
+                middles = tuple(_between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+                yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
             else:
                 n = len(spots)
                 centre = sum(x for x, _ in spots) / n, sum(y for _, y in spots) / n
@@ -187,7 +193,8 @@ class Linkage:
         for name, spot in self.spots.items():
             key = next((other for other in found if math.dist(other, spot) < NEAR), spot)
             found.setdefault(key, []).append(name)
-        return {spot: (sentence_runs(" ≡ ".join(names), tuple(names)), ",".join(names)) for spot, names in found.items()}
+        runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in found.items()}
+        return {spot: (runs[spot], ",".join(names)) for spot, names in found.items()}
 
 
 def _between(p: Spot, q: Spot, t: float) -> Spot:

@@ -41,7 +41,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
     """Width and height of a sheet such as `A3` or `A4 portrait`."""
     name, _, way = paper.partition(" ")
     if name.upper() not in SIZES or way not in ("", "landscape", "portrait"):
-        raise Refused(f"paper {paper!r}", "there is no such sheet", f"one of {', '.join(SIZES)}, with or without ' portrait'")
+        raise Refused(f"paper {paper!r}", "there is no such sheet", f"one of {', '.join(SIZES)}, or 'A4 portrait'")
     wide, high = SIZES[name.upper()]
     return (high, wide) if way == "portrait" else (wide, high)
 
@@ -92,11 +92,9 @@ def _below(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable[
 def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
     """Equal columns; the last one ends above the title block."""
     pitch = region.width / count
-    edges = [region.left + i * pitch for i in range(count)]
-    return tuple(
-        Rect(x + GUTTER / 2, (block.top if i == count - 1 else region.bottom) + 2.0, x + pitch - GUTTER / 2, region.top - 2.0)
-        for i, x in enumerate(edges)
-    )  # fmt: skip
+    lefts, feet = [region.left + i * pitch for i in range(count)], [region.bottom] * (count - 1) + [block.top]
+    slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
+    return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2, 2.0) for slot in slots)
 
 
 def _divisions(plans: Rect, panels: Sequence[str]) -> Iterator[dict[str, Rect]]:
@@ -106,9 +104,10 @@ def _divisions(plans: Rect, panels: Sequence[str]) -> Iterator[dict[str, Rect]]:
         yield {first: plans}
         return
     for share in SHARES:
-        x, y = plans.left + share * plans.width, plans.bottom + (1 - share) * plans.height
+        left, low, right, top = plans.left, plans.bottom, plans.right, plans.top
+        x, y = left + share * plans.width, low + (1 - share) * plans.height
         high, wide = plans.height / len(rest), plans.width / len(rest)
-        beside = {p: Rect(x, plans.top - (i + 1) * high, plans.right, plans.top - i * high) for i, p in enumerate(rest)}
-        under = {p: Rect(plans.left + i * wide, plans.bottom, plans.left + (i + 1) * wide, y) for i, p in enumerate(rest)}
-        yield {first: Rect(plans.left, plans.bottom, x, plans.top), **beside}
-        yield {first: Rect(plans.left, y, plans.right, plans.top), **under}
+        beside = {p: Rect(x, top - (i + 1) * high, right, top - i * high) for i, p in enumerate(rest)}
+        under = {p: Rect(left + i * wide, low, left + (i + 1) * wide, y) for i, p in enumerate(rest)}
+        yield {first: Rect(left, low, x, top), **beside}
+        yield {first: Rect(left, y, right, top), **under}

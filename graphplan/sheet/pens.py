@@ -51,7 +51,8 @@ PRODUCED = Pen(0.18, GREY, (4.0, 0.9, 0.5, 0.9))
 NORMAL = Pen(0.35)
 LOCUS = Pen(0.25, GREEN)
 ARC = Pen(0.18, GREY)
-DOT = Pen(0.0, INK, fill=INK)
+DOT = Pen(0.2, fill=PAPER)
+ORIGIN = Pen(0.2, fill=INK)
 LEADER = Pen(0.13, GREY)
 
 VECTORS = {
@@ -60,4 +61,5 @@ VECTORS = {
     "normal": Pen(0.35, INK, fill=INK),
     "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
 }
+GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED)}
 HEADS = {"velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4}

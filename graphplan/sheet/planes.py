@@ -150,10 +150,10 @@ class Planes:
         """The highest points of the half circles on a plan."""
         found = []
         for step in self.drawing.drawn.steps:
-            if step.op.gives == CIRCLE and self.homes[step.index] == panel and self.marks_on[step.index]:
-                end = self.diameter(step)
-                if end is not None:
-                    found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(self.marks_on[step.index][0])))
+            if step.op.gives == CIRCLE and self.homes[step.index] == panel:
+                end, crossings = self.diameter(step), self.marks_on[step.index]
+                if end is not None and crossings:
+                    found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0])))
         return found
 
     def figure(self, panel: str) -> Figure:

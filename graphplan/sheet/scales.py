@@ -52,17 +52,12 @@ def times(multiple: Fraction) -> str:
 
 @dataclass(frozen=True)
 class Scales:
-    """The scales of one sheet: `k_s` in lengths per mm, the multiples of the other plans, and the construction's kappa."""
+    """The scales of one sheet: `k_s` in lengths per mm, the construction's kappa, the multiples of the other plans."""
 
     k_s: float
     kappa: float
     length: str
     multiples: dict[str, Fraction]
-
-    @property
-    def k_v(self) -> float:
-        """Speed for one mm of a vector on the mechanism plan."""
-        return self.k_s / self.kappa
 
     def of(self, panel: str) -> float:
         """Scene lengths for one mm on a panel."""

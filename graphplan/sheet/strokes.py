@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -26,6 +26,8 @@ BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each 
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 SMALL = 2.0  # the figures of marks without a letter
 LAID_OFF = {"foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0}
+GIVEN = ("lay_off", "lay_along", "step_off", "step_across")
+ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 NEAR = 0.25
 
 
@@ -37,6 +39,12 @@ class Stretch:
     end: Spot
     to_start: int | None
     to_end: int | None
+
+    @property
+    def breaks(self) -> list[tuple[Spot, Spot, int]]:
+        """The ends that break off: each with the other end and the mark that lies beyond."""
+        ends = (self.start, self.end, self.to_start), (self.end, self.start, self.to_end)
+        return [(tip, tail, mark) for tip, tail, mark in ends if mark is not None]
 
 
 @dataclass(frozen=True)
@@ -77,19 +85,25 @@ class Strokes:
         elif step.op.gives == POINT and step.op.name != "given":
             yield from self._point(step)
 
-    # ---- points and vectors -------------------------------------------------------------------------------------------
+    # ---- points and vectors ----------------------------------------------------------------------------------------
 
     def _point(self, step: Step) -> Iterator[Item]:
         """A dot, and the stroke along which it was laid off."""
         here = self.spots[step.index]
         root = step.args[LAID_OFF[step.op.name]] if step.op.name in LAID_OFF else None
         if root in self.spots and (root, step.index) not in self._vector_ends:
-            brought = self.planes.homes[step.args[0]] != self.panel
-            pen = pens.NORMAL if brought else pens.THIN
-            yield Polyline(pen, LAYER, step.index, (self.spots[root], here))
+            yield self._laid_off(step, self.spots[root], here)
         if self.shown(step.index):
-            size = 0.6 if step.op.name == "begin" else 0.42 if step.name else 0.28
-            yield Circle(pens.DOT, LAYER, step.index, here, size)
+            pen = pens.ORIGIN if step.op.name == "begin" else pens.DOT
+            yield Circle(pen, LAYER, step.index, here, 0.5 if step.name else 0.4)
+
+    def _laid_off(self, step: Step, root: Spot, here: Spot) -> Item:
+        """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
+        if step.op.name in GIVEN and step.name and math.dist(root, here) > 0.5:
+            kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
+            return Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
+        brought = self.planes.homes[step.args[0]] != self.panel
+        return Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, (root, here))
 
     @cached_property
     def _vector_ends(self) -> set[tuple[int, int]]:
@@ -103,7 +117,7 @@ class Strokes:
             head = min(pens.HEADS[vector.kind], 0.6 * long)
             yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head)
 
-    # ---- lines --------------------------------------------------------------------------------------------------------
+    # ---- lines -----------------------------------------------------------------------------------------------------
 
     def _direction(self, step: Step) -> Spot:
         a, b = (float(part) for part in self.planes.drawing.values[step.index][:2])
@@ -119,9 +133,8 @@ class Strokes:
             pen = pens.THIN
         for piece in self._bare(stretch):
             yield Polyline(pen, LAYER, step.index, piece)
-        for tip, tail, mark in ((stretch.start, stretch.end, stretch.to_start), (stretch.end, stretch.start, stretch.to_end)):
-            if mark is not None:
-                yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, _towards(tip, tail, 4.0), tip, 2.0)
+        for tip, tail, _ in stretch.breaks:
+            yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, _towards(tip, tail, 4.0), tip, 2.0)
 
     def _bare(self, stretch: Stretch) -> list[tuple[Spot, Spot]]:
         """A stretch without the parts that run along a link: there the link is the line."""
@@ -173,14 +186,14 @@ class Strokes:
                        None if self.shown(low) else low, None if self.shown(high) else high)  # fmt: skip
 
     def _beyond(self, step: Step, long: float) -> float:
-        """How far past its outermost marks a line goes; the line through two points that serves as a direction does not."""
+        """How far past its outermost marks a line goes; one that only serves as a direction ends at them."""
         if step.op.name == "line" and len(self._on(step)) == 2:
             return 0.0
         if long < 1.0:
             return ALONE
         return LOCUS_BEYOND if step.name else BEYOND
 
-    # ---- arcs ---------------------------------------------------------------------------------------------------------
+    # ---- arcs ------------------------------------------------------------------------------------------------------
 
     def _arcs(self, step: Step) -> Iterator[Item]:
         x, y, r2 = (float(part) for part in self.planes.drawing.values[step.index])
@@ -199,7 +212,7 @@ class Strokes:
             middle = _angle(centre, crossing)
             yield Arc(pens.ARC, LAYER, step.index, centre, radius, middle - wide, middle + wide)
 
-    # ---- letters ------------------------------------------------------------------------------------------------------
+    # ---- letters ---------------------------------------------------------------------------------------------------
 
     def wishes(self) -> Iterator[Wish]:
         """The letters of the plan: marks, loci, vectors, and the numbers of marks without a letter."""
@@ -222,13 +235,15 @@ class Strokes:
             lettered = [step for step in steps if step.name]
             clear = RADIUS + 0.4 if self.panel == MECHANISM and self._at_joint(spot) else 0.6
             if lettered:
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=",".join(s.name for s in lettered))
+                label = ",".join(step.name for step in lettered)
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label)
             else:
                 number = str(self.planes.drawing.drawn.number(steps[0].index))
                 yield Wish(sentence_runs(number), (spot,), clear, SMALL, pens.FAINT, steps[0].index, f"point {number}")
 
     def _at_joint(self, spot: Spot) -> bool:
-        return any(math.dist(self.view(self.planes.place(name)), spot) < 1.0 for name in self.planes.drawing.scene.points)
+        joints = (self.view(self.planes.place(name)) for name in self.planes.drawing.scene.points)
+        return any(math.dist(joint, spot) < 1.0 for joint in joints)
 
     def _spoken(self, step: Step) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step."""
@@ -241,25 +256,27 @@ class Strokes:
         return {arg for step in drawn.steps for arg in step.args if drawn.text(arg).endswith(f" {drawn.number(arg)}")}
 
     def _line_letters(self, step: Step, stretch: Stretch) -> Iterator[Wish]:
-        ends = stretch.start, stretch.end
-        if step.name or step.index in self._read:
-            number = str(self.planes.drawing.drawn.number(step.index))
-            runs, size, pen = (name_runs(step.name), 2.5, pens.LETTERS) if step.name else (sentence_runs(number), SMALL, pens.FAINT)
-            spots = tuple(clip.between(*ends, t) for t in (0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5))
-            yield Wish(runs, spots, 0.5, size, pen, step.index, step.name or f"line {number}", free=True)
-        for spot, mark in zip(ends, (stretch.to_start, stretch.to_end), strict=True):
-            if mark is not None:
-                name = self.planes.drawing.drawn.text(mark)
-                yield Wish(sentence_runs(f"to {name}", (name,)), (_towards(spot, ends[spot == ends[0]], 2.0),), 0.6, 2.2,
-                           pens.FAINT, step.index, f"to {name} {step.index}")  # fmt: skip
+        """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
+        drawn = self.planes.drawing.drawn
+        spots = tuple(clip.between(stretch.start, stretch.end, t) for t in ALONG)
+        if step.name:
+            yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True)
+        elif step.index in self._read:
+            number = str(drawn.number(step.index))
+            yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
+        for tip, tail, mark in stretch.breaks:
+            name, near = drawn.text(mark), (_towards(tip, tail, 2.0),)
+            runs = sentence_runs(f"to {name}", (name,))
+            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
 
     def _vector_letter(self, vector: Vector) -> Iterator[Wish]:
         """The vector's own letter at its middle, unless its end bears it."""
         start, end = self.spots[vector.start], self.spots[vector.end]
-        if vector.label and vector.label != self.planes.drawing.drawn.steps[vector.end].name and math.dist(start, end) >= 0.5:
+        borne = self.planes.drawing.drawn.steps[vector.end].name
+        if vector.label and vector.label != borne and math.dist(start, end) >= 0.5:
             spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
-            yield Wish(name_runs(vector.label), spots, 0.7, pen=pens.Pen(0.0, pens.VECTORS[vector.kind].colour, fill=pens.VECTORS[vector.kind].colour),
-                       step=vector.end, label=vector.label, free=True)  # fmt: skip
+            pen = replace(pens.VECTORS[vector.kind], width=0.0)
+            yield Wish(name_runs(vector.label), spots, 0.7, pen=pen, step=vector.end, label=vector.label, free=True)
 
 
 def _unit(start: Spot, end: Spot) -> Spot:
@@ -277,7 +294,8 @@ def _half(step: Step, centre: Spot, radius: float, end: Spot, crossing: Spot) ->
     """The half circle over a diameter, on the side of the crossing."""
     start = _angle(centre, end)
     left = math.sin(math.radians(_angle(centre, crossing) - start)) >= 0
-    return Arc(pens.ARC, LAYER, step.index, centre, radius, start if left else start - 180.0, start + 180.0 if left else start)
+    first = start if left else start - 180.0
+    return Arc(pens.ARC, LAYER, step.index, centre, radius, first, first + 180.0)
 
 
 def _angle(centre: Spot, spot: Spot) -> float:

@@ -36,6 +36,11 @@ def revolute(at: Spot) -> Item:
     return Circle(pens.PAIR, "pairs", None, at, RADIUS)
 
 
+def tracer(at: Spot) -> Item:
+    """A point of a link that is no pair."""
+    return Circle(pens.DOT, "pairs", None, at, RADIUS / 2)
+
+
 def hatching(start: Spot, end: Spot, side: float) -> Iterator[Item]:
     """Short strokes under a ground line; `side` is +1 for the left of the line and -1 for its right."""
     along, long = unit(start, end), math.dist(start, end)

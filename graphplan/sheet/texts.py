@@ -39,13 +39,13 @@ class Words:
         sections = (self._steps(wide), self._results(wide), self._check(wide), self._forms(wide))
         return [row for section in sections for row in section]
 
-    def _said(self, text: str, wide: float, step: int | None = None, number: str = "", gap: float = 0.0) -> Iterator[Row]:
+    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
         """A paragraph, hanging from its number."""
         indent = INDENT if number else 0.0
         lines = wrap(sentence_runs(text, self.names), SIZE, wide - indent)
         for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
-            yield Row((*label, Cell(indent, runs)), gap=gap if i == 0 else 0.0, step=step, keep=min(3, len(lines) - 1 - i))
+            yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
 
     def _steps(self, wide: float) -> Iterator[Row]:
         drawn, spoken = self.drawing.drawn, set[str]()
@@ -68,8 +68,9 @@ class Words:
         velocity = _vectors("v", f"{unit}/s", values.get("velocity", {}), self.drawing.scene.points)
         acceleration = _vectors("a", f"{unit}/s²", values.get("acceleration", {}), self.drawing.scene.points)
         yield from joined_tables(velocity, acceleration, wide)
-        links = [_scalars(k, u, values.get(k, {}), self.drawing.scene.links) for k, u in (("omega", "1/s"), ("alpha", "1/s²"))]
-        yield from joined_tables(*links, wide)
+        omega = _scalars("omega", "1/s", values.get("omega", {}), self.drawing.scene.links)
+        alpha = _scalars("alpha", "1/s²", values.get("alpha", {}), self.drawing.scene.links)
+        yield from joined_tables(omega, alpha, wide)
         slides = [slide.name for slide in self.drawing.scene.slides]
         velocity = _vectors("v", f"{unit}/s", values.get("slide velocity", {}), slides, "slide")
         acceleration = _vectors("a", f"{unit}/s²", values.get("slide acceleration", {}), slides, "slide")
@@ -106,7 +107,7 @@ def heading(text: str, size: float = HEADING, gap: float = 3.0) -> Row:
 
 def _vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point") -> Table:
     """Components and magnitudes, each row with its name first; nothing if there are none."""
-    head = [sentence_runs(what), *(sentence_runs(f"{letter}_{axis}") for axis in "xy"), sentence_runs(f"|{letter}| {unit}")]
+    head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     rows = [[name_runs(n), *(sentence_runs(digits(x)) for x in (*values[n], math.hypot(*values[n])))]
             for n in order if n in values]  # fmt: skip
     return [head, *rows] if rows else []
@@ -138,8 +139,9 @@ def _table(table: Table) -> Iterator[Row]:
     for wide in _widths(table):
         edges.append(edges[-1] + wide)
     for i, row in enumerate(table):
-        cells = [Cell(0.0, row[0]), *(Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True))]
-        yield Row(tuple(cells), gap=1.0 if i == 0 else 0.0, keep=min(2, len(table) - 1) if i == 0 else 0)
+        numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
+        gap, keep = (1.0, min(2, len(table) - 1)) if i == 0 else (0.0, 0)
+        yield Row((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
 
 
 def overlong(rows: Sequence[Row], wide: float) -> list[Row]:

@@ -142,8 +142,8 @@ def verdicts() -> list[str]:
     """Each group in some poses: ok, or what is wrong with it."""
     found = []
     for group in sorted(GROUPS):
-        for seed in range(5):
-            scene = mechanism([group, "rpr"], seed)
+        for seed in range(4):
+            scene = mechanism([group] if group == "class_four" else [group, "rpr"], seed)
             try:
                 structure(scene)
                 found.append("ok" if not any(report(scene, exact=True, method="poles").check.values()) else "wrong")

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 
 class Domain(Protocol):
-    """The three questions a rule may ask."""
+    """The three questions a rule may ask, and one that is asked of its answer."""
 
     name: str
 
@@ -24,4 +24,8 @@ class Domain(Protocol):
 
     def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
         """`value`, or the failure `code` where it is zero beside `scale`, the size of what it was made from."""
+        ...
+
+    def whole(self, value: Any) -> Any:
+        """A rule's answer, nothing of it left for poses that it could not draw."""
         ...

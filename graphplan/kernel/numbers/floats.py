@@ -28,3 +28,6 @@ class Floats:
         if abs(value) <= ZERO * scale or not math.isfinite(value):
             raise Undrawable(code, why)
         return value
+
+    def whole(self, value: Any) -> Any:
+        return value

@@ -141,8 +141,8 @@ def _miss(drawing: Construction, domain: Domain) -> str:
                    key=lambda step: _sine(drawing, step.args), default=None)
     if flattest is None:
         return ""
-    one, two = (drawing.program.text(arg) for arg in flattest.args)
-    return f"{one} and {two} should meet in {drawing.program.text(flattest.index)} and are parallel"
+    one, two = (drawing.program.described(arg) for arg in flattest.args)
+    return f"{drawing.program.text(flattest.index)}, where {one} should meet {two}: the two lines are all but parallel"
 
 
 def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:

@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from graphplan.errors import GraphplanError
 
-SUBCOMMANDS = ("draw", "steps", "solve", "check")
+SUBCOMMANDS = ("draw", "steps", "solve", "check", "gallery")
 
 EXAMPLES = """\
 examples:
@@ -61,7 +61,8 @@ def _parser() -> argparse.ArgumentParser:
             epilog=details.strip() or None,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        command.add_argument("scene", metavar="SCENE", help="a scene file, - for standard input, or a packaged scene")
+        if name != "gallery":
+            command.add_argument("scene", metavar="SCENE", help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
         command.set_defaults(run=module.run)
     return parser

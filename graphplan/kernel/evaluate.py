@@ -37,7 +37,9 @@ def evaluate(
 
 def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionError:
     """The rule's fault with its step attached, in the letters of the sheet."""
-    names = ", ".join(program.text(arg) for arg in step.args)
-    drawing = f"{program.text(step.index)} = {step.op.name}({names})"
+    names = [program.described(arg) for arg in step.args]
+    drawing = f"{program.text(step.index)} = {step.op.name}({', '.join(names)})"
+    if step.op.name == "meet":
+        drawing = f"{program.text(step.index)}, where {names[0]} should meet {names[1]}"
     what_to_do = FAILURES[fault.code][1]
     return ConstructionError(fault.code, program.number(step.index), drawing, fault.why, what_to_do, step.links)

@@ -198,6 +198,19 @@ class Program:
             return "".join(self.text(arg) for arg in step.args)
         return f"{'arc' if step.op.gives == CIRCLE else step.op.gives} {self.number(index)}"
 
+    def described(self, index: int) -> str:
+        """How a mark is spoken of away from the sheet, where its number says nothing: a line by how it runs."""
+        step = self.steps[index]
+        names = [] if step.name else [self.described(arg) for arg in step.args]
+        match step.op.name, names:
+            case ("parallel" | "perpendicular") as op, [l, P]:
+                return f"the {op} to {l} through {P}"
+            case "guide", [P]:
+                return f"the guide through {P}"
+            case "carry", [*_, C]:
+                return f"the locus of the end of {C}"
+        return self.text(index)
+
     @cached_property
     def givens(self) -> int:
         """How many steps only mark the points of the pose; they come first."""

@@ -66,6 +66,11 @@ def _bytes(source: str) -> bytes:
         return file.read()
 
 
+def packaged() -> list[str]:
+    """The names of the packaged scenes, in alphabetical order."""
+    return sorted(entry.name.removesuffix(".toml") for entry in _packaged())
+
+
 def _packaged() -> list[Traversable]:
     folder = files("graphplan") / "scenes"
     return [entry for entry in folder.iterdir() if entry.name.endswith(".toml")] if folder.is_dir() else []

@@ -64,9 +64,10 @@ class Draughtsman:
                 self._read(kind, name, plan.home(place), plan.ends[place])
 
     def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
-        """The turning of each link of which two points are asked for, or one and another is at rest."""
+        """The turning of each link of which two points are asked for, or one and another's motion is given."""
         for link in self.scene.moving:
-            names = [p for p in self.scene.links[link] if p in asked or FRAME in self.scene.links_of[p]]
+            known = {*asked, *self.scene.motions}
+            names = [p for p in self.scene.links[link] if p in known or FRAME in self.scene.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]
             P, R = max(combinations(names, 2), key=lambda pair: self._apart(*pair), default=("", ""))
             if set(names) & set(asked) and self._apart(P, R):

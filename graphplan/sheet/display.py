@@ -34,6 +34,10 @@ class Rect:
         return self.top - self.bottom
 
     @property
+    def area(self) -> float:
+        return self.width * self.height
+
+    @property
     def centre(self) -> Spot:
         return (self.left + self.right) / 2, (self.bottom + self.top) / 2
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cache
 from typing import Any
 
 from graphplan.errors import Refused
@@ -14,9 +15,9 @@ from graphplan.sheet.display import Item, Polygon, Sheet, Spot, Text
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.linkage import Linkage
-from graphplan.sheet.paper import CAPTION, MARGIN, SIZES, Arrangement, arrangements, room
-from graphplan.sheet.planes import MECHANISM, Drawing, Figure, Planes
-from graphplan.sheet.rows import fill, lettered
+from graphplan.sheet.paper import CAPTION, MARGIN, SIZES, Arrangement, Measure, arrangements, room
+from graphplan.sheet.planes import MECHANISM, Drawing, Figure, Planes, around
+from graphplan.sheet.rows import Row, fill, lettered
 from graphplan.sheet.scales import Scales, times
 from graphplan.sheet.strokes import Strokes
 from graphplan.sheet.symbols import RADIUS
@@ -25,7 +26,8 @@ from graphplan.sheet.title import TitleBlock, ratio
 from graphplan.sheet.view import View, plan_multiple, plan_scale, view
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0)  # the mechanism's panel and any other
-SHORTEST = 9.0  # mm: a link shorter than this has no room for letters
+SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
+CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
 CAPTIONS = {MECHANISM: "Mechanism plan", "N-plan": "N-plan: relative normal accelerations"}
 
@@ -57,9 +59,8 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     Fails with `Refused` where the words do not fit the paper named.
     """
     planes = Planes(drawing)
-    words = Words(planes, check or {})
     block = TitleBlock(drawing.scene.title, drawing.scene.source)
-    composition = _composed(planes, words, block, paper)
+    composition = _composed(planes, cache(Words(planes, check or {}).rows), block.height, paper)
     arrangement, scales = composition.arrangement, composition.scales
     items = [*_frame(arrangement), *_captions(composition, planes)]
     for panel, window in composition.views.items():
@@ -76,17 +77,17 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
 # ---- the choice of paper ------------------------------------------------------------------------------------------
 
 
-def _composed(planes: Planes, words: Words, block: TitleBlock, paper: str | None) -> Composition:
+def _composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float], paper: str | None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size."""
     figures = {panel: planes.figure(panel) for panel in planes.panels}
     papers = [paper] if paper else ["A4", "A4 portrait", *list(SIZES)[1:]]
     best: Composition | None = None
     for name in papers:
-        found = [_windows(a, figures, planes) for a in arrangements(name, planes.panels, words.rows, block.height)]
+        found = [_windows(a, figures, planes) for a in arrangements(name, planes.panels, rows, title)]
         good = [c for c in found if c.roomy] or (found if paper else [])
         if good:
             best = max(good, key=lambda c: c.score)
-            if _shortest(planes) * best.views[MECHANISM].scale >= SHORTEST or name == "A2":
+            if name == "A2" or _legible(planes, best.views):
                 return best
     if best is None:
         raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
@@ -105,6 +106,15 @@ def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], planes: Pl
         views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
     drawing = planes.drawing
     return Composition(arrangement, Scales(k_s, drawing.kappa, drawing.scene.units.length, multiples), views)
+
+
+def _legible(planes: Planes, views: Mapping[str, View]) -> bool:
+    """Whether the links are long enough for letters, and no plan is crowded."""
+    for panel, window in views.items():
+        spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
+        if spots and around(spots).area < CROWDED * len(spots):
+            return False
+    return _shortest(planes) * views[MECHANISM].scale >= SHORTEST
 
 
 def _shortest(planes: Planes) -> float:

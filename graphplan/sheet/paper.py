@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from typing import TypeVar
 
 from graphplan.errors import Refused
 from graphplan.sheet.display import Rect
@@ -16,6 +17,9 @@ SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1":
 BINDING, EDGE, GUTTER, COLUMN = 20.0, 10.0, 5.0, 96.0
 CAPTION, MARGIN = 11.0, 9.0  # a panel's caption strip, and what is kept free for letters around its figure
 SHARES = (0.5, 0.55, 0.6, 0.66)
+
+T = TypeVar("T")
+Measure = Callable[[float], T]  # what something becomes for a width
 
 
 @dataclass(frozen=True)
@@ -47,7 +51,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 def arrangements(
-    paper: str, panels: Sequence[str], rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]
+    paper: str, panels: Sequence[str], rows: Measure[Sequence[Row]], title: Measure[float]
 ) -> Iterator[Arrangement]:
     """The ways to divide one sheet that hold all the text; `title` gives the title block's height for its width."""
     wide, high = sheet_size(paper)
@@ -60,7 +64,7 @@ def arrangements(
 Division = tuple[Rect, tuple[Rect, ...], Rect]
 
 
-def _beside(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]) -> Iterator[Division]:
+def _beside(frame: Rect, rows: Measure[Sequence[Row]], title: Measure[float]) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans."""
     text = rows(COLUMN)
     pitch = COLUMN + GUTTER
@@ -73,7 +77,7 @@ def _beside(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable
             return
 
 
-def _below(frame: Rect, rows: Callable[[float], Sequence[Row]], title: Callable[[float], float]) -> Iterator[Division]:
+def _below(frame: Rect, rows: Measure[Sequence[Row]], title: Measure[float]) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
     count = int((frame.width + GUTTER) // (COLUMN + GUTTER))
     pitch = frame.width / count

@@ -1,0 +1,94 @@
+"""Draw every packaged scene, and an index page.
+
+examples:
+  graphplan gallery gallery            write the sheets, protocols and index into the folder
+  graphplan gallery gallery --check    only say what would differ there; exit status 1 if anything does
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator
+from html import escape
+from pathlib import Path
+
+from graphplan.commands.choices import write
+from graphplan.errors import Refused
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("folder", metavar="FOLDER", type=Path, help="where the gallery stands")
+    command.add_argument("--check", action="store_true", help="write nothing; compare with what is there")
+
+
+def run(options: argparse.Namespace) -> int:
+    if not options.check and not options.folder.is_dir():
+        raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
+    stale = 0
+    written = set()
+    for name, text in _pages():
+        path = options.folder / name
+        written.add(name)
+        if options.check:
+            stale += _differs(path, text)
+        else:
+            write(text, str(path))
+    for path in sorted(options.folder.iterdir()):
+        if path.name not in written:
+            stale += 1
+            print(f"{path}: no packaged scene makes this file", file=sys.stderr)
+    return 1 if stale else 0
+
+
+def _differs(path: Path, text: str) -> bool:
+    same = path.is_file() and path.read_text(encoding="utf-8") == text
+    if not same:
+        print(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}", file=sys.stderr)
+    return not same
+
+
+def _pages() -> Iterator[tuple[str, str]]:
+    """Every file of the gallery: a sheet and a protocol for each scene, and the index."""
+    from graphplan import sheet
+    from graphplan.backends.text import protocol
+    from graphplan.check.report import report
+    from graphplan.mechanism.scene import load, packaged
+    from graphplan.mechanism.structure import structure
+
+    entries = []
+    names = packaged()
+    for count, name in enumerate(names, 1):
+        print(f"\r{count}/{len(names)} {name:<30}", end="", file=sys.stderr, flush=True)
+        found = report(load(name))
+        scene = found.scene
+        yield f"{name}.svg", sheet.svg(found.drawing, check=found.check)
+        yield f"{name}.txt", protocol(found.drawing, structure(scene).lines())
+        entries.append(_entry(name, scene.title, scene.source, found.data()["steps"]))
+    print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
+    yield "index.html", INDEX.format(entries="\n".join(entries))
+
+
+def _entry(name: str, title: str, source: str, steps: int) -> str:
+    return (f'<figure><a href="{name}.svg"><img src="{name}.svg" alt="{escape(title)}" loading="lazy"></a>'
+            f"<figcaption><b>{escape(title)}</b><br>{escape(source)}<br>"
+            f'<code>graphplan draw {name}</code> · <a href="{name}.txt">{steps} steps</a></figcaption></figure>')
+
+
+INDEX = """<!DOCTYPE html>
+<html lang="en">
+<meta charset="utf-8">
+<title>graphplan: gallery</title>
+<style>
+body {{ font: 16px/1.4 sans-serif; margin: 2rem; color: #222; }}
+main {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(24rem, 1fr)); gap: 2rem; }}
+figure {{ margin: 0; }}
+img {{ width: 100%; border: 1px solid #bbb; background: #fff; }}
+</style>
+<h1>Gallery</h1>
+<p>Every packaged scene as graphplan constructs it: the sheet, and the construction in words.</p>
+<main>
+{entries}
+</main>
+</html>
+"""

@@ -62,7 +62,8 @@ def _parser() -> argparse.ArgumentParser:
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
         if name != "gallery":
-            command.add_argument("scene", metavar="SCENE", help="a scene file, - for standard input, or a packaged scene")
+            what = "a scene file, - for standard input, or a packaged scene"
+            command.add_argument("scene", metavar="SCENE", help=what)
         module.options(command)
         command.set_defaults(run=module.run)
     return parser

@@ -123,8 +123,8 @@ def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str
 
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, SET_SQUARES,
-           "From {1}, the image of {0}, and the loci {3} of {2} and {5} of {4}, mark {out}, the image of {2}, the image's "
-           "sides {turn}.",
+           "From {1}, the image of {0}, and the loci {3} of {2} and {5} of {4}, mark {out}, the image of {2}, "
+           "the image's sides {turn}.",
            claims=(("on", 3), ("image", 0, 2, 1, -1), ("carried", 0, 2, 4, 1, 5)),
            fails=("lines-parallel",), params=("turn",))
 def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:

@@ -151,8 +151,9 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     return P[0] + d.lift(dx), P[1] + d.lift(dy)
 
 
-@primitive((LINE, POINT, POINT), POINT, PENCIL, "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance from {1} "
-           "to {2}.",
+@primitive((LINE, POINT, POINT), POINT, PENCIL,
+           "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance "
+           "from {1} to {2}.",
            claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0)
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""

@@ -14,6 +14,7 @@ from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Item, Polygon, Sheet, Spot, Text
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
+from graphplan.sheet.letters import Letters
 from graphplan.sheet.linkage import Linkage
 from graphplan.sheet.paper import CAPTION, MARGIN, SIZES, Arrangement, Measure, arrangements, room
 from graphplan.sheet.planes import MECHANISM, Drawing, Figure, Planes, around
@@ -152,7 +153,7 @@ def _captions(composition: Composition, planes: Planes) -> Iterator[Item]:
 def _panel(planes: Planes, panel: str, window: View) -> list[Item]:
     """One plan: the mechanism if it is its plan, the strokes, and the letters that avoid both."""
     strokes = Strokes(planes, panel, window)
-    items, wishes = list(strokes.items()), list(strokes.wishes())
+    items, wishes = list(strokes.items()), list(Letters(strokes).wishes())
     marks: list[Spot] = [spot for i, spot in strokes.spots.items() if strokes.shown(i)]
     if panel == MECHANISM:
         linkage = Linkage(planes.drawing.scene, window)

@@ -8,27 +8,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polyline, Spot
-from graphplan.sheet.labels import Wish
-from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import MECHANISM, Planes, Vector
-from graphplan.sheet.symbols import RADIUS
 from graphplan.sheet.view import View
 
 LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
-SMALL = 2.0  # the figures of marks without a letter
 LAID_OFF = {"foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0}
 GIVEN = ("lay_off", "lay_along", "step_off", "step_across")
-ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
-NEAR = 0.25
 
 
 @dataclass(frozen=True)
@@ -99,7 +93,8 @@ class Strokes:
 
     def _laid_off(self, step: Step, root: Spot, here: Spot) -> Item:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
-        if step.op.name in GIVEN and step.name and math.dist(root, here) > 0.5:
+        source = self.planes.drawing.drawn.steps[step.args[LAID_OFF[step.op.name]]].op.name
+        if step.op.name in GIVEN and source in ("given", "begin") and step.name and math.dist(root, here) > 0.5:
             kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
             return Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
         brought = self.planes.homes[step.args[0]] != self.panel
@@ -125,7 +120,7 @@ class Strokes:
         return b / size, -a / size
 
     def _line(self, step: Step) -> Iterator[Item]:
-        stretch = self._stretches.get(step.index)
+        stretch = self.stretches.get(step.index)
         if stretch is None:
             return
         pen = pens.LOCUS if step.name else pens.PRODUCED if step.op.name in ("line", "guide") else pens.THIN
@@ -134,7 +129,7 @@ class Strokes:
         for piece in self._bare(stretch):
             yield Polyline(pen, LAYER, step.index, piece)
         for tip, tail, _ in stretch.breaks:
-            yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, _towards(tip, tail, 4.0), tip, 2.0)
+            yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, towards(tip, tail, 4.0), tip, 2.0)
 
     def _bare(self, stretch: Stretch) -> list[tuple[Spot, Spot]]:
         """A stretch without the parts that run along a link: there the link is the line."""
@@ -164,7 +159,7 @@ class Strokes:
         return [mark for mark in self.planes.marks_on.get(step.index, ()) if mark in self.spots]
 
     @cached_property
-    def _stretches(self) -> dict[int, Stretch]:
+    def stretches(self) -> dict[int, Stretch]:
         found = {step.index: self._stretch(step) for step in self.steps if step.op.gives == LINE}
         return {index: stretch for index, stretch in found.items() if stretch is not None}
 
@@ -212,82 +207,10 @@ class Strokes:
             middle = _angle(centre, crossing)
             yield Arc(pens.ARC, LAYER, step.index, centre, radius, middle - wide, middle + wide)
 
-    # ---- letters ---------------------------------------------------------------------------------------------------
-
-    def wishes(self) -> Iterator[Wish]:
-        """The letters of the plan: marks, loci, vectors, and the numbers of marks without a letter."""
-        yield from self._point_letters()
-        for step in self.steps:
-            if step.index in self._stretches:
-                yield from self._line_letters(step, self._stretches[step.index])
-        for vector in self.planes.vectors(self.panel):
-            yield from self._vector_letter(vector)
-
-    def _point_letters(self) -> Iterator[Wish]:
-        """One letter for each place: marks that coincide stand together."""
-        groups: dict[Spot, list[Step]] = {}
-        for step in self.steps:
-            if step.op.gives == POINT and step.op.name != "given" and self.shown(step.index) and self._spoken(step):
-                spot = self.spots[step.index]
-                key = next((other for other in groups if math.dist(other, spot) < NEAR), spot)
-                groups.setdefault(key, []).append(step)
-        for spot, steps in groups.items():
-            lettered = [step for step in steps if step.name]
-            clear = RADIUS + 0.4 if self.panel == MECHANISM and self._at_joint(spot) else 0.6
-            if lettered:
-                label = ",".join(step.name for step in lettered)
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label)
-            else:
-                number = str(self.planes.drawing.drawn.number(steps[0].index))
-                yield Wish(sentence_runs(number), (spot,), clear, SMALL, pens.FAINT, steps[0].index, f"point {number}")
-
-    def _at_joint(self, spot: Spot) -> bool:
-        joints = (self.view(self.planes.place(name)) for name in self.planes.drawing.scene.points)
-        return any(math.dist(joint, spot) < 1.0 for joint in joints)
-
-    def _spoken(self, step: Step) -> bool:
-        """Whether a mark has a letter, or is spoken of by its number in a later step."""
-        return bool(step.name) or step.index in self._read
-
-    @cached_property
-    def _read(self) -> set[int]:
-        """The marks that later steps read by number; a line through two lettered points is spoken of by them."""
-        drawn = self.planes.drawing.drawn
-        return {arg for step in drawn.steps for arg in step.args if drawn.text(arg).endswith(f" {drawn.number(arg)}")}
-
-    def _line_letters(self, step: Step, stretch: Stretch) -> Iterator[Wish]:
-        """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
-        drawn = self.planes.drawing.drawn
-        spots = tuple(clip.between(stretch.start, stretch.end, t) for t in ALONG)
-        if step.name:
-            yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True)
-        elif step.index in self._read:
-            number = str(drawn.number(step.index))
-            yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
-        for tip, tail, mark in stretch.breaks:
-            name, near = drawn.text(mark), (_towards(tip, tail, 2.0),)
-            runs = sentence_runs(f"to {name}", (name,))
-            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
-
-    def _vector_letter(self, vector: Vector) -> Iterator[Wish]:
-        """The vector's own letter at its middle, unless its end bears it."""
-        start, end = self.spots[vector.start], self.spots[vector.end]
-        borne = self.planes.drawing.drawn.steps[vector.end].name
-        if vector.label and vector.label != borne and math.dist(start, end) >= 0.5:
-            spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
-            pen = replace(pens.VECTORS[vector.kind], width=0.0)
-            yield Wish(name_runs(vector.label), spots, 0.7, pen=pen, step=vector.end, label=vector.label, free=True)
-
 
 def _unit(start: Spot, end: Spot) -> Spot:
     long = math.dist(start, end)
     return (end[0] - start[0]) / long, (end[1] - start[1]) / long
-
-
-def _listed(steps: list[Step]) -> Runs:
-    """Several names side by side."""
-    names = tuple(step.name for step in steps)
-    return sentence_runs(", ".join(names), names)
 
 
 def _half(step: Step, centre: Spot, radius: float, end: Spot, crossing: Spot) -> Arc:
@@ -302,6 +225,6 @@ def _angle(centre: Spot, spot: Spot) -> float:
     return math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0]))
 
 
-def _towards(spot: Spot, other: Spot, far: float) -> Spot:
+def towards(spot: Spot, other: Spot, far: float) -> Spot:
     """A spot so many mm on the way to another."""
     return clip.between(spot, other, far / (math.dist(spot, other) or 1.0))

@@ -16,7 +16,7 @@ class Arrays:
 
     def __init__(self) -> None:
         self.faults: list[tuple[str, str, Any]] = []
-        self._bad: list[Any] = []
+        self._bad: Any = None
 
     def lift(self, value: Any) -> Any:
         return np.asarray(value, dtype=float)
@@ -31,11 +31,9 @@ class Arrays:
         if not np.any(bad):
             return value
         self.faults.append((code, why, bad))
-        self._bad.append(bad)
+        self._bad = bad if self._bad is None else self._bad | bad
         return np.where(bad, np.nan, value)
 
     def whole(self, value: Any) -> Any:
-        if self._bad:
-            value = tuple(np.where(np.any(np.broadcast_arrays(*self._bad), axis=0), np.nan, v) for v in value)
-            self._bad.clear()
-        return value
+        bad, self._bad = self._bad, None
+        return value if bad is None else tuple(np.where(bad, np.nan, number) for number in value)

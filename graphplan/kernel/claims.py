@@ -1,0 +1,278 @@
+"""What a drawn thing must satisfy, tested on numbers and without its rule.
+
+Each record of the table claims something of what it draws: that it lies on a line, runs parallel to another, stands on
+the left. A claim names operands by place, -1 being the drawn thing; a pair of places is the vector between two points.
+A residual is 0 where the claim holds; it has no unit: lengths are measured by the size of what the step was made from,
+directions as sines. It knows no rule, so a wrong rule shows.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Claim
+from graphplan.kernel.program import Program, Step
+
+TOLERANCE = 1e-9
+Vector = tuple[int, int]
+
+
+class Drawn:
+    """One step in numbers: its operands by place, -1 being what it made. Points and vectors are complex numbers."""
+
+    def __init__(self, step: Step, values: Sequence[Any]):
+        self.kinds = (*step.op.reads, step.op.gives)
+        self.numbers = [tuple(map(float, values[index])) for index in (*step.args, step.index)]
+        self.params = step.params
+        self.size = max(map(_extent, self.kinds, self.numbers)) or 1.0
+
+    def __getitem__(self, k: int) -> complex:
+        """The point, or the centre of the circle, at a place."""
+        return complex(*self.numbers[k][:2])
+
+    def vector(self, ends: Vector) -> complex:
+        return self[ends[1]] - self[ends[0]]
+
+    def way(self, k: int) -> complex:
+        """The unit vector along which a line runs."""
+        a, b, _ = self.numbers[k]
+        return complex(b, -a) / math.hypot(a, b)
+
+    def off(self, k: int, X: complex) -> float:
+        """How far a point lies to the left of a line, or outside a circle."""
+        a, b, c = self.numbers[k]
+        if self.kinds[k] == CIRCLE:
+            return abs(X - complex(a, b)) - math.sqrt(c)
+        return (a * X.real + b * X.imag + c) / -math.hypot(a, b) * -1
+
+    def radius(self, k: int) -> float:
+        """The radius of a circle, or the distance in the compasses."""
+        return math.sqrt(self.numbers[k][-1])
+
+    def number(self, name: str) -> float:
+        return float(self.params.get(name, 0))
+
+    def turned(self, u: complex) -> complex:
+        """A vector of the link as its image runs."""
+        return u if self.params["turn"] == "parallel" else 1j * u
+
+
+def _extent(kind: str, numbers: tuple[float, ...]) -> float:
+    """How far from the origin a thing reaches, or how large it is."""
+    if kind == LINE:
+        return abs(numbers[2]) / math.hypot(numbers[0], numbers[1])
+    if kind == POINT:
+        return math.hypot(*numbers)
+    return math.hypot(*numbers[:-1]) + math.sqrt(numbers[-1])
+
+
+def _unit(u: complex) -> complex:
+    return u / (abs(u) or 1.0)
+
+
+def _dot(u: complex, v: complex) -> float:
+    return (u.conjugate() * v).real
+
+
+def _cross(u: complex, v: complex) -> float:
+    return (u.conjugate() * v).imag
+
+
+def _sideways(u: complex, v: complex) -> float:
+    """What of u stands square to v: all of it, where v has no direction."""
+    return _cross(_unit(v), u) if v else abs(u)
+
+
+def _forward(u: complex, v: complex) -> float:
+    """What of u runs along v."""
+    return _dot(_unit(v), u)
+
+
+# ---- lying on, running along ----------------------------------------------------------------------------------------
+
+
+def _on(d: Drawn, k: int) -> float:
+    curve, point = (k, -1) if d.kinds[-1] == POINT else (-1, k)
+    return d.off(curve, d[point]) / d.size
+
+
+def _halfway(d: Drawn, i: int, j: int) -> float:
+    """Two points of the line are as far from one as from the other, and it turns left of the way between them."""
+    here, way = (d[i] + d[j]) / 2, d.way(-1)
+    here -= d.off(-1, here) * 1j * way
+    there = here + way * d.size
+    apart = [abs(X - d[i]) - abs(X - d[j]) for X in (here, there)]
+    return max(map(abs, apart)) / d.size + abs(way - 1j * _unit(d[j] - d[i]))
+
+
+def _shifted(d: Drawn, l: int, i: int, j: int) -> float:
+    """The end of the vector lies to the shifted line as its beginning lies to the line."""
+    return (d.off(-1, d[j]) - d.off(l, d[i])) / d.size
+
+
+def _alike(d: Drawn, k: int, l: int) -> float:
+    return _cross(d.way(k), d.way(l))
+
+
+# ---- which of two -----------------------------------------------------------------------------------------------------
+
+
+def _way(d: Drawn, l: int, c: int) -> float:
+    forward = _dot(d.way(l), d[-1] - d[c])
+    return max(0.0, -forward if d.params["way"] == "on" else forward) / d.size
+
+
+def _side(d: Drawn, i: int, j: int) -> float:
+    left = _cross(_unit(d[j] - d[i]), d[-1] - d[i])
+    return max(0.0, -left if d.params["side"] == "left" else left) / d.size
+
+
+def _ahead(d: Drawn, l: int, i: int) -> float:
+    return max(0.0, -d.number("ratio") * _dot(d.way(l), d[-1] - d[i])) / d.size
+
+
+# ---- vectors --------------------------------------------------------------------------------------------------------
+
+
+def _laid(d: Drawn, l: int, i: int) -> float:
+    return abs(d[-1] - d[i] - d.number("length") * d.way(l)) / d.size
+
+
+def _times(d: Drawn, u: Vector, v: Vector) -> float:
+    return (_forward(d.vector(u), d.vector(v)) - d.number("ratio") * abs(d.vector(v))) / d.size
+
+
+def _times_across(d: Drawn, u: Vector, v: Vector) -> float:
+    return (_forward(d.vector(u), 1j * d.vector(v)) - d.number("ratio") * abs(d.vector(v))) / d.size
+
+
+def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
+    whole, part = d.vector((A, B)), d.vector((A, C))
+    return (_forward(d.vector((P, -1)), d.vector((P, Q))) - _forward(part, whole) / abs(whole) * abs(d[Q] - d[P])) / d.size
+
+
+# ---- images of a link ---------------------------------------------------------------------------------------------------
+
+
+def _image(d: Drawn, i: int, j: int, m: int, n: int) -> float:
+    """The side between two images runs as the link's side does."""
+    return _sideways(d.vector((m, n)), d.turned(d.vector((i, j)))) / d.size
+
+
+def _likeness(d: Drawn, A: int, B: int, C: int, a: int, b: int) -> float:
+    """The sides of the image are in the proportion of the link's."""
+    AB, AC = d.vector((A, B)), d.vector((A, C))
+    ab, ac = (_forward(d.vector((a, k)), d.turned(v)) for k, v in ((b, AB), (-1, AC)))
+    return (ac * abs(AB) - ab * abs(AC)) / abs(AB) / d.size
+
+
+def _carried(d: Drawn, C: int, A: int, B: int, c: int, beta: int) -> float:
+    """The figure on c and the drawn image of A has its image of B on the other locus."""
+    CA, CB = d.turned(d[A] - d[C]), d.turned(d[B] - d[C])
+    if not CA:
+        return 0.0
+    grown = _forward(d[-1] - d[c], CA) / abs(CA)
+    return d.off(beta, d[c] + grown * CB) / d.size / max(1.0, abs(CB) / abs(CA))
+
+
+def _locus(d: Drawn, A: int, alpha: int, B: int, beta: int, C: int) -> float:
+    """Two trial figures A'B'C', fitted between both loci, have C' on the drawn line.
+
+    Unknown are the place of C' and the figure's size: the loci of A' and B' are two equations for three numbers.
+    """
+    reach = abs(d[A] - d[C]) + abs(d[B] - d[C]) or 1.0
+    rows, right = [], []
+    for point, line in ((A, alpha), (B, beta)):
+        normal, side = 1j * d.way(line), d.turned(d[point] - d[C]) / reach
+        rows.append((normal.real, normal.imag, _dot(normal, side)))
+        right.append(-d.off(line, 0j))
+    free = _cross3(*rows)
+    told = math.hypot(*free)
+    one, two = _cross3(rows[1], free), _cross3(free, rows[0])
+    fitted = [(right[0] * p + right[1] * q) / told**2 for p, q in zip(one, two, strict=True)]
+    trials = [[p + k * d.size * q / told for p, q in zip(fitted, free, strict=True)] for k in (-1, 1)]
+    return told * max(abs(d.off(-1, complex(x, y))) / (d.size + math.hypot(x, y)) for x, y, _ in trials)
+
+
+def _cross3(u: Sequence[float], v: Sequence[float]) -> tuple[float, float, float]:
+    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
+
+
+# ---- accelerations, false position --------------------------------------------------------------------------------
+
+
+def _mean(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:
+    """The velocity is the mean proportional of the distance and the acceleration."""
+    KA, v, a = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[k])
+    return (a * KA - v * v) / KA / d.size
+
+
+def _coriolis(d: Drawn, P: int, B: int, T: int, R: int, b: int) -> float:
+    """Twice omega times v, a quarter turned: omega from the orthogonal velocity BT of B about P, v from BR."""
+    omega = ((d[T] - d[B]) / 1j / (d[B] - d[P]) / 1j).real
+    v = (d[R] - d[B]) / 1j
+    return abs(d[-1] - (d[b] - 2j * omega * v)) / d.size
+
+
+def _balanced(d: Drawn, A1: int, A2: int, Z1: int, l1: int, Z2: int, l2: int) -> float:
+    """Between the trials the error runs straight: at the drawn point it is nothing."""
+    span = d[A2] - d[A1]
+    part = _forward(d[-1] - d[A1], span) / (abs(span) or 1.0)
+    first, second = d.off(l1, d[Z1]), math.copysign(1.0, _dot(d.way(l1), d.way(l2))) * d.off(l2, d[Z2])
+    return ((1 - part) * first + part * second) / d.size / (1 + abs(part))
+
+
+RESIDUALS: dict[str, Callable[..., float]] = {
+    "stands": lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size,
+    "on": _on,
+    "heads": lambda d: abs(d.way(-1) - _unit(complex(d.number("dx"), d.number("dy")))),
+    "runs": lambda d, i, j: abs(d.way(-1) - _unit(d[j] - d[i])),
+    "parallel": lambda d, l: abs(d.way(-1) - d.way(l)),
+    "perpendicular": lambda d, l: abs(d.way(-1) - 1j * d.way(l)),
+    "alike": _alike,
+    "halfway": _halfway,
+    "shifted": _shifted,
+    "span": lambda d, i, j: (d.radius(-1) - abs(d[j] - d[i])) / d.size,
+    "centre": lambda d, i: abs(d[-1] - d[i]) / d.size,
+    "opened": lambda d, o: (d.radius(-1) - d.radius(o)) / d.size,
+    "way": _way,
+    "side": _side,
+    "ahead": _ahead,
+    "upright": lambda d, l, i: _dot(d.way(l), d[i] - d[-1]) / d.size,
+    "same": lambda d, u, v: abs(d.vector(u) - d.vector(v)) / d.size,
+    "quarter": lambda d, u, v: abs(1j * d.vector(u) - d.vector(v)) / d.size,
+    "moved": lambda d, u: abs(d.vector(u) - complex(d.number("dx"), d.number("dy"))) / d.size,
+    "laid": _laid,
+    "along": lambda d, u, v: _sideways(d.vector(u), d.vector(v)) / d.size,
+    "across": lambda d, u, v: _sideways(d.vector(u), 1j * d.vector(v)) / d.size,
+    "away": lambda d, u, v: max(0.0, -_forward(d.vector(u), d.vector(v))) / d.size,
+    "times": _times,
+    "times across": _times_across,
+    "proportion": _proportion,
+    "image": _image,
+    "likeness": _likeness,
+    "carried": _carried,
+    "locus": _locus,
+    "mean": _mean,
+    "coriolis": _coriolis,
+    "balanced": _balanced,
+}
+
+
+def residuals(step: Step, values: Sequence[Any]) -> list[tuple[Claim, float]]:
+    """Each claim of a step with its residual; `values` are those of the whole program."""
+    drawn = Drawn(step, values)
+    return [(claim, abs(RESIDUALS[claim[0]](drawn, *claim[1:]))) for claim in step.op.claims]
+
+
+def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[str]:
+    """The claims that a step does not keep, each with how far it is from it; a residual that is no number is one."""
+    return [f"{claim[0]}: {residual:.1e}" for claim, residual in residuals(step, values) if not residual <= tolerance]
+
+
+def check_claims(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[str]:
+    """All claims that a program does not keep in one pose, in the letters of the sheet; empty where all hold."""
+    return [f"step {program.number(step.index)}, {program.text(step.index)}: {step.op.name} is not {claim}"
+            for step in program.steps for claim in unmet(step, values, tolerance)]

@@ -1,0 +1,109 @@
+"""The letters of a plan: marks, loci, vectors, and the numbers of marks that have no letter."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.program import Program, Step
+from graphplan.sheet import clip, pens
+from graphplan.sheet.display import Spot
+from graphplan.sheet.labels import Wish
+from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.planes import MECHANISM, Vector
+from graphplan.sheet.strokes import Stretch, Strokes, towards
+from graphplan.sheet.symbols import RADIUS
+
+SMALL = 2.0  # the figures of marks without a letter
+ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
+NEAR = 0.25
+
+
+@dataclass(frozen=True)
+class Letters:
+    """What stands beside the strokes of one plan."""
+
+    strokes: Strokes
+
+    @property
+    def drawn(self) -> Program:
+        return self.strokes.planes.drawing.drawn
+
+    def wishes(self) -> Iterator[Wish]:
+        """The letters of the plan: marks, loci, vectors, and the numbers of marks without a letter."""
+        yield from self._point_letters()
+        for step in self.strokes.steps:
+            if step.index in self.strokes.stretches:
+                yield from self._line_letters(step, self.strokes.stretches[step.index])
+        for vector in self.strokes.planes.vectors(self.strokes.panel):
+            yield from self._vector_letter(vector)
+
+    def _point_letters(self) -> Iterator[Wish]:
+        """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
+        for spot, steps in self._places().items():
+            clear = RADIUS + 0.4 if self.strokes.panel == MECHANISM and self._at_joint(spot) else 0.6
+            lettered = [step for step in steps if step.name]
+            if lettered:
+                label = ",".join(step.name for step in lettered)
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label)
+            numbered = [step for step in steps if not step.name]
+            if numbered:
+                said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)
+                yield Wish(sentence_runs(said), (spot,), clear, SMALL, pens.FAINT, numbered[0].index, f"point {said}")
+
+    def _places(self) -> dict[Spot, list[Step]]:
+        """The marks that need a letter or number, by where they lie."""
+        places: dict[Spot, list[Step]] = {}
+        for step in self.strokes.steps:
+            drawn = step.op.gives == POINT and step.op.name != "given" and self.strokes.shown(step.index)
+            if drawn and self._spoken(step):
+                spot = self.strokes.spots[step.index]
+                key = next((other for other in places if math.dist(other, spot) < NEAR), spot)
+                places.setdefault(key, []).append(step)
+        return places
+
+    def _at_joint(self, spot: Spot) -> bool:
+        planes, view = self.strokes.planes, self.strokes.view
+        return any(math.dist(view(planes.place(name)), spot) < 1.0 for name in planes.drawing.scene.points)
+
+    def _spoken(self, step: Step) -> bool:
+        """Whether a mark has a letter, or is spoken of by its number in a later step."""
+        return bool(step.name) or step.index in self._read
+
+    @cached_property
+    def _read(self) -> set[int]:
+        """The marks that later steps read by number; a line through two lettered points is spoken of by them."""
+        drawn = self.drawn
+        return {arg for step in drawn.steps for arg in step.args if drawn.text(arg).endswith(f" {drawn.number(arg)}")}
+
+    def _line_letters(self, step: Step, stretch: Stretch) -> Iterator[Wish]:
+        """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
+        drawn = self.drawn
+        spots = tuple(clip.between(stretch.start, stretch.end, t) for t in ALONG)
+        if step.name:
+            yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True)
+        elif step.index in self._read:
+            number = str(drawn.number(step.index))
+            yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
+        for tip, tail, mark in stretch.breaks:
+            name, near = drawn.text(mark), (towards(tip, tail, 2.0),)
+            runs = sentence_runs(f"to {name}", (name,))
+            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
+
+    def _vector_letter(self, vector: Vector) -> Iterator[Wish]:
+        """The vector's own letter at its middle, unless its end bears it."""
+        start, end = self.strokes.spots[vector.start], self.strokes.spots[vector.end]
+        borne = self.drawn.steps[vector.end].name
+        if vector.label and vector.label != borne and math.dist(start, end) >= 0.5:
+            spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+            pen = replace(pens.VECTORS[vector.kind], width=0.0)
+            yield Wish(name_runs(vector.label), spots, 0.7, pen=pen, step=vector.end, label=vector.label, free=True)
+
+
+def _listed(steps: list[Step]) -> Runs:
+    """Several names side by side."""
+    names = tuple(step.name for step in steps)
+    return sentence_runs(", ".join(names), names)

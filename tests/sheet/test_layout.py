@@ -1,0 +1,152 @@
+"""The sheet of every packaged scene: nothing off the frame, nothing on top of each other, vectors that can be measured."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+import graphplan as gp
+from graphplan.errors import Refused
+from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.layout import layout
+from graphplan.sheet.lettering import CAPS, DEPTH, SIZE, plain, width
+
+SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
+
+
+@cache
+def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Sheet:
+    return layout(gp.construct(gp.load(name), plan=plan), paper)
+
+
+def spots(item: Item) -> list[Spot]:
+    """The extreme spots of an item, letters included."""
+    match item:
+        case Polyline() | Polygon():
+            return list(item.spots)
+        case Circle():
+            (x, y), r = item.centre, item.radius
+            return [(x - r, y - r), (x + r, y + r)]
+        case Arc():
+            return list(item.spots())
+        case Arrow():
+            return [item.start, item.end]
+        case Text():
+            box = box_of(item)
+            return [(box.left, box.bottom), (box.right, box.top)]
+    raise TypeError(item)
+
+
+def box_of(text: Text) -> Rect:
+    long = width(text.runs, text.size, text.bold)
+    left = text.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
+    return Rect(left, text.at[1] - DEPTH * text.size, left + long, text.at[1] + CAPS * text.size)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_nothing_leaves_the_frame(name: str) -> None:
+    """Every stroke, symbol and letter lies inside the frame."""
+    sheet = sheet_of(name)
+    assert [item for item in sheet.items for spot in spots(item) if not sheet.frame.holds(spot, 0.01)] == []
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_panels_are_disjoint(name: str) -> None:
+    """No two panels overlap, and each lies inside the frame."""
+    sheet = sheet_of(name)
+    panels = list(sheet.panels.values())
+    assert not any(one.meets(other) for i, one in enumerate(panels) for other in panels[:i])
+    assert all(sheet.frame.holds(corner, 0.01) for p in panels for corner in ((p.left, p.bottom), (p.right, p.top)))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_two_letterings_overlap(name: str) -> None:
+    """No letter covers another, on the plans and in the columns."""
+    texts = [item for item in sheet_of(name).items if isinstance(item, Text)]
+    boxes = [box_of(text).inset(0.05, 0.05, 0.05, 0.05) for text in texts]
+    clashes = [(plain(texts[i].runs), plain(texts[j].runs)) for i in range(len(boxes)) for j in range(i)
+               if boxes[i].meets(boxes[j])]  # fmt: skip
+    assert clashes == []
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_vectors_measure_what_the_construction_gives(name: str) -> None:
+    """Millimetres of a vector times its panel's scale are the speed or acceleration."""
+    drawing, sheet = gp.construct(gp.load(name)), sheet_of(name)
+    arrows = {item.step: item for item in sheet.items if isinstance(item, Arrow)}
+    for vector in drawing.arrows:
+        arrow = next((a for a in sheet.items if isinstance(a, Arrow) and a.step == vector.end
+                      and math.dist(a.start, where(drawing, sheet, vector.start)) < 0.01), None)  # fmt: skip
+        panel = drawing.drawn.steps[vector.end].panel
+        speed = abs(getattr(drawing, vector.kind)[vector.point])
+        scale = sheet.scales.speed(panel) if vector.kind == "velocity" else sheet.scales.acceleration(panel)
+        assert (arrow is None and speed / scale < 0.5) or math.dist(arrow.start, arrow.end) * scale == pytest.approx(speed)
+    assert arrows
+
+
+def where(drawing: gp.Construction, sheet: Sheet, index: int) -> Spot:
+    """Where a mark's dot, joint or vector's start lies: found from the panel's own arrows."""
+    vectors = [v for v in drawing.arrows if v.start == index]
+    found = [a for a in sheet.items if isinstance(a, Arrow) and a.step in {v.end for v in vectors}]
+    ends = {v.end: v for v in vectors}
+    return next((a.start for a in found if a.step in ends), (math.inf, math.inf))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_mark_of_the_mechanism_has_its_letter(name: str) -> None:
+    """Each point of the scene is lettered, and each link numbered, exactly once."""
+    labels = [item.label for item in sheet_of(name).items if isinstance(item, Text) and item.label]
+    scene = gp.load(name)
+    lettered = [name for label in labels for name in label.split(",") if name in scene.points]
+    assert sorted(lettered) == sorted(scene.points)
+    assert sorted(label for label in labels if label.startswith("link ")) == sorted(f"link {k}" for k in scene.moving)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_step_list_is_complete_and_legible(name: str) -> None:
+    """Every numbered step is on the sheet, in capitals of 1.8 mm or more."""
+    drawn = gp.construct(gp.load(name)).drawn
+    texts = [item for item in sheet_of(name).items if isinstance(item, Text) and item.layer == "text" and item.step is not None]
+    assert {text.step for text in texts} == set(range(drawn.givens, len(drawn)))
+    assert min(text.size for text in texts) * CAPS >= 1.8
+    assert {plain(t.runs) for t in texts if t.anchor == "end"} == {str(drawn.number(i)) for i in range(drawn.givens, len(drawn))}
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_polar_plans_have_panels_of_their_own(name: str) -> None:
+    """A polar construction shows the mechanism, its velocity plan and its acceleration plan side by side."""
+    sheet = sheet_of(name, plan="polar")
+    assert {"mechanism", "velocity plan", "acceleration plan"} <= set(sheet.panels)
+    assert [item for item in sheet.items for spot in spots(item) if not sheet.frame.holds(spot, 0.01)] == []
+
+
+def test_strokes_stay_on_their_panels() -> None:
+    """Nothing that is constructed leaves its panel, even where a mark lies far outside."""
+    for name in SCENES:
+        sheet = sheet_of(name)
+        for item in sheet.items:
+            if item.step is not None and item.layer != "text":
+                assert any(all(rect.holds(spot, 0.01) for spot in spots(item)) for rect in sheet.panels.values()), name
+
+
+def test_a_named_paper_is_used() -> None:
+    """The sheet asked for is the sheet drawn, upright where that is asked for."""
+    assert (sheet_of("four-bar", "A2").width, sheet_of("four-bar", "A2").height) == (594, 420)
+    assert (sheet_of("four-bar", "A3 portrait").width, sheet_of("four-bar", "A3 portrait").height) == (297, 420)
+
+
+@pytest.mark.parametrize(("paper", "why"), [("A9", "no such sheet"), ("A4", "do not fit")])
+def test_paper_that_cannot_serve_is_refused(paper: str, why: str) -> None:
+    """A sheet that does not exist, or is too small for the words, is refused with the reason."""
+    with pytest.raises(Refused, match=why):
+        layout(gp.construct(gp.load("ozols-5-4")), paper)
+
+
+def test_lettering_is_never_below_its_size() -> None:
+    """The words of the step list keep their size whatever the paper."""
+    for paper in ("A3", "A2"):
+        steps = [t for t in sheet_of("four-bar", paper).items if isinstance(t, Text) and t.layer == "text" and t.step]
+        assert {t.size for t in steps} == {SIZE}

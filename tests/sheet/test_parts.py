@@ -1,0 +1,153 @@
+"""The parts of a sheet one by one: scales, lettering, clipping, paper, symbols, letters."""
+
+from __future__ import annotations
+
+import math
+from fractions import Fraction
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from graphplan.sheet import pens, symbols
+from graphplan.sheet.clip import clipped, segment
+from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect
+from graphplan.sheet.labels import Wish, placed
+from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
+from graphplan.sheet.rows import Cell, Row, fill
+from graphplan.sheet.scales import Scales, digits, multiple_below, round_up
+from graphplan.sheet.title import ratio
+
+SQUARE = Rect(0, 0, 100, 100)
+
+
+@given(st.floats(1e-6, 1e9))
+def test_scales_are_round(least: float) -> None:
+    """A scale is 1, 2, 2.5, 4 or 5 times a power of ten, not below what is needed and not twice it."""
+    scale = round_up(least)
+    lead = scale / 10 ** math.floor(math.log10(scale) + 1e-9)
+    assert least * (1 - 1e-8) <= scale <= 2 * least * (1 + 1e-8)
+    assert min(abs(lead - step) for step in (1, 2, 2.5, 4, 5, 10)) < 1e-6
+
+
+@given(st.floats(1e-4, 1e4))
+def test_multiples_are_round(most: float) -> None:
+    """A multiple is 1, 2, 3, 5, 10, ... or one over it, and not above what fits."""
+    multiple = multiple_below(most)
+    assert multiple <= most * (1 + 1e-8)
+    assert 1 in (multiple.numerator, multiple.denominator)
+
+
+def test_scales_tie_velocity_and_acceleration_to_the_plan() -> None:
+    """k_v = k_s/kappa and k_a = k_s/kappa^2, divided by the multiple of the plan."""
+    scales = Scales(5.0, 0.1, "mm", {"N-plan": Fraction(2)})
+    assert scales.said("mechanism", {"velocity"}) == ["k_s = 5 mm/mm", "k_v = 50 mm/s per mm"]
+    assert scales.said("N-plan", {"acceleration"}) == ["k_a = 250 mm/s² per mm"]
+
+
+@pytest.mark.parametrize(("value", "text"), [
+    (0.0, "0"), (12345.6, "12350"), (-0.25, "−0.25"), (1e-9, "1·10⁻⁹"), (123456.0, "123500"), (6.02e23, "6.02·10²³"),
+])  # fmt: skip
+def test_numbers_have_four_digits(value: float, text: str) -> None:
+    """Numbers are printed in four significant digits with a true minus and no letter e."""
+    assert digits(value) == text
+
+
+@pytest.mark.parametrize(("k_s", "length", "text"), [(5, "mm", "1 : 5"), (0.5, "mm", "2 : 1"), (0.01, "m", "1 : 10")])
+def test_the_title_block_gives_the_ratio(k_s: float, length: str, text: str) -> None:
+    """The scale in the title block is a ratio of lengths, whatever the scene's unit."""
+    assert ratio(k_s, length) == text
+
+
+@pytest.mark.parametrize(("name", "runs"), [
+    ("v_c", (Run("v"), Run("c", -1))),
+    ("alpha", (Run("α"),)),
+    ("alpha_3'", (Run("α′"), Run("3", -1))),
+    ("A_1", (Run("A"), Run("1", -1))),
+    ("B''", (Run("B″"),)),
+    ("A2", (Run("A2"),)),
+])  # fmt: skip
+def test_names_are_set_as_in_a_textbook(name: str, runs: tuple[Run, ...]) -> None:
+    """Subscripts, Greek letters and primes are recognised in a mark's name."""
+    assert name_runs(name) == runs
+
+
+def test_names_run_together_are_told_apart() -> None:
+    """In v_qC, the line through v_q and C, only q is a subscript."""
+    assert sentence_runs("Draw v_qC.", ("v_q", "C")) == (Run("Draw v"), Run("q", -1), Run("C."))
+    assert sentence_runs("alphabet", ("alpha",)) == (Run("alphabet"),)
+
+
+@given(st.text(st.characters(codec="latin-1"), max_size=200), st.floats(20, 100))
+def test_wrapped_lines_fit(text: str, room: float) -> None:
+    """No wrapped line is longer than its room, and no word is lost."""
+    lines = wrap(sentence_runs(text), 2.5, room)
+    assert all(width(line, 2.5) <= room + 1e-9 for line in lines)
+    assert "".join("".join(map(plain, lines)).split()) == "".join(plain(sentence_runs(text)).split())
+
+
+@given(*[st.tuples(st.floats(-200, 300), st.floats(-200, 300))] * 2)
+def test_clipped_segments_stay_inside(start: tuple[float, float], end: tuple[float, float]) -> None:
+    """What is left of a segment lies in the rectangle and on the segment."""
+    inside = segment(SQUARE, start, end)
+    for t in inside or ():
+        assert SQUARE.holds((start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1])), 1e-6)
+
+
+def test_a_chain_that_leaves_and_returns_is_drawn_in_pieces() -> None:
+    """A stroke that runs out of the panel and back leaves two strokes."""
+    chain = Polyline(pens.THIN, "construction", 3, ((50, 50), (150, 50), (150, 60), (50, 60)))
+    assert len(list(clipped(chain, SQUARE))) == 2
+
+
+def test_columns_fill_one_after_the_other() -> None:
+    """Rows run down the first column, then the next; a heading stays with what it heads."""
+    rows = [Row((Cell(0, (Run("text"),)),)) for _ in range(4)]
+    heading = Row((Cell(0, (Run("heading"),)),), keep=1)
+    high = 3 * rows[0].height + 0.1
+    columns = [Rect(0, 0, 50, high), Rect(60, 0, 110, high)]
+    placed_rows = fill([*rows[:2], heading, *rows[2:]], columns)
+    assert placed_rows is not None
+    assert [x for _, x, _ in placed_rows] == [0, 0, 60, 60, 60]
+    assert fill(rows * 2, columns) is None
+
+
+def test_the_head_of_an_arrow_ends_at_its_tip() -> None:
+    """An arrowhead reaches exactly the end of its vector and is slim."""
+    tip, left, right = Arrow(pens.THIN, "vectors", 0, (0, 0), (30, 40), 4.0).barbs
+    assert tip == (30, 40)
+    assert math.dist(left, right) < 4.0 / 2
+
+
+def test_a_bent_link_is_a_plate_and_a_straight_one_a_bar() -> None:
+    """Three points on a line make a bar; off the line they make a tinted triangle."""
+    assert symbols.straight([(0, 0), (10, 0), (20, 0.05)])
+    assert not symbols.straight([(0, 0), (10, 4), (20, 0)])
+    plates = [item for item in symbols.plate([(0, 0), (10, 4), (20, 0), (10, 1)]) if isinstance(item, Polygon)]
+    assert set(plates[0].spots) == {(0, 0), (10, 4), (20, 0)}
+
+
+def test_a_block_is_turned_to_its_guide() -> None:
+    """The long sides of a block run along the guide's direction."""
+    block = symbols.block((0, 0), (0.6, 0.8))
+    assert isinstance(block, Polygon)
+    (x, y), (u, v) = block.spots[:2]
+    assert math.isclose((u - x) * 0.8, (v - y) * 0.6)
+
+
+def test_letters_in_a_crowd_do_not_overlap() -> None:
+    """Thirty letters of marks within a few millimetres all find places of their own, the same every time."""
+    marks = [(50 + i % 6, 50 + i // 6) for i in range(30)]
+    wishes = [Wish((Run(f"M{i}"),), (mark,), label=f"M{i}") for i, mark in enumerate(marks)]
+    items = placed(wishes, [], marks, SQUARE)
+    assert items == placed(wishes, [], marks, SQUARE)
+    boxes = [Rect(t.at[0], t.at[1], t.at[0] + width(t.runs, t.size), t.at[1] + 1.8) for t in items if hasattr(t, "runs")]
+    assert len(boxes) == 30
+    assert not any(boxes[i].meets(boxes[j]) for i in range(30) for j in range(i))
+
+
+def test_a_letter_avoids_the_line_through_its_mark() -> None:
+    """A letter beside a line does not stand on it."""
+    line = Polyline(pens.THIN, "construction", None, ((0, 50), (100, 50)))
+    (text,) = placed([Wish((Run("A"),), ((50, 50),))], [line], [(50, 50)], SQUARE)
+    assert text.at[1] > 50 or text.at[1] + 1.8 < 50  # type: ignore[attr-defined]

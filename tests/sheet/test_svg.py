@@ -1,0 +1,96 @@
+"""The SVG text of a sheet: valid, in millimetres, the same every time, and measurable."""
+
+from __future__ import annotations
+
+import math
+import re
+import subprocess
+import sys
+import xml.etree.ElementTree as ET
+from functools import cache
+
+import pytest
+
+import graphplan as gp
+
+NS = "{http://www.w3.org/2000/svg}"
+
+
+@cache
+def svg_of(name: str) -> str:
+    return gp.sheet.svg(gp.construct(gp.load(name)))
+
+
+def test_it_is_valid_xml_in_millimetres() -> None:
+    """The root has its size in mm and a viewBox of as many units, a title and a description."""
+    root = ET.fromstring(svg_of("four-bar").encode())
+    assert root.tag == f"{NS}svg"
+    assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("420mm", "297mm", "0 0 420 297")
+    assert root.findtext(f"{NS}title") == gp.load("four-bar").title
+    assert "k_s" in (root.findtext(f"{NS}desc") or "")
+
+
+def test_it_is_the_same_every_time() -> None:
+    """A second run, in another process with other hashes, gives the same bytes."""
+    code = "import sys, graphplan as gp; sys.stdout.write(gp.sheet.svg(gp.construct(gp.load('slotted-link'))))"
+    run = subprocess.run([sys.executable, "-X", "utf8", "-c", code], env={"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path)},
+                         capture_output=True, check=True)  # fmt: skip
+    assert run.stdout.decode() == svg_of("slotted-link")
+
+
+def test_every_drawn_step_has_its_group_and_sentence() -> None:
+    """There is one group for each step, in order, titled with the step's sentence."""
+    drawing = gp.construct(gp.load("four-bar"))
+    groups = [g for g in ET.fromstring(svg_of("four-bar").encode()) if g.get("class") == "step"]
+    indices = [int(g.get("data-step", -1)) for g in groups]
+    assert indices == list(range(drawing.drawn.givens, len(drawing.drawn))) or indices == sorted(set(indices))
+    assert [g.findtext(f"{NS}title") for g in groups] == [drawing.sentences()[i] for i in indices]
+
+
+def test_a_velocity_can_be_measured() -> None:
+    """The ends of a vector in the SVG, turned back and times k_v, are the velocity."""
+    drawing = gp.construct(gp.load("four-bar"))
+    root = ET.fromstring(svg_of("four-bar").encode())
+    found = re.search(r"mechanism: k_s = (\S+) mm/mm, k_v = (\S+) mm/s", root.findtext(f"{NS}desc") or "")
+    assert found is not None
+    k_v = float(found[2])
+    vectors = {v.end: v for v in drawing.arrows if v.kind == "velocity"}
+    measured = 0
+    for group in root.iter(f"{NS}g"):
+        vector = vectors.get(int(group.get("data-step", -1)))
+        if vector is not None:
+            arrow = next(g for g in group.iter(f"{NS}g") if g.get("class") == "vector")
+            (x, y), (u, v) = (map(float, arrow.get(key, "").split()) for key in ("data-from", "data-to"))
+            velocity = complex(u - x, y - v) / 1j * k_v
+            assert abs(velocity - drawing.velocity[vector.point]) < 0.03 * k_v
+            measured += 1
+    assert measured
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slotted-link"])
+def test_numbers_are_rounded_and_finite(name: str) -> None:
+    """No coordinate has more than two decimals, none is nan or minus zero."""
+    text = re.sub(r"<(title|desc|text|tspan)[^>]*>[^<]*", "", svg_of(name))
+    numbers = re.findall(r"(?<![\w#.])-?\d+\.?\d*(?:e-?\d+)?(?![\w.])", text)
+    assert all(len(n.partition(".")[2]) <= 2 for n in numbers if n != "1.0")
+    assert not re.search(r"\bnan\b|\binf\b|[\" ,]-0(\.0*)?[\" ,]", text)
+
+
+def test_subscripts_are_shifted_and_shifted_back() -> None:
+    """Subscripts are tspans with dy, undone by the next run, as baseline-shift is not portable."""
+    assert "baseline-shift" not in svg_of("four-bar")
+    for text in ET.fromstring(svg_of("four-bar").encode()).iter(f"{NS}text"):
+        shifts = [float(span.get("dy", 0)) for span in text]
+        assert not shifts or abs(math.fsum(shifts)) < 1e-9 or text[-1].get("font-size")
+
+
+def test_solving_imports_no_drawing_library() -> None:
+    """A construction's numbers come without shapely, svgwrite or matplotlib; a sheet without matplotlib."""
+    code = """
+import sys, graphplan as gp
+drawing = gp.construct(gp.load('four-bar')); drawing.velocity
+assert not {'shapely', 'svgwrite', 'matplotlib'} & set(sys.modules), 'numbers'
+gp.sheet.svg(drawing)
+assert 'matplotlib' not in sys.modules, 'sheet'
+"""
+    subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": ":".join(sys.path)}, check=True)

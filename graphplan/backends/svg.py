@@ -72,12 +72,14 @@ class _Writer:
         return self.doc.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look | {"fill": "none"})
 
     def _arrow(self, arrow: Arrow, look: dict[str, Any]) -> Any:
-        """The shaft ends inside the head, so that the tip is sharp; data-from and data-to keep the true ends."""
+        """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""
         tip, left, right = arrow.barbs
         neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
         group = self.doc.g(class_="vector")
         group.attribs["data-from"] = "{} {}".format(*self._spot(arrow.start))
         group.attribs["data-to"] = "{} {}".format(*self._spot(arrow.end))
+        if arrow.label:
+            group.attribs["data-vector"] = arrow.label
         if math.dist(arrow.start, neck) > 0.01:
             group.add(self.doc.polyline(self._spots((arrow.start, neck)), **look | {"fill": "none"}))
         group.add(self.doc.polygon(self._spots((tip, left, right)), fill=arrow.pen.colour))

@@ -15,7 +15,7 @@ from typing import Any
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, POINT, TABLE, Primitive
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Board, Mark, Program
+from graphplan.kernel.program import Board, Mark, Program, Step
 
 SHARP = math.sin(math.radians(15))
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
@@ -136,12 +136,21 @@ class Expander:
             return _line_gap(truth, value, window.centre, size) <= AGREE * size
         return all(abs(p - q) <= AGREE * size for p, q in zip(value, truth, strict=True))
 
-    def _judge(self, form: str, before: int) -> Trial:
-        window = self.windows.get(self.panel, EVERYWHERE)
+    def _judge(self, form: str, before: int) -> Trial | None:
         steps = self.board.steps[before:]
-        points = [self.values[step.index] for step in steps if step.op.gives == POINT]
+        if any(self._crosses_plans(step) for step in steps):
+            return None
+        on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
+                       for step in steps if step.op.gives == POINT)
         crossings = [self._crossing(*step.args) for step in steps if step.op.name == "meet"]
-        return Trial(form, len(steps), all(map(window.holds, points)), min(crossings, default=1.0))
+        return Trial(form, len(steps), on_sheet, min(crossings, default=1.0))
+
+    def _crosses_plans(self, step: Step) -> bool:
+        """Whether a step joins points of two plans, which stand apart, each at its own scale.
+
+        Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
+        """
+        return "parallel" in self.keep and step.op.name in ("line", "opening") and len({self.board.steps[arg].panel for arg in step.args}) > 1
 
     def _crossing(self, k: int, l: int) -> float:
         """The sine of the angle between two lines."""

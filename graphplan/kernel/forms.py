@@ -107,6 +107,12 @@ def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     return s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
 
 
+@form("similar", "centre of similitude")
+def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    S = s.meet(s.side(A, a), s.side(B, b))
+    return s.meet(s.side(S, C), s.side(a, b))
+
+
 @form("similar", "ray")
 def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     return s.divide(A, B, C, a, b)

@@ -114,6 +114,7 @@ class Normal(Plan):
         return self.figure((moving or [k for k in links if k != FRAME] or [FRAME])[0], point)
 
     def figure(self, link: str, point: str) -> Mark:
+        point = self.net.place(point, link)[0]
         if (link, point) not in self.figures:
             mark = self._grounded(link, point) if not self._moving(link) else self._figured_point(link, point)
             self.figures[link, point] = mark
@@ -148,7 +149,7 @@ class Normal(Plan):
     def _figured_point(self, link: str, point: str) -> Mark:
         """A point of a moving link's figure: its anchor, or by the similar figure on one side of the link."""
         anchor = self.anchors[link]
-        if point == anchor.point:
+        if point == self.net.place(anchor.point, link)[0]:
             return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
         if self._still(link):
             return self.figure(link, anchor.point)

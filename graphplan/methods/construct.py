@@ -27,7 +27,7 @@ class Draughtsman:
     def __init__(self, scene: Scene, planner: Planner, polar: bool):
         self.scene, self.net, self.polar = scene, planner.net, polar
         self.board = Board()
-        self.pose = Pose(self.board, scene)
+        self.pose = Pose(self.board, scene, {new: at for (at, _), new in self.net.coincident.items()})
         self.tempo = tempo(scene)
         self.moves = planner.moves
         self.marks: list[Mark] = []

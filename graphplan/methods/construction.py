@@ -108,7 +108,8 @@ class Construction:
     @property
     def forms(self) -> list[str]:
         """The forms chosen for this pose, each with the reason, by step number."""
-        chosen = [s for s in self.drawn.steps if s.form.partition(":")[0] in ("carry", "coriolis")]
+        weighed = ("carry", "coriolis")
+        chosen = [s for s in self.drawn.steps if s.form.partition(":")[0] in weighed and " rather than " in s.reason]
         return self.notes + [f"step {self.drawn.number(s.index)}: {s.reason}" for s in chosen]
 
     @cached_property

@@ -268,6 +268,8 @@ class Plan:
         base = self.point(A), self.point(X)
         if like == self.net.ground:
             mark = self.at_rest(base, at)
+        elif (same := self._same_side(like, base)) is not None:
+            mark = self.moved(at, *same)
         else:
             K, R = self.known[like][:2]
             ends = self._inward(like, K, self.ends[K]), self._inward(like, R, self.ends[R])
@@ -275,6 +277,13 @@ class Plan:
             tip = self.board.similar(*sides, self.board.transfer(*base, sides[0]), *ends, turn=self.turn)
             mark = self.board.transfer(ends[0], tip, at)
         return self.turned_by(body, like, base, mark)
+
+    def _same_side(self, like: str, base: Vector) -> Vector | None:
+        """The image of the very vector `base`, if the other body knows the ends of points in the same places."""
+        ends = [next((p for p in self.known[like] if self.point(p) is mark), None) for mark in base]
+        if ends[0] is None or ends[1] is None:
+            return None
+        return self._inward(like, ends[0], self.ends[ends[0]]), self._inward(like, ends[1], self.ends[ends[1]])
 
     def at_rest(self, base: Vector, at: Mark) -> Mark:
         """`at` moved by the image of a vector of a link that does not turn: itself, or nothing on a turned plan."""

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.network import Place
@@ -10,14 +12,17 @@ MECHANISM = "mechanism"
 
 
 class Pose:
-    """Marks for the points of a scene; guides and letters on demand."""
+    """Marks for the points of a scene; guides and letters on demand.
 
-    def __init__(self, board: Board, scene: Scene):
+    `coincident` names points of a guide that lie where a point of the sliding link does: they share its mark.
+    """
+
+    def __init__(self, board: Board, scene: Scene, coincident: Mapping[str, str]):
         self.board, self.scene = board, scene
         with board.on(MECHANISM):
-            self.points: dict[str, Mark] = {
-                name: board.given(x=x, y=y, name=name) for name, (x, y) in scene.points.items()
-            }
+            apart = {name: at for name, at in scene.points.items() if name not in coincident}
+            self.points: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
+        self.points |= {name: self.points[other] for name, other in coincident.items()}
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
 
@@ -27,12 +32,12 @@ class Pose:
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)
-            along = self.board.line(one, two)
-            return along if slide.at in slide.through else self.board.parallel(along, self.points[slide.at])
+            along, at = self.board.line(one, two), self.points[slide.at]
+            return along if at is one or at is two else self.board.parallel(along, at)
 
     def spoken(self, point: str) -> str:
         """The letter of a point, auxiliary points and poles among them."""
-        return self.points[point].step.name if point in self.points else point
+        return point if point in self.scene.points or point not in self.points else self.points[point].step.name
 
     def letter(self, body: str) -> str:
         """The letter of a body's auxiliary point: Q, R, S, ... in the order of asking."""

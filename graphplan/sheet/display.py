@@ -103,11 +103,15 @@ class Arc(Item):
 
 @dataclass(frozen=True)
 class Arrow(Item):
-    """A vector; its head is `head` long, never longer than the vector, and ends exactly at `end`."""
+    """A vector; its head is `head` long, never longer than the vector, and ends exactly at `end`.
+
+    `label` says what it is, such as `velocity A`, where it is a result.
+    """
 
     start: Spot
     end: Spot
     head: float
+    label: str = ""
 
     @property
     def barbs(self) -> tuple[Spot, Spot, Spot]:

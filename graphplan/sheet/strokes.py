@@ -110,7 +110,8 @@ class Strokes:
         long = math.dist(start, end)
         if long >= 0.5:
             head = min(pens.HEADS[vector.kind], 0.6 * long)
-            yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head)
+            label = f"{vector.kind} {vector.point}"
+            yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head, label)
 
     # ---- lines -----------------------------------------------------------------------------------------------------
 

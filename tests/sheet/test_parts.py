@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from graphplan.sheet import pens, symbols
 from graphplan.sheet.clip import clipped, segment
-from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect
+from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect, Text
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.rows import Cell, Row, fill
@@ -141,7 +141,8 @@ def test_letters_in_a_crowd_do_not_overlap() -> None:
     wishes = [Wish((Run(f"M{i}"),), (mark,), label=f"M{i}") for i, mark in enumerate(marks)]
     items = placed(wishes, [], marks, SQUARE)
     assert items == placed(wishes, [], marks, SQUARE)
-    boxes = [Rect(t.at[0], t.at[1], t.at[0] + width(t.runs, t.size), t.at[1] + 1.8) for t in items if hasattr(t, "runs")]
+    texts = [(item.at, width(item.runs, item.size)) for item in items if isinstance(item, Text)]
+    boxes = [Rect(x, y, x + long, y + 1.8) for (x, y), long in texts]
     assert len(boxes) == 30
     assert not any(boxes[i].meets(boxes[j]) for i in range(30) for j in range(i))
 
@@ -150,4 +151,5 @@ def test_a_letter_avoids_the_line_through_its_mark() -> None:
     """A letter beside a line does not stand on it."""
     line = Polyline(pens.THIN, "construction", None, ((0, 50), (100, 50)))
     (text,) = placed([Wish((Run("A"),), ((50, 50),))], [line], [(50, 50)], SQUARE)
-    assert text.at[1] > 50 or text.at[1] + 1.8 < 50  # type: ignore[attr-defined]
+    assert isinstance(text, Text)
+    assert text.at[1] > 50 or text.at[1] + 1.8 < 50

@@ -33,8 +33,8 @@ def test_it_is_valid_xml_in_millimetres() -> None:
 def test_it_is_the_same_every_time() -> None:
     """A second run, in another process with other hashes, gives the same bytes."""
     code = "import sys, graphplan as gp; sys.stdout.write(gp.sheet.svg(gp.construct(gp.load('slotted-link'))))"
-    run = subprocess.run([sys.executable, "-X", "utf8", "-c", code], env={"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path)},
-                         capture_output=True, check=True)  # fmt: skip
+    env = {"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path)}
+    run = subprocess.run([sys.executable, "-X", "utf8", "-c", code], env=env, capture_output=True, check=True)
     assert run.stdout.decode() == svg_of("slotted-link")
 
 
@@ -43,7 +43,7 @@ def test_every_drawn_step_has_its_group_and_sentence() -> None:
     drawing = gp.construct(gp.load("four-bar"))
     groups = [g for g in ET.fromstring(svg_of("four-bar").encode()) if g.get("class") == "step"]
     indices = [int(g.get("data-step", -1)) for g in groups]
-    assert indices == list(range(drawing.drawn.givens, len(drawing.drawn))) or indices == sorted(set(indices))
+    assert [i for i in indices if i >= drawing.drawn.givens] == list(range(drawing.drawn.givens, len(drawing.drawn)))
     assert [g.findtext(f"{NS}title") for g in groups] == [drawing.sentences()[i] for i in indices]
 
 
@@ -54,17 +54,11 @@ def test_a_velocity_can_be_measured() -> None:
     found = re.search(r"mechanism: k_s = (\S+) mm/mm, k_v = (\S+) mm/s", root.findtext(f"{NS}desc") or "")
     assert found is not None
     k_v = float(found[2])
-    vectors = {v.end: v for v in drawing.arrows if v.kind == "velocity"}
-    measured = 0
-    for group in root.iter(f"{NS}g"):
-        vector = vectors.get(int(group.get("data-step", -1)))
-        if vector is not None:
-            arrow = next(g for g in group.iter(f"{NS}g") if g.get("class") == "vector")
-            (x, y), (u, v) = (map(float, arrow.get(key, "").split()) for key in ("data-from", "data-to"))
-            velocity = complex(u - x, y - v) / 1j * k_v
-            assert abs(velocity - drawing.velocity[vector.point]) < 0.03 * k_v
-            measured += 1
-    assert measured
+    arrows = {g.get("data-vector"): g for g in root.iter(f"{NS}g")}
+    for point, velocity in drawing.velocity.items():
+        arrow = arrows[f"velocity {point}"]
+        (x, y), (u, v) = (map(float, arrow.get(key, "").split()) for key in ("data-from", "data-to"))
+        assert abs(complex(u - x, y - v) / 1j * k_v - velocity) < 0.03 * k_v
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link"])

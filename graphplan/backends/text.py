@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from typing import Any
 
 from graphplan.methods.construction import Construction
+from graphplan.methods.positions import layout
 
 WIDTH = 110
 
@@ -16,8 +17,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
     scene, drawn = drawing.scene, drawing.drawn
     lines = [scene.title, *filter(None, [scene.source]), ""]
     lines += [f"Structure: {line}" for line in structure]
-    lines += ["", f"Given, on the mechanism plan: {', '.join(s.name for s in drawn.steps[: drawn.givens])}.",
-              _tempo(drawing), ""]
+    lines += ["", *_pose(drawing), "", _tempo(drawing), ""]
     panel = ""
     for step, sentence in zip(drawn.steps[drawn.givens :], drawing.sentences()[drawn.givens :], strict=True):
         if step.panel != panel:
@@ -28,6 +28,17 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
         lines += ["", "Forms chosen for this pose:"]
         lines += [line for form in drawing.forms for line in _wrapped(form, "  ")]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def _pose(drawing: Construction) -> list[str]:
+    """How the mechanism plan is laid out: coordinates, and steps where the scene places points by arcs and angles."""
+    program = layout(drawing.scene)
+    given = [f"{s.name} ({float(s.params['x']):g}, {float(s.params['y']):g})" for s in program.steps[: program.givens]]
+    lines = _wrapped("Mechanism plan, given: " + ", ".join(given) + ".", "")
+    for step in program.steps[program.givens :]:
+        why = f" ({step.why}.)" if step.why else ""
+        lines += _wrapped(program.sentence(step.index) + why, "  ")
+    return lines
 
 
 def _tempo(drawing: Construction) -> str:

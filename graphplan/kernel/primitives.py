@@ -85,6 +85,13 @@ def opening(d: Any, P: Any, Q: Any) -> Any:
     return (dx * dx + dy * dy,)
 
 
+@primitive((), OPENING, SCALE, "Open the compasses to {length}: {out}.", claims=(("measures",),), params=("length",))
+def radius(d: Any, /, *, length: Any) -> Any:
+    """A given length, in the compasses."""
+    r = d.lift(length)
+    return (r * r,)
+
+
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
            claims=(("centre", 0), ("opened", 1)), where=0)
 def circle(d: Any, C: Any, o: Any) -> Any:

@@ -152,7 +152,7 @@ def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot],
     everywhere = [place for candidates in found for place in candidates]
     cost = np.array([p.cost for p in everywhere]) + _covered([p.box for p in everywhere], list(shapes(items)))
     if marks:
-        cost = cost + _strangers(everywhere, np.array(marks))
+        cost += np.concatenate([_strangers(candidates, np.array(marks)) for candidates in found])
     choice = _chosen(np.array([p.box for p in everywhere]), cost, edges)
     return [item for i, wish in enumerate(wishes) for item in _items(wish, everywhere[choice[i]])]
 

@@ -48,12 +48,13 @@ Runs = tuple[Run, ...]
 
 
 def name_runs(name: str) -> Runs:
-    """A mark's name as runs: primes, Greek letters and one subscript."""
+    """A mark's name as runs: primes, Greek letters and one subscript, whatever it is made of."""
     bare = name.rstrip("'")
     primes = {0: "", 1: "′", 2: "″"}.get(len(name) - len(bare), "′" * (len(name) - len(bare)))
     stem, _, index = bare.partition("_")
     letter = GREEK.get(stem.lower(), stem)
     letter = letter.upper() if stem[:1].isupper() and stem.lower() in GREEK else letter
+    index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
     return _joined((Run(letter + primes), Run(GREEK.get(index, index), -1)))
 
 

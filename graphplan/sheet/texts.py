@@ -140,7 +140,7 @@ def _table(table: Table) -> Iterator[Row]:
         edges.append(edges[-1] + wide)
     for i, row in enumerate(table):
         numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
-        gap, keep = (1.0, min(2, len(table) - 1)) if i == 0 else (0.0, 0)
+        gap, keep = (1.0, min(15, len(table) - 1)) if i == 0 else (0.0, 0)
         yield Row((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
 
 

@@ -64,6 +64,7 @@ def test_the_title_block_gives_the_ratio(k_s: float, length: str, text: str) -> 
     ("alpha", (Run("α"),)),
     ("alpha_3'", (Run("α′"), Run("3", -1))),
     ("A_1", (Run("A"), Run("1", -1))),
+    ("P_25_1", (Run("P"), Run("25,1", -1))),
     ("B''", (Run("B″"),)),
     ("A2", (Run("A2"),)),
 ])  # fmt: skip

@@ -150,7 +150,8 @@ class Expander:
 
         Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
         """
-        return "parallel" in self.keep and step.op.name in ("line", "opening") and len({self.board.steps[arg].panel for arg in step.args}) > 1
+        plans = {self.board.steps[arg].panel for arg in step.args}
+        return "parallel" in self.keep and step.op.name in ("line", "opening") and len(plans) > 1
 
     def _crossing(self, k: int, l: int) -> float:
         """The sine of the angle between two lines."""

@@ -79,7 +79,7 @@ class Words:
     def _check(self, wide: float) -> Iterator[Row]:
         if self.check:
             yield heading("Check")
-            parts = ", ".join(f"{kind} {digits(float(gap), 2)}" for kind, gap in self.check.items())
+            parts = ", ".join(f"{kind} {_within(float(gap))}" for kind, gap in self.check.items())
             yield from self._said("Largest difference from the analytic solver, beside the largest value of its kind: "
                                   f"{parts}.", wide)  # fmt: skip
 
@@ -147,3 +147,8 @@ def _table(table: Table) -> Iterator[Row]:
 def overlong(rows: Sequence[Row], wide: float) -> list[Row]:
     """The rows that do not fit a column of this width."""
     return [row for row in rows if row.right > wide + 1e-6]
+
+
+def _within(gap: float) -> str:
+    """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
+    return "below 10⁻¹²" if gap <= 1e-12 else digits(gap, 2)

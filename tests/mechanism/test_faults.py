@@ -300,7 +300,8 @@ def test_faults_are_full_lines() -> None:
     """Whatever stands in a scene, a fault is one printable line with a place, a reason and a remedy."""
     for line in faults(PRESS + '[motion."a\\nb"]\n[find]\nvelocity = ["\\u0007"]'):
         assert line.isprintable()
-        assert line.count(": ") >= 1 and "; " in line
+        assert line.count(": ") >= 1
+        assert "; " in line
 
 
 PIECES = st.sampled_from(

@@ -1,7 +1,7 @@
 """The moves of a construction: what one turn of the planner adds to what is known.
 
 A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place
-whose end it carries and by its source: the body, slide or seed that gives it.
+whose end it carries and by its source: the body, slide or seed that gives it, or a name that the move itself gives.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ class Slip:
     A: Locus
     X: Place
     like: str
+    source: str = ""
 
 
 @dataclass(frozen=True)
@@ -55,6 +56,7 @@ class Carry:
     A: Locus
     B: Locus
     X: Place
+    source: str = ""
 
 
 @dataclass(frozen=True)
@@ -94,10 +96,11 @@ class Guide:
 
 @dataclass(frozen=True)
 class Meet:
-    """Two loci of one place meet in its end."""
+    """Two loci of one place meet in its end; with `copy` it is entered there, to be compared with a third."""
 
     place: Place
     sources: tuple[str, str]
+    copy: Place | None = None
 
 
 @dataclass(frozen=True)

@@ -118,12 +118,12 @@ class Plan:
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.board.side(self.point(K), self.point(X))
                 self._locus((X, body), getattr(self.board, self.turn)(side, through), move)
-            case Slip(body, A, X, like):
-                self._locus((X, body), self._slipped(body, A, X, like), move)
-            case Carry(body, A, B, X):
+            case Slip(body, A, X, like, source):
+                self._locus((X, source or body), self._slipped(body, A, X, like), move)
+            case Carry(body, A, B, X, source):
                 ends = [self.point(A[0]), self._locus_in(body, A), self.point(B[0]), self._locus_in(body, B)]
                 line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B, X))
-                self._locus((X, body), self._outward(body, X, line), move)
+                self._locus((X, source or body), self._outward(body, X, line), move)
             case Settle(body, K, X, B):
                 self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
             case Figure(body, K, X, R, like, copy):
@@ -131,8 +131,8 @@ class Plan:
                 self._end(copy or X, mark, move)
             case Guide(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
-            case Meet(place, (one, two)):
-                self._end(place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
+            case Meet(place, (one, two), copy):
+                self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
             case Auxiliary(body, A, B, place):
                 self._auxiliary(body, A, B, place, move)
             case Pole():

@@ -373,7 +373,25 @@ class Planner:
                     copy = (X[0], f"{body} trial")
                     self.moves.append(Figure(body, K, X, R=R, copy=copy))
                     return copy, (X, source)
-        return None
+        return self._three_loci(body)
+
+    def _three_loci(self, body: str) -> tuple[Place, Locus] | None:
+        """An end found by all loci of a body but one, beside that one."""
+        loci = list(self._loci(body, ("", "")))
+        if len(loci) < 3:
+            return None
+        (X, source), *others = loci
+        like, names = self._like(body), (f"{body} once", f"{body} again")
+        if like:
+            self.moves += [Slip(body, other, X, like, name) for other, name in zip(others, names, strict=False)]
+        elif len(others) >= 3:
+            pairs = (others[0], others[1]), (others[0], others[2])
+            self.moves += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
+        else:
+            return None
+        copy = (X[0], f"{body} trial")
+        self.moves.append(Meet(X, names, copy))
+        return copy, (X, source)
 
     def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
         """A locus for X by what the body heard elsewhere."""

@@ -45,7 +45,7 @@ class Drawn:
         a, b, c = self.numbers[k]
         if self.kinds[k] == CIRCLE:
             return abs(X - complex(a, b)) - math.sqrt(c)
-        return (a * X.real + b * X.imag + c) / -math.hypot(a, b) * -1
+        return (a * X.real + b * X.imag + c) / math.hypot(a, b)
 
     def radius(self, k: int) -> float:
         """The radius of a circle, or the distance in the compasses."""
@@ -90,7 +90,7 @@ def _forward(u: complex, v: complex) -> float:
     return _dot(_unit(v), u)
 
 
-# ---- lying on, running along ----------------------------------------------------------------------------------------
+# ---- lying on, running along ---------------------------------------------------------------------------------------
 
 
 def _on(d: Drawn, k: int) -> float:
@@ -116,7 +116,7 @@ def _alike(d: Drawn, k: int, l: int) -> float:
     return _cross(d.way(k), d.way(l))
 
 
-# ---- which of two -----------------------------------------------------------------------------------------------------
+# ---- which of two --------------------------------------------------------------------------------------------------
 
 
 def _way(d: Drawn, l: int, c: int) -> float:
@@ -133,7 +133,7 @@ def _ahead(d: Drawn, l: int, i: int) -> float:
     return max(0.0, -d.number("ratio") * _dot(d.way(l), d[-1] - d[i])) / d.size
 
 
-# ---- vectors --------------------------------------------------------------------------------------------------------
+# ---- vectors -------------------------------------------------------------------------------------------------------
 
 
 def _laid(d: Drawn, l: int, i: int) -> float:
@@ -149,11 +149,12 @@ def _times_across(d: Drawn, u: Vector, v: Vector) -> float:
 
 
 def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
-    whole, part = d.vector((A, B)), d.vector((A, C))
-    return (_forward(d.vector((P, -1)), d.vector((P, Q))) - _forward(part, whole) / abs(whole) * abs(d[Q] - d[P])) / d.size
+    whole, PQ = d[B] - d[A], d[Q] - d[P]
+    part = _forward(d[C] - d[A], whole) / abs(whole)
+    return (_forward(d[-1] - d[P], PQ) - part * abs(PQ)) / d.size
 
 
-# ---- images of a link ---------------------------------------------------------------------------------------------------
+# ---- images of a link ----------------------------------------------------------------------------------------------
 
 
 def _image(d: Drawn, i: int, j: int, m: int, n: int) -> float:
@@ -200,7 +201,7 @@ def _cross3(u: Sequence[float], v: Sequence[float]) -> tuple[float, float, float
     return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
-# ---- accelerations, false position --------------------------------------------------------------------------------
+# ---- accelerations, false position ---------------------------------------------------------------------------------
 
 
 def _mean(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:

@@ -181,9 +181,12 @@ class Planner:
 
     def _emit(self, body: str, X: Place, rank: int) -> None:
         """Tell a place what the body knows of it."""
+        figure = self._figure(body, X) if rank == 2 else None
+        if rank == 2 and figure is None and not self.told.get((body, X)):
+            rank = 1  # known wholly, but no end is drawn yet to begin a figure at
         whole = rank == 1 and (self._settle(body, X) or self._beside(body, X))
-        move = whole or (self._figure(body, X) if rank == 2 else self._line(body, X))
-        if not move:
+        move = figure or whole or (self._line(body, X) if rank == 1 else None)
+        if move is None:
             return
         if isinstance(whole, (Settle, Figure)):
             self.moves.append(Swing(body, whole.K, X))  # a locus that others may ask for; pruned if nobody does

@@ -121,8 +121,11 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     an irrational scene, or where no construction reaches what is asked.
     """
     if exact and scene.irrational:
-        raise Refused("exact numbers", f"{'; '.join(scene.irrational)}", "leave out --exact, or give coordinates")
-    drawing = construct(scene, method=method, plan=plan, strict=strict)
+        raise Refused(f"{scene.name}: {', '.join(scene.irrational)}", "fractions cannot hold this", "leave out --exact")
+    try:
+        drawing = construct(scene, method=method, plan=plan, strict=strict)
+    except Refused as refused:
+        raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
     domain: Domain = Fractions() if exact else Floats()
     try:
         rates = solve(scene, exact)

@@ -59,13 +59,15 @@ def _pages() -> Iterator[tuple[str, str]]:
     entries = []
     names = packaged()
     for count, name in enumerate(names, 1):
-        print(f"\r{count}/{len(names)} {name:<30}", end="", file=sys.stderr, flush=True)
+        if sys.stderr.isatty():
+            print(f"\r{count}/{len(names)} {name:<30}", end="", file=sys.stderr, flush=True)
         found = report(load(name))
         scene = found.scene
         yield f"{name}.svg", sheet.svg(found.drawing, check=found.check)
         yield f"{name}.txt", protocol(found.drawing, structure(scene).lines())
         entries.append(_entry(name, scene.title, scene.source, found.data()["steps"]))
-    print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
+    if sys.stderr.isatty():
+        print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
     yield "index.html", INDEX.format(entries="\n".join(entries))
 
 

@@ -1,24 +1,27 @@
 """From compounds to single movements: each compound is drawn in the form that suits the pose.
 
 A form is tried on the board itself, so that it may use what is drawn already; it counts only if it can be drawn and
-gives the value of the compound's rule. Of those, one on the sheet beats one off it, crossings above 15 degrees beat
-flatter ones, and then the fewest movements win. What no form can draw in this pose stays one step.
+gives the value of the compound's rule from the marks that it reads. Of those, one on the sheet beats one off it,
+crossings above 15 degrees beat flatter ones, and then the fewest movements win. What no form can draw in this pose
+stays one step.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, POINT, TABLE, Primitive
+from graphplan.kernel.evaluate import error_at
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Program, Step
 
 SHARP = math.sin(math.radians(15))
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
+SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
@@ -28,6 +31,13 @@ BY_SET_SQUARE = frozenset({
     "quarter", "bisector",
 })
 STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
+
+# A locus has no way to run: drawn out, it may run against its rule. What goes by its way is then turned round.
+REVERSED: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
+    "pick": lambda params: {"ratio": -params["ratio"]},
+    "lay_along": lambda params: {"length": -params["length"]},
+    "line_meets_circle": lambda params: {"way": "back" if params["way"] == "on" else "on"},
+}
 
 
 @dataclass(frozen=True)
@@ -41,6 +51,7 @@ class Window:
         return math.dist(point, self.centre) <= self.radius
 
 
+CROSSINGS = {"meet", "line_meets_circle", "circles_meet"}
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
 
@@ -52,10 +63,11 @@ class Trial:
     movements: int
     on_sheet: bool
     sharpest: float
+    undrawn: int = 0
 
     @property
-    def rank(self) -> tuple[bool, bool, int]:
-        return not self.on_sheet, self.sharpest < SHARP, self.movements
+    def rank(self) -> tuple[int, bool, bool, int]:
+        return self.undrawn, not self.on_sheet, self.sharpest < SHARP, self.movements
 
     def __str__(self) -> str:
         angle = math.degrees(math.asin(min(1.0, self.sharpest)))
@@ -80,40 +92,59 @@ class Expander:
     def __post_init__(self) -> None:
         self.board = Board()
         self.values: list[Any] = []
+        self.panel = ""
+        self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
 
     def run(self) -> Program:
         """The expanded program."""
         place: list[Mark] = []
         for step in self.program.steps:
             self.panel = step.panel
-            with self.board.on(step.panel, step.links):
-                args = tuple(place[arg] for arg in step.args)
-                mark = self.draw(step.op, args, step.params, self.truth[step.index], step.why, step.names)
-                place.append(self.board.named(mark, step.name) if step.name else mark)
+            args = tuple(place[arg] for arg in step.args)
+            try:
+                with self.board.on(step.panel, step.links):
+                    mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
+            except Undrawable as fault:
+                raise error_at(self.program, step, fault) from None
+            place.append(self.board.named(mark, step.name) if step.name else mark)
         return Program(tuple(self.board.steps), tuple(place[index].step.index for index in self.program.wanted))
 
-    def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             why: str = "", names: Mapping[str, str] | None = None) -> Mark:
+    def _params(self, step: Step, args: tuple[Mark, ...]) -> Mapping[str, Any]:
+        """A step's parameters, turned round where the line that it reads runs the other way than in the program."""
+        if step.op.name in REVERSED and _runs_against(self.truth[step.args[0]], self.value(args[0])):
+            return REVERSED[step.op.name](step.params)
+        return step.params
+
+    def value(self, mark: Mark) -> Any:
+        """The float value of a mark on the board."""
+        return self.values[mark.step.index]
+
+    def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
+             names: Mapping[str, str] | None = None) -> Mark:
         """Draw one operation: as one step if it is one, else in its best form."""
-        trials = [] if op.name in self.keep else [self._try(op, args, params, truth, name) for name in op.forms]
-        ranked = sorted((trial for trial in trials if trial), key=self._rank)
-        if not ranked:
+        trials = [] if op.name in self.keep else self._trials(op, args, params)
+        if not trials:
             return self._record(op, args, params, why)
         before = len(self.board.steps)
-        out: Mark = op.forms[ranked[0].form](Pencil(self, dict(names or {})), *args, **params)
-        self._explain(op, before, ranked, why, out)
+        out: Mark = op.forms[trials[0].form](Pencil(self, dict(names or {})), *args, **params)
+        self._made.setdefault(out.step.index, (op.name, args))
+        self._explain(op, before, trials, why, out)
         return out
+
+    def _trials(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any]) -> list[Trial]:
+        """The forms that can be drawn, the best first."""
+        truth = op.rule(FLOATS, *map(self.value, args), **params)
+        trials = [self._try(op, args, params, truth, name) for name in op.forms]
+        return sorted((trial for trial in trials if trial), key=self._rank)
 
     def _rank(self, trial: Trial) -> tuple[Any, ...]:
         return not (self.prefer and trial.form.startswith(self.prefer)), *trial.rank
 
-    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
-                name: str = "") -> Mark:
+    def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "") -> Mark:
         """Record one step and give it its value."""
-        mark = self.board.draw(op, args, why=why, name=name, **params)
+        mark = self.board.draw(op, args, why=why, **params)
         if mark.step.index == len(self.values):
-            values = [self.values[arg.step.index] for arg in args]
-            self.values.append(op.rule(FLOATS, *values, **params))
+            self.values.append(op.rule(FLOATS, *map(self.value, args), **params))
         return mark
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
@@ -121,20 +152,33 @@ class Expander:
         """Draw a form without letters, look at it, take it back."""
         before = len(self.board.steps)
         try:
-            out: Mark = op.forms[form](Pencil(self, None), *args, **params)
-            return self._judge(form, before) if self._agrees(op, self.values[out.step.index], truth) else None
+            out: Mark | None = op.forms[form](Pencil(self, None), *args, **params)
+            if out is None or not self._agrees(op, self.value(out), truth):
+                return None
+            return self._judge(form, before)
         except (Undrawable, ZeroDivisionError):
             return None
         finally:
             self.board.rewind(before)
             del self.values[before:]
+            self._made = {index: made for index, made in self._made.items() if index < before}
+
+    @property
+    def size(self) -> float:
+        """How large the panel is that is drawn on: its sheet, or as far as its points reach."""
+        window = self.windows.get(self.panel, EVERYWHERE)
+        if math.isfinite(window.radius):
+            return window.radius
+        points = [self.values[s.index] for s in self.board.steps if s.op.gives == POINT and s.index < len(self.values)]
+        return max((math.hypot(*point) for point in points), default=1.0) or 1.0
 
     def _agrees(self, op: Primitive, value: Any, truth: Any) -> bool:
-        window = self.windows.get(self.panel, EVERYWHERE)
-        size = window.radius if math.isfinite(window.radius) else 1.0 + max(abs(number) for number in truth)
         if op.gives == LINE:
-            return _line_gap(truth, value, window.centre, size) <= AGREE * size
-        return all(abs(p - q) <= AGREE * size for p, q in zip(value, truth, strict=True))
+            centre = self.windows.get(self.panel, EVERYWHERE).centre
+            locus = any(claim[0] == "locus" for claim in op.claims)
+            return _line_gap(truth, value, centre, self.size) <= AGREE * self.size and (
+                locus or not _runs_against(truth, value))
+        return math.dist(value, truth) <= AGREE * self.size
 
     def _judge(self, form: str, before: int) -> Trial | None:
         steps = self.board.steps[before:]
@@ -142,8 +186,9 @@ class Expander:
             return None
         on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
                        for step in steps if step.op.gives == POINT)
-        crossings = [self._crossing(*step.args) for step in steps if step.op.name == "meet"]
-        return Trial(form, len(steps), on_sheet, min(crossings, default=1.0))
+        crossings = [self._crossing(step) for step in steps if step.op.name in CROSSINGS]
+        undrawn = sum(step.op.name not in self.keep for step in steps)
+        return Trial(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
 
     def _crosses_plans(self, step: Step) -> bool:
         """Whether a step joins points of two plans, which stand apart, each at its own scale.
@@ -153,10 +198,11 @@ class Expander:
         plans = {self.board.steps[arg].panel for arg in step.args}
         return "parallel" in self.keep and step.op.name in ("line", "opening") and len(plans) > 1
 
-    def _crossing(self, k: int, l: int) -> float:
-        """The sine of the angle between two lines."""
-        (a, b, _), (c, e, _) = self.values[k], self.values[l]
-        return float(abs(a * e - b * c) / math.hypot(a, b) / math.hypot(c, e))
+    def _crossing(self, step: Step) -> float:
+        """The sine of the angle under which two curves cross."""
+        X = complex(*self.values[step.index])
+        one, two = (_normal(kind, self.values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
+        return abs((one.conjugate() * two).imag)
 
     def _explain(self, op: Primitive, before: int, ranked: list[Trial], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is and why; at its last what it is good for."""
@@ -191,13 +237,64 @@ class Pencil:
 
     def _draw(self, op: Primitive, args: tuple[Mark, ...], name: str, params: dict[str, Any]) -> Mark:
         expander, letter = self._expander, (self._names or {}).get(name, "")
-        truth = op.rule(FLOATS, *[expander.values[arg.step.index] for arg in args], **params)
-        mark = expander.draw(op, args, params, truth)
+        mark = expander.draw(op, args, params)
         return expander.board.named(mark, letter) if letter else mark
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
-        """How a mark was drawn: the operation, and what it read."""
-        return mark.step.op.name, tuple(self._expander.board.marks[arg] for arg in mark.step.args)
+        """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
+        drawn = mark.step.op.name, tuple(self._expander.board.marks[arg] for arg in mark.step.args)
+        return self._expander._made.get(mark.step.index, drawn)
+
+    # What a draughtsman sees on the sheet, by which a form that is not for this pose gives nothing.
+
+    def one(self, P: Mark, Q: Mark) -> bool:
+        """Whether two points of a plan fall on one place."""
+        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q))
+
+    def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
+        """Whether PQ is as long as RS."""
+        return self._nothing(self.distance(P, Q) - self.distance(R, S))
+
+    def lies_on(self, P: Mark, l: Mark) -> bool:
+        """Whether a point lies on a line of its plan."""
+        (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
+        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b))
+
+    def distance(self, P: Mark, Q: Mark) -> float:
+        return math.dist(self._expander.value(P), self._expander.value(Q))
+
+    def _nothing(self, length: float) -> bool:
+        return abs(length) <= SAME * self._expander.size
+
+    def points_on(self, l: Mark) -> list[Mark]:
+        """The points that a line was drawn through or that were drawn on it, the way it runs."""
+        board, (a, b, _) = self._expander.board, self._expander.value(l)
+        on = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"]
+        on += [step.index for step in board.steps if step.op.gives == POINT and l.step.index in step.args
+               and any(claim[0] == "on" and step.args[claim[1]] == l.step.index for claim in step.op.claims)]
+        return sorted((board.marks[index] for index in on), key=lambda P: _along(self._expander.value(P), b, -a))
+
+    def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
+        """The point furthest from P, of some or of those on its plan, else of all."""
+        points = [mark for mark in self._expander.board.marks if mark.kind == POINT] if among is None else list(among)
+        points = [mark for mark in points if mark.step.panel == P.step.panel] or points
+        far = max(points, key=lambda X: self.distance(P, X), default=P)
+        return None if self.one(P, far) else far
+
+
+def _along(point: tuple[float, float], x: float, y: float) -> float:
+    return point[0] * x + point[1] * y
+
+
+def _runs_against(one: Any, two: Any) -> bool:
+    """Whether two lines run opposite ways."""
+    return bool(_along(one[:2], *two[:2]) < 0)
+
+
+def _normal(kind: str, curve: Any, X: complex) -> complex:
+    """The unit normal of a line, or of a circle at X."""
+    normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
+    return normal / (abs(normal) or 1.0)
 
 
 def _line_gap(one: Any, two: Any, centre: tuple[float, float], size: float) -> float:

@@ -1,7 +1,8 @@
 """How each compound is drawn: its forms, in the order in which a textbook would try them.
 
 A form that needs a branch (which crossing of an arc, which side) stands once for each; the pose decides which of them
-gives the right value. `s` is the board; names such as "Q" are letters that the recipe may have given for them.
+gives the right value. A form that is not for this pose gives nothing: where a vector has no length, nothing is drawn.
+`s` is the board; names such as "Q" are letters that the recipe may have given for them.
 """
 
 from __future__ import annotations
@@ -22,14 +23,29 @@ def _(s: Any, P: Any, Q: Any) -> Any:
     return s.line(s.circles_meet(p, q, side="right"), s.circles_meet(p, q, side="left"))
 
 
+@form("midpoint", "one point")
+def _(s: Any, P: Any, Q: Any) -> Any:
+    return P if s.one(P, Q) else None
+
+
 @form("midpoint", "arcs")
 def _(s: Any, P: Any, Q: Any) -> Any:
-    return s.meet(s.side(P, Q), s.bisector(P, Q))
+    return s.meet(s.line(P, Q), s.bisector(P, Q))
+
+
+@form("foot", "the point itself")
+def _(s: Any, l: Any, P: Any) -> Any:
+    return P if s.lies_on(P, l) else None
 
 
 @form("foot", "perpendicular")
 def _(s: Any, l: Any, P: Any) -> Any:
     return s.meet(l, s.perpendicular(l, P))
+
+
+@form("transfer", "nothing to draw")
+def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
+    return R if s.one(P, Q) else Q if s.one(P, R) else None
 
 
 @form("transfer", "dividers")
@@ -40,7 +56,25 @@ def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
 
 @form("transfer", "parallelogram")
 def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
-    return s.meet(s.parallel(s.side(P, Q), R), s.parallel(s.side(P, R), Q))
+    return s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q))
+
+
+def _fourth_corner(side: str) -> Callable[..., Any]:
+    """The parallelogram on PQ and PR by two arcs."""
+
+    def drawn(s: Any, P: Any, Q: Any, R: Any) -> Any:
+        return s.circles_meet(s.circle(R, s.opening(P, Q)), s.circle(Q, s.opening(P, R)), side=side)
+
+    return drawn
+
+
+form("transfer", "two arcs, left")(_fourth_corner("left"))
+form("transfer", "two arcs, right")(_fourth_corner("right"))
+
+
+@form("quarter", "nothing to turn")
+def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
+    return R if s.one(P, Q) else None
 
 
 @form("quarter", "dividers")
@@ -49,36 +83,86 @@ def _(s: Any, P: Any, Q: Any, R: Any) -> Any:
     return s.line_meets_circle(across, s.circle(R, s.opening(P, Q)), way="on")
 
 
-def _point_of(s: Any, l: Any) -> Any:
-    """A point that the line was drawn through."""
-    op, args = s.made_by(l)
-    return args[0] if op in ("line", "guide") else args[1]
+# ---- perpendicular and parallel: from a point that the line is known to pass through, or from any --------------
 
 
-@form("perpendicular", "arcs")
-def _(s: Any, l: Any, P: Any) -> Any:
-    X = _point_of(s, l)
+def _known(s: Any, l: Any, P: Any) -> Any:
+    return s.clear_of(P, s.points_on(l))
+
+
+def _any(s: Any, l: Any, P: Any) -> Any:
+    size = s.clear_of(P)
+    return None if size is None else s.pick(l, P, size, ratio=0.5)
+
+
+STARTS = (("", _known), (", from any point", _any))
+
+
+def _erected(s: Any, l: Any, P: Any, X: Any, *, left: bool) -> Any:
+    """The perpendicular through P, by the arc about P through X, a point of the line."""
     arc = s.circle(P, s.opening(P, X))
     D, E = s.line_meets_circle(l, arc, way="on"), s.line_meets_circle(l, arc, way="back")
     o = s.opening(D, E)
     d, e = s.circle(D, o), s.circle(E, o)
-    return s.line(s.circles_meet(e, d, side="right"), s.circles_meet(e, d, side="left"))
+    ends = [s.circles_meet(e, d, side=side) for side in ("right", "left")]
+    return s.line(*ends) if left else s.line(*reversed(ends))
 
 
-def _rhombus(way: str, side: str) -> Callable[..., Any]:
+def _arcs(start: Callable[..., Any]) -> Callable[..., Any]:
     def drawn(s: Any, l: Any, P: Any) -> Any:
-        X = _point_of(s, l)
-        o = s.opening(X, P)
-        Y = s.line_meets_circle(l, s.circle(X, o), way=way)
-        Z = s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side)
-        return s.line(P, Z) if way == "on" else s.line(Z, P)
+        X = start(s, l, P)
+        return None if X is None else _erected(s, l, P, X, left=True)
 
     return drawn
 
 
-for _way in ("on", "back"):
+def _mirrored(side: str) -> Callable[..., Any]:
+    """The perpendicular through P and its mirror image, by arcs through P about two points of the line."""
+
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        points = s.points_on(l)
+        if s.lies_on(P, l) or len(points) < 2 or s.one(points[0], points[-1]):
+            return None
+        one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
+        image = s.circles_meet(one, two, side=side)
+        return s.line(image, P) if side == "right" else s.line(P, image)
+
+    return drawn
+
+
+def _rhombus(start: Callable[..., Any], side: str) -> Callable[..., Any]:
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        X = start(s, l, P)
+        if X is None or s.lies_on(P, l):
+            return None
+        o = s.opening(X, P)
+        Y = s.line_meets_circle(l, s.circle(X, o), way="on")
+        return s.line(P, s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side))
+
+    return drawn
+
+
+form("perpendicular", "mirror image on the right")(_mirrored("right"))
+form("perpendicular", "mirror image on the left")(_mirrored("left"))
+for _words, _start in STARTS:
+    form("perpendicular", "arcs" + _words)(_arcs(_start))
+
+
+@form("parallel", "the line itself")
+def _(s: Any, l: Any, P: Any) -> Any:
+    return l if s.lies_on(P, l) else None
+
+
+for _words, _start in STARTS:
     for _side in ("left", "right"):
-        form("parallel", f"rhombus, {_way}, {_side}")(_rhombus(_way, _side))
+        form("parallel", f"rhombus on the {_side}{_words}")(_rhombus(_start, _side))
+
+
+@form("parallel", "two perpendiculars")
+def _(s: Any, l: Any, P: Any) -> Any:
+    across = s.perpendicular(l, P)
+    X = _known(s, across, P)
+    return None if X is None else _erected(s, across, P, X, left=False)
 
 
 # ---- figures in proportion ----------------------------------------------------------------------------------
@@ -97,8 +181,18 @@ def _ray(way: str) -> Callable[..., Any]:
     return drawn
 
 
+@form("divide", "at an end")
+def _(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    return P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None
+
+
 form("divide", "ray")(_ray("on"))
 form("divide", "ray, beyond")(_ray("back"))
+
+
+@form("similar", "at a corner")
+def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    return a if s.one(A, C) or s.one(a, b) else b if s.one(B, C) else None
 
 
 @form("similar", "sides")
@@ -116,6 +210,11 @@ def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
 @form("similar", "ray")
 def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     return s.divide(A, B, C, a, b)
+
+
+@form("shift", "nothing to draw")
+def _(s: Any, l: Any, P: Any, Q: Any) -> Any:
+    return l if s.one(P, Q) else None
 
 
 @form("shift", "through the end")
@@ -139,6 +238,11 @@ def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
         if op_home == "line" and any(P is A for P in through):
             return args[0]
     return getattr(s, turn)(alpha, A)
+
+
+@form("carry", "the same point")
+def _(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+    return alpha if s.one(A, C) else beta if s.one(B, C) else None
 
 
 @form("carry", "auxiliary point")
@@ -175,6 +279,11 @@ for _name, _at in (("", 0.35), (" on the other side", -0.35)):
     form("carry", "trial figure" + _name)(_one_trial(_at))
 for _name, _pair in (("", (0.3, -0.3)), (" further out", (0.7, 0.2))):
     form("carry", "two trial figures" + _name)(_two_trials(*_pair))
+
+
+@form("settle", "the same point")
+def _(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
+    return c if s.one(C, A) else None
 
 
 @form("settle", "its own locus")
@@ -215,17 +324,27 @@ def _companion(way: str) -> Callable[..., Any]:
     return drawn
 
 
+@form("normal", "nothing to draw")
+def _(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    return k if s.one(m, w) else None
+
+
 form("normal", "semicircle")(_semicircle("left"))
 form("normal", "companion")(_companion("on"))
 
 
 @form("normal", "equal lengths")
 def _(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
-    return s.transfer(K, A, k)
+    return s.transfer(K, A, k) if s.equal(K, A, m, w) else None
 
 
 def _laid_off_twice(s: Any, B: Any, half: Any, b: Any) -> Any:
     return s.transfer(half, B, s.transfer(half, B, b))
+
+
+@form("coriolis", "nothing to draw")
+def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
+    return b if s.one(B, T) or s.one(B, R) else None
 
 
 @form("coriolis", "at the pair")
@@ -242,6 +361,11 @@ def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 
 
 # ---- false position -----------------------------------------------------------------------------------------
+
+
+@form("false_position", "a trial that fits")
+def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
+    return A1 if s.lies_on(Z1, l1) or s.one(A1, A2) else A2 if s.lies_on(Z2, l2) else None
 
 
 @form("false_position", "errors as ordinates")

@@ -22,6 +22,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.report import report
+    from graphplan.check.shortcuts import shortcuts
     from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
 
@@ -34,6 +35,7 @@ def run(options: argparse.Namespace) -> int:
     lines.append("")
     for kind, difference in found.check.items():
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")
+    lines += map(str, shortcuts(found.drawing))
     if not found.exact:
         lines.append(f"condition of the mechanism: {found.rates.condition:.3g}; allowed: {found.tolerance:.2g}")
     write("\n".join(lines) + "\n", None)

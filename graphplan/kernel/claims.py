@@ -236,6 +236,7 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "halfway": _halfway,
     "shifted": _shifted,
     "span": lambda d, i, j: (d.radius(-1) - abs(d[j] - d[i])) / d.size,
+    "measures": lambda d: (d.radius(-1) - abs(d.number("length"))) / d.size,
     "centre": lambda d, i: abs(d[-1] - d[i]) / d.size,
     "opened": lambda d, o: (d.radius(-1) - d.radius(o)) / d.size,
     "way": _way,

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn
 
@@ -228,5 +229,7 @@ class Program:
 
 
 def _plain(value: Any) -> str:
-    """A parameter as a reader wants it: short, and exact where it is a fraction."""
-    return f"{value:.6g}" if isinstance(value, float) else str(value)
+    """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
+    if not isinstance(value, Fraction | float) or 1000 % Fraction(value).denominator == 0:
+        return f"{float(value):g}" if isinstance(value, Fraction | float) else str(value)
+    return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{value:.6g}"

@@ -42,8 +42,11 @@ class Network:
 
     def __post_init__(self) -> None:
         scene = self.scene
-        self.body = {link: link for link in scene.links}
-        self.members = {link: [link] for link in scene.links}
+        self.links = dict(scene.links)
+        if any(isinstance(d, TurningDrive) and d.relative_to == FRAME for d in scene.drives):
+            self.links.setdefault(FRAME, ())  # an open chain may still be driven against the ground
+        self.body = {link: link for link in self.links}
+        self.members = {link: [link] for link in self.links}
         driven = {frozenset((d.link, d.along)) for d in scene.drives if isinstance(d, SlidingDrive)}
         self.slides = [s for s in scene.slides if frozenset((s.link, s.along)) not in driven]
         self.coincident = self._coincident_points()
@@ -60,7 +63,7 @@ class Network:
         """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
         found = {}
         for slide in self.scene.slides:
-            for name in self.scene.links[slide.along]:
+            for name in self.links[slide.along]:
                 if name != slide.at and self.scene.points[name] == self.scene.points[slide.at]:
                     found[slide.at, slide.along] = name
         return found
@@ -71,7 +74,7 @@ class Network:
             slide = next(s for s in self.scene.slides if {s.link, s.along} == {drive.link, drive.along})
             self._join(drive.link, drive.along, drive, "", slide)
             return
-        common = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.relative_to, ())]
+        common = [p for p in self.links[drive.link] if p in self.links.get(drive.relative_to, ())]
         if common:
             self._join(drive.link, drive.relative_to, drive, common[0], None)
         else:
@@ -118,7 +121,7 @@ class Network:
     def place(self, point: str, link: str) -> Place:
         """The place of a point in a link's plane."""
         point = self.coincident.get((point, link), point)
-        return (point, "") if point in self.scene.links[link] else (point, link)
+        return (point, "") if point in self.links[link] else (point, link)
 
     def bodies_at(self, place: Place) -> list[str]:
         """The bodies that meet in a place."""
@@ -129,11 +132,11 @@ class Network:
     def link_at(self, body: str, place: Place) -> str:
         """The link of a body to which a place belongs."""
         point, link = place
-        return link or next(m for m in self.members[body] if point in self.scene.links[m])
+        return link or next(m for m in self.members[body] if point in self.links[m])
 
     def places_of(self, body: str) -> list[Place]:
         """The places of the body's own points, joints first."""
-        names = dict.fromkeys(p for m in self.members[body] for p in self.scene.links[m])
+        names = dict.fromkeys(p for m in self.members[body] for p in self.links[m])
         return sorted(((p, "") for p in names), key=lambda place: len(self.bodies_at(place)) < 2)
 
     def chain(self, link: str) -> list[Weld]:

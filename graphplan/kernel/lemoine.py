@@ -1,0 +1,114 @@
+"""What a construction costs, as Lemoine counts it (Géométrographie, 1902).
+
+| R1 | the ruler laid at a point            | C1 | a point of the compasses set on a known point           |
+| R2 | a line drawn along it                | C2 | a point of the compasses set anywhere on a line         |
+|    |                                      | C3 | a circle drawn                                          |
+
+Simplicity is the number of all operations, exactitude the number of those that prepare (R1, C1, C2): the fewer, the
+better. The compasses keep their opening until another is taken, and need not be set where they stand already. Lengths
+laid off by the scale are outside his system and counted apart; so are set squares and dividers.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from dataclasses import dataclass, field
+
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES
+from graphplan.kernel.program import Program, Step
+
+
+@dataclass(frozen=True)
+class Counts:
+    """Lemoine's five counts, the lengths laid off by the scale, and what set squares and dividers did."""
+
+    R1: int = 0
+    R2: int = 0
+    C1: int = 0
+    C2: int = 0
+    C3: int = 0
+    scale: int = 0
+    others: dict[str, int] = field(default_factory=dict)
+
+    @property
+    def strict(self) -> bool:
+        """Whether compasses and straightedge did it all."""
+        return not self.others
+
+    @property
+    def simplicity(self) -> int:
+        return self.R1 + self.R2 + self.C1 + self.C2 + self.C3
+
+    @property
+    def exactitude(self) -> int:
+        return self.R1 + self.C1 + self.C2
+
+    @property
+    def operations(self) -> int:
+        """Lines, arcs and lengths drawn, and movements of set squares and dividers."""
+        return self.R2 + self.C3 + self.scale + sum(self.others.values())
+
+    def __str__(self) -> str:
+        laid = [f"{self.scale} by the scale"] if self.scale else []
+        if not self.strict:
+            moved = [f"{number} by {instrument}" for instrument, number in self.others.items()]
+            drawn = [f"{self.R2} lines", f"{self.C3} arcs", *moved, *laid]
+            return f"{self.operations} operations: {', '.join(drawn)}"
+        terms = [f"{n} {name}" for name in ("R1", "R2", "C1", "C2", "C3") if (n := getattr(self, name))]
+        simple = f"simplicity {self.simplicity}, exactitude {self.exactitude}"
+        return ", ".join([f"{' + '.join(terms) or '0'}: {simple}", *laid])
+
+
+class Hand:
+    """Plays a program through: what is in the compasses, and where they stand."""
+
+    def __init__(self, program: Program):
+        self.program = program
+        self.counts: Counter[str] = Counter()
+        self.others: Counter[str] = Counter()
+        self.opening, self.needles = -1, frozenset[int]()
+        self.known: set[int] = set()
+
+    def play(self, step: Step) -> None:
+        """Count one step."""
+        match step.op.name:
+            case "given" | "begin":
+                pass
+            case "line":
+                self.counts.update(R1=2, R2=1)
+            case "opening":
+                self._open(step)
+            case "circle":
+                centre, opening = step.args
+                if opening != self.opening:
+                    self._open(self.program.steps[opening])
+                if centre not in self.needles:
+                    self._set(centre)
+                self.needles = frozenset([centre])
+                self.counts["C3"] += 1
+            case _ if step.op.instrument == SCALE:
+                self.counts["scale"] += 1
+            case _ if step.op.instrument in (SET_SQUARES, DIVIDERS, COMPASSES) or step.op.compound:
+                self.others[step.op.instrument] += 1
+            case _ if step.op.instrument != PENCIL:
+                raise ValueError(f"there is no count for {step.op.name}")
+
+    def _open(self, step: Step) -> None:
+        """Take a distance between the compasses' points, which then stand at both ends."""
+        for point in step.args:
+            self._set(point)
+        self.opening, self.needles = step.index, frozenset(step.args)
+
+    def _set(self, point: int) -> None:
+        """Set a point of the compasses: on a known point, or first on one chosen anywhere on a line."""
+        anywhere = self.program.steps[point].op.name == "pick" and point not in self.known
+        self.counts["C2" if anywhere else "C1"] += 1
+        self.known.add(point)
+
+
+def counts(program: Program) -> Counts:
+    """What drawing a program costs; in full only for a strict one, as Lemoine knew no set squares."""
+    hand = Hand(program)
+    for step in program.steps:
+        hand.play(step)
+    return Counts(**hand.counts, others=dict(hand.others))

@@ -1,0 +1,130 @@
+"""Random figures: programs that end with one use of a primitive, for any primitive of the table.
+
+Operands are made by kind. Where a primitive asks more of them (C on AB, an image like its link), they are drawn so.
+Coordinates are quarters, so that every number domain has them exactly.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from fractions import Fraction
+from random import Random
+from typing import Any
+
+from graphplan.errors import GraphplanError
+from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.passes import freeze
+
+Place = Callable[[Random], tuple[Any, Any]]
+Points = list[Mark]
+Draw = Callable[[Board, Points, Random, dict[str, Any]], tuple[Mark, ...]]
+
+NAMES = sorted(TABLE)
+COMPOUNDS = [name for name in NAMES if TABLE[name].compound]
+
+
+def quarters(r: Random) -> tuple[Fraction, Fraction]:
+    """A point like any other."""
+    return Fraction(r.randint(-50, 50), 4), Fraction(r.randint(-50, 50), 4)
+
+
+def corners(r: Random) -> tuple[Fraction, Fraction]:
+    """One of few points: many coincide, lie on one line, or are equally far apart."""
+    return Fraction(r.randint(0, 2)), Fraction(r.randint(0, 2))
+
+
+def extremes(r: Random) -> tuple[float, float]:
+    """Lengths 1e-9 and 1e9 apart."""
+    sizes = (0.0, 1.0, 1.0, 2.0, 1e-9, 1e9)
+    return r.choice(sizes) * r.choice((-1, 1)), r.choice(sizes) * r.choice((-1, 1))
+
+
+PARAMS: dict[str, Callable[[Random], Any]] = {
+    **dict.fromkeys(("x", "y", "dx", "dy", "length"), lambda r: Fraction(r.randint(-20, 20), 4)),
+    "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
+    "plan": lambda r: "N-plan",
+    "number": lambda r: r.randint(1, 3),
+    "way": lambda r: r.choice(("on", "back")),
+    "side": lambda r: r.choice(("left", "right")),
+    "turn": lambda r: r.choice(("parallel", "perpendicular")),
+}
+
+
+def _image(b: Board, C: Mark, A: Mark, c: Mark, ratio: Fraction, turn: str) -> Mark:
+    return (b.step_off if turn == "parallel" else b.step_across)(C, A, c, ratio=ratio)
+
+
+def _divide(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    return p[0], p[1], b.step_off(p[0], p[1], p[0], ratio=Fraction(r.randint(-4, 8), 4)), p[2], p[3]
+
+
+def _similar(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    return *p[:4], _image(b, p[0], p[1], p[3], PARAMS["ratio"](r), params["turn"])
+
+
+def _settle(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    ratio = PARAMS["ratio"](r)
+    one, two = (_image(b, p[0], X, p[1], ratio, params["turn"]) for X in p[2:4])
+    return p[0], p[1], p[2], b.line(one, p[4]), p[3], b.line(two, p[5])
+
+
+def _coriolis(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    return p[0], p[1], b.step_off(p[1], p[0], p[1], ratio=Fraction(r.randint(-4, 4), 2)), p[2], p[3]
+
+
+def _false_position(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    locus = b.line(p[4], p[5])
+    return p[0], p[1], p[2], locus, p[3], b.parallel(locus, p[6])
+
+
+FITTING: dict[str, tuple[int, Draw]] = {
+    "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
+    "false_position": (7, _false_position),
+}
+
+NEEDED = {POINT: 1, LINE: 2, OPENING: 2, CIRCLE: 3}
+MADE: dict[str, Callable[[Board, Points], Mark]] = {
+    POINT: lambda b, p: p[0],
+    LINE: lambda b, p: b.line(*p),
+    OPENING: lambda b, p: b.opening(*p),
+    CIRCLE: lambda b, p: b.circle(p[0], b.opening(*p[1:])),
+}
+
+
+def _by_kind(op: Primitive) -> tuple[int, Draw]:
+    """How many points operands of these kinds need, and how they are drawn on them."""
+
+    def draw(b: Board, points: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+        left = iter(points)
+        return tuple(MADE[kind](b, [next(left) for _ in range(NEEDED[kind])]) for kind in op.reads)
+
+    return sum(NEEDED[kind] for kind in op.reads), draw
+
+
+def figure(name: str, r: Random, place: Place = quarters) -> Program:
+    """A program that ends with one use of the primitive, on points from `place`."""
+    op, board = TABLE[name], Board()
+    params = {param: PARAMS[param](r) for param in op.params}
+    number, draw = FITTING.get(name) or _by_kind(op)
+    points = []
+    for k in range(number):
+        x, y = place(r)
+        points.append(board.given(x=x, y=y, name=f"P{k}"))
+    return freeze(board, [board.draw(op, draw(board, points, r, params), name="out", **params)])
+
+
+def drawn(program: Program, domain: Domain, **given: Any) -> list[Any] | None:
+    """The values of a program, or nothing where it cannot be drawn."""
+    try:
+        return evaluate(program, domain, given or None)
+    except GraphplanError:
+        return None
+
+
+def size(program: Program, values: list[Any]) -> float:
+    """How far the points of a drawing reach."""
+    points = [value for step, value in zip(program.steps, values, strict=True) if step.op.gives == POINT]
+    return max((math.hypot(*map(float, point)) for point in points), default=1.0) or 1.0

@@ -163,7 +163,7 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            source="Ozols 1974, 5-3, fig. 5-24")
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
-    """b less the Coriolis vector: BT : BP is the guide's turning, BR the orthogonal relative velocity of the pair."""
+    """The point b less the Coriolis vector: BT : BP is the guide's turning, BR the orthogonal relative velocity of the pair."""
     u = _apart(d, B, P, "the pole of the guide lies in the pair")
     s = 2 * _dot(_vector(B, T), u) / _dot(u, u)
     return b[0] - s * (R[0] - B[0]), b[1] - s * (R[1] - B[1])
@@ -172,11 +172,12 @@ def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
            "nothing.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
-           fails=("trials-agree",), source="false position; Rosenauer 1939, No. 14", where=0)
+           fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0)
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
+    u = _apart(d, A1, A2, "both trials begin in one point")
     scale = (l1[0] * l2[0] + l1[1] * l2[1]) / (l2[0] * l2[0] + l2[1] * l2[1])
     e1 = l1[0] * Z1[0] + l1[1] * Z1[1] + l1[2]
     e2 = (l2[0] * Z2[0] + l2[1] * Z2[1] + l2[2]) * scale
     gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures miss by the same amount")
-    return A1[0] + e1 / gap * (A2[0] - A1[0]), A1[1] + e1 / gap * (A2[1] - A1[1])
+    return A1[0] + e1 / gap * u[0], A1[1] + e1 / gap * u[1]

@@ -365,7 +365,7 @@ def _(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 
 @form("false_position", "a trial that fits")
 def _(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
-    return A1 if s.lies_on(Z1, l1) or s.one(A1, A2) else A2 if s.lies_on(Z2, l2) else None
+    return A1 if s.lies_on(Z1, l1) else A2 if s.lies_on(Z2, l2) else None
 
 
 @form("false_position", "errors as ordinates")

@@ -114,12 +114,17 @@ def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
            claims=(("on", 0), ("on", 1), ("side", 0, 1)), fails=("circles-miss", "circles-concentric"),
            params=("side",))
 def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
-    """One of the two intersections of two circles: left or right of the ray from the first centre to the second."""
+    """One of the two intersections of two circles: left or right of the ray from the first centre to the second.
+
+    The height over the line of centres is taken from both circles, each weighed by the other: the small one tells it
+    well where the large one cannot.
+    """
     dx, dy = m[0] - k[0], m[1] - k[1]
-    size = k[2] + m[2]
-    d2 = d.nonzero(dx * dx + dy * dy, size, "circles-concentric", "the two circles have the same centre")
-    t = (d2 + k[2] - m[2]) / (2 * d2)
-    h = d.sqrt(k[2] / d2 - t * t, "circles-miss", "the two circles do not meet")
+    d2 = d.nonzero(dx * dx + dy * dy, k[2] + m[2], "circles-concentric", "the two circles have the same centre")
+    both = d.nonzero(k[2] + m[2], d2, "circles-miss", "the two circles do not meet")
+    t, u = (d2 + k[2] - m[2]) / (2 * d2), (d2 + m[2] - k[2]) / (2 * d2)
+    h2 = (m[2] * (k[2] / d2 - t * t) + k[2] * (m[2] / d2 - u * u)) / both
+    h = d.sqrt(h2, "circles-miss", "the two circles do not meet")
     h = h if side == "left" else -h
     return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx
 

@@ -1,0 +1,78 @@
+"""Values from the books, with the precision of their drawings, and exact ones from recomputation."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import pytest
+
+from graphplan.check.report import Report, report
+from graphplan.mechanism.scene import load
+
+
+@dataclass(frozen=True)
+class Printed:
+    """One value in m and s, how far off its source may be (relative), and where it stands."""
+
+    scene: str
+    kind: str
+    of: str
+    value: float
+    tolerance: float
+    note: str = ""
+
+
+OZOLS = "Ozols 1974, 5-5"
+VALUES = [
+    # read off the book's drawing at 1:10
+    Printed("ozols-5-1", "velocity", "B", 1.46, 0.026, f"{OZOLS}, ex. 5-1: drawn 20.5 mm, exactly 20.96"),
+    Printed("ozols-5-1", "velocity", "C", 1.68, 0.016, f"{OZOLS}, ex. 5-1"),
+    Printed("ozols-5-1", "omega", "2", 3.34, 0.002, f"{OZOLS}, ex. 5-1: clockwise"),
+    Printed("ozols-5-1", "acceleration", "B", 30.1, 0.018, f"{OZOLS}, ex. 5-1"),
+    Printed("ozols-5-1", "acceleration", "C", 27.0, 0.011, f"{OZOLS}, ex. 5-1"),
+    Printed("ozols-5-1", "alpha", "2", 9.1, 0.001, f"{OZOLS}, ex. 5-1: opposite to omega"),
+    # recomputed
+    Printed("ozols-5-1", "velocity", "B", 1.4973, 1e-4),
+    Printed("ozols-5-1", "velocity", "C", 1.7051, 1e-4),
+    Printed("ozols-5-1", "acceleration", "B", 29.578, 1e-4),
+    Printed("ozols-5-1", "acceleration", "C", 26.720, 1e-4),
+    Printed("ozols-5-1", "alpha", "2", 9.1000, 1e-4),
+    Printed("ozols-5-2", "omega", "3", 12.074991, 1e-6),
+    Printed("ozols-5-2", "alpha", "3", -34.749832, 1e-6),
+    Printed("ozols-5-2", "velocity", "A", 3.018748, 1e-6),
+    Printed("ozols-5-2", "acceleration", "A", 37.472294, 1e-6),
+    Printed("ozols-5-3", "omega", "1", -4.978964, 1e-6),
+    Printed("ozols-5-3", "omega", "3", -6.012094, 1e-6),
+    Printed("ozols-5-3", "alpha", "1", -9.190684, 1e-6),
+    Printed("ozols-5-3", "alpha", "3", -19.712253, 1e-6),
+    Printed("ozols-5-4", "omega", "2", -1.860753, 1e-6),
+    Printed("ozols-5-4", "omega", "3", 2.462812, 1e-6),
+    Printed("ozols-5-4", "omega", "5", -1.095350, 1e-6),
+    Printed("ozols-5-4", "alpha", "5", -62.503040, 1e-6),
+    Printed("ozols-5-5", "omega", "1", -8.138972, 1e-6),
+    Printed("ozols-5-5", "omega", "3", -7.988959, 1e-6),
+    Printed("ozols-5-5", "alpha", "1", -15.214981, 1e-6),
+    Printed("ozols-5-5", "alpha", "3", 3.746078, 1e-6),
+]
+
+
+def measured(found: Report, value: Printed) -> float:
+    """What the construction gives: a vector's size in metres, or a link's rate; signs only where the value has one."""
+    number = found.results[value.kind][value.of]
+    if isinstance(number, tuple):
+        return float(abs(complex(*number))) / 1000
+    return float(number) if value.value < 0 or value.tolerance < 1e-4 else abs(float(number))
+
+
+@pytest.mark.parametrize("value", VALUES, ids=lambda v: f"{v.scene} {v.kind} {v.of} {v.value}")
+def test_the_construction_gives_the_books_value(value: Printed) -> None:
+    """Each printed value within the precision of its drawing, each recomputed one to its digits."""
+    found = report(load(value.scene))
+    assert measured(found, value) == pytest.approx(value.value, rel=value.tolerance)
+
+
+def test_the_connecting_rod_turns_clockwise_and_ever_slower() -> None:
+    """Ozols 5-1: the coupler turns clockwise with decreasing speed, the piston is accelerated to the left."""
+    results = report(load("ozols-5-1")).results
+    assert results["omega"]["2"] < 0 < results["alpha"]["2"]
+    assert results["acceleration"]["B"][0] < 0

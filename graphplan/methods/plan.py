@@ -53,6 +53,7 @@ class Plan:
         self.board, self.net, self.pose = board, net, pose
         self.ends: dict[Place, Mark] = {}
         self.loci: dict[Locus, Mark] = {}
+        self.prime = ""  # of the letters in a trial figure
         self.known: dict[str, list[Place]] = {body: [] for body in net.members}
         self.pole_vectors: dict[tuple[Place, str], Vector] = {}
 
@@ -154,7 +155,7 @@ class Plan:
         return [slide.link, slide.along] if slide else self.net.members.get(source, [])
 
     def _end(self, place: Place, mark: Mark, move: Move | None = None) -> None:
-        self._know(place, self.board.named(mark, self.end_name(place)))
+        self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
         if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
             self.board.annotate(mark.step.index, why=law)
 
@@ -167,7 +168,7 @@ class Plan:
 
     def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:
         if name := self.locus_name(locus[0]):
-            self.board.named(mark, name)
+            self.board.named(mark, name + self.prime)
         if mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
             self.board.annotate(mark.step.index, why=law)
         self.loci[locus] = mark
@@ -326,7 +327,7 @@ class Plan:
         letter = self.pose.letter(body)
         trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
                  for mark in ("'", "''")}
-        return {"Q": letter, "q": self.end_name((letter, "")), "U": f"U_{body}", **trial}
+        return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": f"U_{body}", **trial}
 
     # ---- relative poles and trials --------------------------------------------------------------------------
 
@@ -341,11 +342,14 @@ class Plan:
         """Two trial figures, the false position, then the true figure by the same moves."""
         place, locus = move.at[0], self.loci[move.at]
         trials: list[Mark] = []
-        for ratio in TRIAL_RATIOS:
+        outer = self.prime
+        for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
+            self.prime = outer + prime
             start = self.board.pick(locus, self.home(place), self.pose.far_from(place), ratio=ratio)
-            self._know(place, self.board.named(start, self.end_name(place)))
+            self._know(place, self.board.named(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]
+        self.prime = outer
         A1, Z1, l1, A2, Z2, l2 = trials
-        self.ends[place] = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place))
+        self.ends[place] = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
         self.draw(move.moves)

@@ -15,6 +15,7 @@ from graphplan.sheet.rows import Cell, Row
 from graphplan.sheet.scales import digits
 
 HEADING, INDENT, APART = 3.0, 8.5, 3.0
+ROUNDING = 1e-12  # beside the largest number of its kind
 Table = list[list[Runs]]
 
 
@@ -108,15 +109,22 @@ def heading(text: str, size: float = HEADING, gap: float = 3.0) -> Row:
 def _vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point") -> Table:
     """Components and magnitudes, each row with its name first; nothing if there are none."""
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
-    rows = [[name_runs(n), *(sentence_runs(digits(x)) for x in (*values[n], math.hypot(*values[n])))]
+    largest = max((math.hypot(*value) for value in values.values()), default=0.0)
+    rows = [[name_runs(n), *(_figure(x, largest) for x in (*values[n], math.hypot(*values[n])))]
             for n in order if n in values]  # fmt: skip
     return [head, *rows] if rows else []
 
 
 def _scalars(name: str, unit: str, values: Mapping[str, Any], order: Any) -> Table:
     head = [sentence_runs("link"), (*name_runs(name), *sentence_runs(f" {unit}"))]
-    rows = [[name_runs(n), sentence_runs(digits(values[n]))] for n in order if n in values]
+    largest = max((abs(value) for value in values.values()), default=0.0)
+    rows = [[name_runs(n), _figure(values[n], largest)] for n in order if n in values]
     return [head, *rows] if rows else []
+
+
+def _figure(value: float, largest: float) -> Runs:
+    """A number of a table; what is only rounding beside its largest is zero."""
+    return sentence_runs(digits(value if abs(value) > ROUNDING * largest else 0.0))
 
 
 def joined_tables(one: Table, two: Table, wide: float) -> Iterator[Row]:
@@ -151,4 +159,4 @@ def overlong(rows: Sequence[Row], wide: float) -> list[Row]:
 
 def _within(gap: float) -> str:
     """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
-    return "below 10⁻¹²" if gap <= 1e-12 else digits(gap, 2)
+    return "below 10⁻¹²" if gap <= ROUNDING else digits(gap, 2)

@@ -1,8 +1,8 @@
 """Two shortcuts of the drawing board, and what they cost in a drawing.
 
-For the middle A of a link BC whose ends have the loci beta and gamma, Rosenauer (No. 16) draws the bisector of the angle
-between beta and gamma where the median of the trial triangles belongs, and lets alpha, the locus of A, begin at a
-itself, without the normal acceleration of A. Both are what a pencil can resolve; here is by how much they miss.
+For the middle A of a link BC whose ends have the loci beta and gamma, Rosenauer (No. 16) draws the bisector of the
+angle between beta and gamma where the median of the trial triangles belongs, and lets alpha, the locus of A, begin at
+a itself, without the normal acceleration of A. Both suit a pencil in some poses; here is by how much they miss.
 """
 
 from __future__ import annotations
@@ -22,8 +22,8 @@ Line = tuple[float, float, float]
 class Shortcuts:
     """What the shortcuts make of the acceleration of a link's middle.
 
-    `angle` is between bisector and median, in degrees; `bisector` and `dropped` are the misses of the middle's end, by
-    the bisector and by dropping its normal acceleration, as parts of its acceleration.
+    `angle` is between bisector and median, in degrees; `bisector` and `dropped` are the misses of the middle's end,
+    by the bisector and by dropping its normal acceleration, as parts of its acceleration.
     """
 
     middle: str
@@ -32,8 +32,8 @@ class Shortcuts:
     dropped: float
 
     def __str__(self) -> str:
-        return (f"shortcuts for {self.middle}, the middle of its link: the bisector is {self.angle:.2g} degrees off the "
-                f"median and misses j_{self.middle.lower()} by {100 * self.bisector:.2g} %; dropping its normal "
+        return (f"shortcuts for {self.middle}, the middle of its link: the bisector is {self.angle:.2g} degrees off "
+                f"the median and misses j_{self.middle.lower()} by {100 * self.bisector:.2g} %; dropping its normal "
                 f"acceleration misses it by {100 * self.dropped:.2g} %")
 
 

@@ -163,7 +163,7 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            source="Ozols 1974, 5-3, fig. 5-24")
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
-    """The point b less the Coriolis vector: BT : BP is the guide's turning, BR the orthogonal relative velocity of the pair."""
+    """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
     u = _apart(d, B, P, "the pole of the guide lies in the pair")
     s = 2 * _dot(_vector(B, T), u) / _dot(u, u)
     return b[0] - s * (R[0] - B[0]), b[1] - s * (R[1] - B[1])

@@ -232,4 +232,4 @@ def _plain(value: Any) -> str:
     """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
     if not isinstance(value, Fraction | float) or 1000 % Fraction(value).denominator == 0:
         return f"{float(value):g}" if isinstance(value, Fraction | float) else str(value)
-    return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{value:.6g}"
+    return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{float(value):.6g}"

@@ -162,6 +162,7 @@ for _words, _start in STARTS:
 def _(s: Any, l: Any, P: Any) -> Any:
     across = s.perpendicular(l, P)
     X = _known(s, across, P)
+    X = _any(s, across, P) if X is None else X
     return None if X is None else _erected(s, across, P, X, left=False)
 
 

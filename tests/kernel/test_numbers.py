@@ -43,7 +43,7 @@ def last(program: Program, given: dict[str, dict[str, float]]) -> tuple[float, .
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
 def test_batch_equals_floats(name: str, place: Place) -> None:
-    """A batch of n poses gives exactly the n floats, a batch of one the one; what cannot be drawn is nan, with a code."""
+    """A batch of n poses gives exactly the n floats, one or many; what cannot be drawn is nan, with a code."""
     r = Random(name)
     for n in (1, 1, 1, 40, 40, 40):
         program = figure(name, r, place)

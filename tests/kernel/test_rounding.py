@@ -63,7 +63,7 @@ def test_carry_is_good_where_the_auxiliary_point_is_far(tilt: float, turn: str) 
         A, B, C, angle = point(r), point(r), point(r), r.uniform(0, math.tau)
         alpha, beta = line(angle, point(r)), line(angle + tilt, point(r))
         got, exact = both("carry", A, alpha, B, beta, C, turn=turn)
-        reach = 1 + abs(alpha[2]) + abs(beta[2])
+        reach = 1 + abs(alpha[2]) + abs(beta[2]) + abs(got[2])
         assert apart(exact, got) <= 8 * EPS * reach / strength(turn, A, alpha, B, beta, C)
 
 

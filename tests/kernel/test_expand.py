@@ -1,0 +1,135 @@
+"""The form that suits the pose: on the sheet, with sharp crossings, in few movements, or as asked for."""
+
+from __future__ import annotations
+
+import pytest
+
+from graphplan.errors import ConstructionError
+from graphplan.kernel import Board, Mark, Program
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+
+
+def points(board: Board, **places: tuple[float, float]) -> list[Mark]:
+    """Points of the pose by name."""
+    return [board.given(x=x, y=y, name=name) for name, (x, y) in places.items()]
+
+
+def link(tilt: float) -> Program:
+    """A link ABC whose ends of A and B have loci: along KA and, turned from it by `tilt`, along LB."""
+    board = Board()
+    K, A, L, B, C, U, V = points(board, K=(0, 0), A=(0, 4), L=(6 + tilt, 0), B=(6, 4), C=(3, 8), U=(1, 3), V=(8, 1))
+    alpha, beta = board.parallel(board.line(K, A), U), board.parallel(board.line(L, B), V)
+    return freeze(board, [board.carry(A, alpha, B, beta, C, turn="parallel", names={"Q": "Q", "q": "v_q"}, name="gamma")])
+
+
+def expanded(program: Program, **choices: object) -> Program:
+    """The program drawn out."""
+    return Expander(program, evaluate(program, Floats()), **choices).run()  # type: ignore[arg-type]
+
+
+def form(program: Program) -> str:
+    """Which form of `carry` was chosen."""
+    return next(step.form for step in program.steps if step.form.startswith("carry")).removeprefix("carry: ")
+
+
+def test_auxiliary_point_where_it_is_on_the_sheet() -> None:
+    """The textbook's auxiliary point is drawn where it can be, with its letters."""
+    drawing = expanded(link(4.0), windows={"": Window((4.0, 4.0), 20.0)})
+    assert form(drawing) == "auxiliary point"
+    assert {"Q", "v_q", "gamma"} <= {step.name for step in drawing.steps}
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-3, 0.5])
+def test_trial_figures_where_it_is_off_the_sheet(tilt: float) -> None:
+    """Where the auxiliary point is off the sheet, or nowhere, trial figures find the locus; the reason is told."""
+    drawing = expanded(link(tilt), windows={"": Window((4.0, 4.0), 20.0)})
+    assert "trial" in form(drawing)
+    assert not any(step.name == "Q" for step in drawing.steps)
+
+
+def test_flat_crossings_are_avoided() -> None:
+    """On a sheet without edges, a flat crossing is left for a sharper one."""
+    drawing = expanded(link(0.5))
+    assert "trial" in form(drawing)
+
+
+def test_preferred_form_is_drawn() -> None:
+    """A form that is asked for by name is drawn wherever it can be."""
+    sheet = {"": Window((4.0, 4.0), 20.0)}
+    assert form(expanded(link(0.5), windows=sheet, prefer="auxiliary point")) == "auxiliary point"
+    assert form(expanded(link(4.0), windows=sheet, prefer="two trial")).startswith("two trial figures")
+    assert "trial" in form(expanded(link(0.0), windows=sheet, prefer="auxiliary point"))
+
+
+def test_reason_weighs_the_forms() -> None:
+    """The first step of a form says what it cost, where it lies and how sharp it is, beside the others."""
+    drawing = expanded(link(0.5), windows={"": Window((4.0, 4.0), 20.0)})
+    reason = next(step.reason for step in drawing.steps if step.form.startswith("carry"))
+    assert "steps, on the sheet, flattest crossing" in reason
+    assert " rather than " in reason
+    assert "auxiliary point (" in reason
+    assert "off the sheet" in reason
+
+
+def test_law_stands_at_the_last_step() -> None:
+    """What a compound is good for is told where it is done."""
+    board = Board()
+    A, B, C, D = points(board, A=(0, 0), B=(4, 0), C=(1, 3), D=(7, 7))
+    program = freeze(board, [board.shift(board.line(A, B), C, D, why="the law", name="l")])
+    drawing = expanded(program)
+    assert [step.name for step in drawing.steps if step.why == "the law"] == ["l"]
+
+
+def test_what_is_drawn_already_is_used() -> None:
+    """The line of the link that a locus was made from serves for the auxiliary point, drawn out or not."""
+    for keep in (BY_SET_SQUARE, STRICT):
+        drawing = expanded(link(4.0), keep=keep, prefer="auxiliary point")
+        Q = next(step for step in drawing.steps if step.name == "Q")
+        assert [drawing.text(arg) for arg in Q.args] == ["KA", "LB"]
+
+
+@pytest.mark.parametrize("keep", [BY_SET_SQUARE, STRICT], ids=["set squares", "strict"])
+def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
+    """A trial point is picked where the program has it, though the locus drawn out runs the other way."""
+    board = Board()
+    K, A, L, B, C, U, V = points(board, K=(0, 0), A=(0, 4), L=(10, 0), B=(6, 4), C=(3, 8), U=(1, 3), V=(8, 1))
+    alpha, beta = board.parallel(board.line(K, A), U), board.parallel(board.line(L, B), V)
+    locus = board.carry(A, alpha, B, beta, C, turn="parallel")
+    picked = [board.pick(locus, C, A, ratio=ratio, name=name) for ratio, name in ((0.3, "T"), (-0.4, "S"))]
+    program = freeze(board, picked)
+    truth = evaluate(program, Floats())
+    for prefer in ("auxiliary point", "trial figure", "two trial figures"):
+        expander = Expander(program, truth, keep, prefer=prefer)
+        drawing = expander.run()
+        for old, new in zip(program.wanted, drawing.wanted, strict=True):
+            assert expander.values[new] == pytest.approx(truth[old], abs=1e-12)
+
+
+def test_guide_needs_another_point() -> None:
+    """A perpendicular to a guide at its own point is erected over a point picked on it."""
+    board = Board()
+    A, B = points(board, A=(0, 0), B=(4, 1))
+    program = freeze(board, [board.perpendicular(board.guide(A, dx=3, dy=4), A, name="n"), B])
+    drawing = expanded(program, keep=STRICT)
+    assert {"pick", "circle", "line"} <= {step.op.name for step in drawing.steps}
+    assert all(step.op.name in STRICT for step in drawing.steps)
+
+
+def test_what_cannot_be_drawn_out_stays_one_step() -> None:
+    """Alone on the sheet, with nothing to take an opening from, the set square remains."""
+    board = Board()
+    (A,) = points(board, A=(0, 0))
+    program = freeze(board, [board.perpendicular(board.guide(A, dx=3, dy=4), A)])
+    assert [step.op.name for step in expanded(program, keep=STRICT).steps] == ["given", "guide", "perpendicular"]
+
+
+def test_fault_while_drawing_names_the_step() -> None:
+    """A program that cannot be drawn in the pose fails with the step's code and letters."""
+    board = Board()
+    A, B = points(board, A=(1, 1), B=(1, 1))
+    program = freeze(board, [board.line(A, B)])
+    with pytest.raises(ConstructionError, match="points-coincide at step 1"):
+        Expander(program, []).run()

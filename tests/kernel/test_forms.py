@@ -1,0 +1,94 @@
+"""However a compound is drawn, it is the value of its rule; and each way of drawing it is the right one somewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from random import Random
+from typing import Any
+
+import pytest
+from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
+
+from graphplan.errors import Undrawable
+from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
+from graphplan.kernel.claims import check_claims
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Pencil
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import pruned
+
+FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]
+KEEPS = {"all but itself": frozenset(TABLE), "set squares": BY_SET_SQUARE, "strict": STRICT}
+
+
+def figures(name: str, place: Place, number: int) -> Iterator[tuple[Program, list[Any]]]:
+    """Figures that can be drawn."""
+    r = Random(name)
+    for _ in range(number):
+        program = figure(name, r, place)
+        values = drawn(program, Floats())
+        if values is not None:
+            yield program, values
+
+
+def same(kind: str, one: Any, two: Any, reach: float) -> bool:
+    """Whether two values are one thing; a line may run either way."""
+    if kind != LINE:
+        return all(abs(p - q) < 1e-8 * reach for p, q in zip(one, two, strict=True))
+    (a, b, c), (d, e, _) = one, two
+    scale = (a * d + b * e) / (d * d + e * e)
+    return all(abs(p - scale * q) < 1e-8 * max(reach, abs(c)) for p, q in zip(one, two, strict=True))
+
+
+def laid_out(program: Program, values: list[Any], name: str) -> tuple[Expander, tuple[Mark, ...]]:
+    """The operands of the last step, drawn."""
+    expander = Expander(program, values, frozenset(TABLE) - {name})
+    marks: list[Mark] = []
+    for step in program.steps[:-1]:
+        marks.append(expander.draw(step.op, tuple(marks[arg] for arg in step.args), step.params))
+    return expander, tuple(marks[arg] for arg in program.steps[-1].args)
+
+
+@pytest.mark.parametrize(("name", "form"), FORMS)
+def test_form_draws_the_value(name: str, form: str) -> None:
+    """Asked for by name, a form gives the rule's value; it is the one that is drawn in some pose."""
+    chosen = 0
+    for place, number in ((quarters, 25), (corners, 120)):
+        for program, values in figures(name, place, number):
+            expander = Expander(program, values, frozenset(TABLE) - {name}, prefer=form)
+            expanded = expander.run()
+            out = program.wanted[0]
+            reach = 50 * size(program, values)
+            assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]], reach)
+            expander, marks = laid_out(program, values, name)
+            found = expander._trials(TABLE[name], marks, program.steps[-1].params)
+            chosen += any(trial.form == form for trial in found)
+    assert chosen
+
+
+@pytest.mark.parametrize(("name", "form"), FORMS)
+def test_form_fails_cleanly(name: str, form: str) -> None:
+    """Where a form cannot be drawn it gives nothing or a declared code: never another error."""
+    for program, values in figures(name, corners, 100):
+        expander, marks = laid_out(program, values, name)
+        try:
+            TABLE[name].forms[form](Pencil(expander, None), *marks, **program.steps[-1].params)
+        except Undrawable as fault:
+            assert fault.code in FAILURES
+
+
+@pytest.mark.parametrize("keep", KEEPS)
+@pytest.mark.parametrize("name", COMPOUNDS)
+def test_expansion_keeps_values_and_claims(name: str, keep: str) -> None:
+    """Drawn out, in any pose, a compound has its value, and all steps of the drawing keep their claims."""
+    left = 0
+    for place, number in ((quarters, 12), (corners, 40)):
+        for program, values in figures(name, place, number):
+            expander = Expander(program, values, KEEPS[keep] - {name} if keep == "all but itself" else KEEPS[keep])
+            expanded = expander.run()
+            out = program.wanted[0]
+            assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]],
+                        50 * size(program, values))
+            assert drawn(expanded, Floats()) == expander.values
+            assert check_claims(pruned(expanded), drawn(pruned(expanded), Floats()) or [], 1e-6) == []
+            left += keep == "strict" and any(step.op.name not in STRICT for step in expanded.steps)
+    assert left == 0

@@ -6,6 +6,7 @@ import textwrap
 from collections.abc import Iterable
 from typing import Any
 
+from graphplan.kernel.lemoine import counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.positions import layout
 
@@ -24,6 +25,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
             panel = step.panel
             lines.append(f"On the {panel} plan:" if panel == "mechanism" else f"On the {panel}:")
         lines += _numbered(drawn.number(step.index), sentence)
+    lines += ["", f"Cost: {counts(drawn)}."]
     if drawing.forms:
         lines += ["", "Forms chosen for this pose:"]
         lines += [line for form in drawing.forms for line in _wrapped(form, "  ")]
@@ -82,5 +84,6 @@ def steps(drawing: Construction, structure: Iterable[str] = ()) -> dict[str, Any
         "kappa": drawing.kappa,
         "method": drawing.method,
         "forms": drawing.forms,
+        "cost": str(counts(drawn)),
         "steps": entries,
     }

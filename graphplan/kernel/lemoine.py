@@ -52,11 +52,15 @@ class Counts:
         laid = [f"{self.scale} by the scale"] if self.scale else []
         if not self.strict:
             moved = [f"{number} by {instrument}" for instrument, number in self.others.items()]
-            drawn = [f"{self.R2} lines", f"{self.C3} arcs", *moved, *laid]
-            return f"{self.operations} operations: {', '.join(drawn)}"
+            drawn = [_many(self.R2, "line"), _many(self.C3, "arc"), *moved, *laid]
+            return f"{_many(self.operations, 'operation')}: {', '.join(drawn)}"
         terms = [f"{n} {name}" for name in ("R1", "R2", "C1", "C2", "C3") if (n := getattr(self, name))]
         simple = f"simplicity {self.simplicity}, exactitude {self.exactitude}"
         return ", ".join([f"{' + '.join(terms) or '0'}: {simple}", *laid])
+
+
+def _many(number: int, what: str) -> str:
+    return f"{number} {what}" if number == 1 else f"{number} {what}s"
 
 
 class Hand:

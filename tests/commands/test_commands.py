@@ -250,6 +250,7 @@ def test_strict_steps_need_no_set_square(scene: Path, capsys: pytest.CaptureFixt
     assert run("steps", str(scene), "--json", "--strict") == 0
     data = json.loads(capsys.readouterr().out)
     assert not {step["instrument"] for step in data["steps"]} & {"set squares"}
+    assert "simplicity" in data["cost"]
 
 
 @pytest.mark.parametrize("plan", ["orthogonal", "polar"])

@@ -22,7 +22,8 @@ def link(tilt: float) -> Program:
     board = Board()
     K, A, L, B, C, U, V = points(board, K=(0, 0), A=(0, 4), L=(6 + tilt, 0), B=(6, 4), C=(3, 8), U=(1, 3), V=(8, 1))
     alpha, beta = board.parallel(board.line(K, A), U), board.parallel(board.line(L, B), V)
-    return freeze(board, [board.carry(A, alpha, B, beta, C, turn="parallel", names={"Q": "Q", "q": "v_q"}, name="gamma")])
+    letters = {"Q": "Q", "q": "v_q"}
+    return freeze(board, [board.carry(A, alpha, B, beta, C, turn="parallel", names=letters, name="gamma")])
 
 
 def expanded(program: Program, **choices: object) -> Program:

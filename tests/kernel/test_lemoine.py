@@ -1,4 +1,4 @@
-"""Lemoine's counts, on constructions that he and his readers counted."""
+"""Lemoine's counts, on elementary constructions."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from graphplan.kernel.passes import freeze
 
 Draw = Callable[[Board, Mark, Mark, Mark], Mark]
 
-CLASSICS: list[tuple[str, Draw, str]] = [
+ELEMENTARY: list[tuple[str, Draw, str]] = [
     ("the line through two points", lambda b, A, B, C: b.line(A, B), "2 R1 + 1 R2: simplicity 3, exactitude 2"),
     ("a circle about A through B", lambda b, A, B, C: b.circle(A, b.opening(A, B)),
      "2 C1 + 1 C3: simplicity 3, exactitude 2"),
@@ -26,9 +26,9 @@ CLASSICS: list[tuple[str, Draw, str]] = [
 ]
 
 
-@pytest.mark.parametrize(("draw", "told"), [case[1:] for case in CLASSICS], ids=[case[0] for case in CLASSICS])
-def test_classic_counts(draw: Draw, told: str) -> None:
-    """Elementary constructions cost what the books say."""
+@pytest.mark.parametrize(("draw", "told"), [case[1:] for case in ELEMENTARY], ids=[case[0] for case in ELEMENTARY])
+def test_elementary_counts(draw: Draw, told: str) -> None:
+    """Elementary constructions cost what Lemoine's rules make of them."""
     board = Board()
     A, B, C = (board.given(x=x, y=y) for x, y in ((0, 0), (4, 0), (1, 3)))
     program = freeze(board, [draw(board, A, B, C)])
@@ -70,4 +70,4 @@ def test_set_squares_are_counted_plainly() -> None:
     l = board.line(A, B)
     found = counts(freeze(board, [board.meet(board.parallel(l, C), board.perpendicular(l, B))]))
     assert not found.strict
-    assert str(found) == "3 operations: 1 lines, 0 arcs, 2 by set squares"
+    assert str(found) == "3 operations: 1 line, 0 arcs, 2 by set squares"

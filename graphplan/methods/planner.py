@@ -1,42 +1,22 @@
-"""The planner: finds the order of construction by facts that travel along joints.
+"""The planner: finds the order of construction, whatever the mechanism.
 
-Each body has three unknowns, each place two. A body with two facts gives every other place of it one (a locus), with
-three facts two (the end itself). Facts travel until nothing moves; then a relative pole or a trial is put in. All of it
-happens on the mechanism's graph; the pose is not looked at.
-
-A fact is filed at its place under its source, so that a body never takes its own word for news. A body that hears four
-facts has one too many: in a trial that is the closing condition.
+Facts travel along joints until nothing moves. Where they run in a ring of links, a relative pole, an auxiliary point or
+a trial is put in, and they travel on. A body that hears four facts has one too many: in a trial that is the closing
+condition.
 """
 
 from __future__ import annotations
 
-from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from itertools import pairwise
 
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Slide
-from graphplan.methods.moves import (
-    Auxiliary,
-    Carry,
-    Figure,
-    Guide,
-    Locus,
-    Meet,
-    Move,
-    Pole,
-    Rest,
-    Seed,
-    Settle,
-    Slip,
-    Swing,
-    Trial,
-)
+from graphplan.methods.facts import TRIAL, Facts
+from graphplan.methods.moves import Auxiliary, Carry, Figure, Locus, Meet, Move, Pole, Slip, Swing, Trial
 from graphplan.methods.network import POLE, Network, Place
 
-TRIAL = "trial"
 MOST_TRIALS = 6  # at how many places a trial may begin
 DEEPEST = 4  # trials within trials
 Bar = tuple[str, Place, Place]
@@ -49,8 +29,7 @@ class _Open:
     at: Locus
     start: int
 
-
-class Planner:
+class Planner(Facts):
     """Plans one network.
 
     Where facts run in rings there are several ways on: `choice` says, ring by ring, which is taken (the first where it
@@ -58,24 +37,12 @@ class Planner:
     """
 
     def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = ()):
-        self.net, self.method, self.choice = network, method, choice
+        super().__init__(network)
+        self.method, self.choice = method, choice
         self.options: list[int] = []
-        self.moves: list[Move] = []
-        self.facts: dict[Place, dict[str, int]] = {}
-        self.drawn: set[Place] = set()
-        self.places = {body: network.places_of(body) for body in network.members}
-        self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
-        self.told: dict[tuple[str, Place], int] = {}
-        self.turning: dict[str, str] = {}
         self.spent: dict[str, int] = {}
-        self.passed: set[str] = set()
-        self.retired: set[str] = set()
         self.joined: set[frozenset[str]] = set()
         self.open: list[_Open] = []
-        self.waiting: deque[str | Slide] = deque()
-        self.queued: set[str | Slide] = set()
-
-    # ---- travelling -----------------------------------------------------------------------------------------
 
     def plan(self) -> list[Move]:
         """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
@@ -89,189 +56,7 @@ class Planner:
                 raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
 
-    def _seed(self) -> None:
-        ground = self.net.ground
-        if ground:
-            self.turning[self.net.classes[ground]] = ground
-            for place in self.places[ground]:
-                self._rest(place)
-            self._wake_class(ground)
-        for point in self.net.scene.motions:
-            self.moves.append(Seed((point, "")))
-            self._file((point, ""), "motion", 2)
-        self._queue(*[b for b in self.places if b != ground], *self.net.slides)
-
-    def _rest(self, place: Place) -> None:
-        self.moves.append(Rest(place))
-        self._file(place, self.net.ground, 2)
-
-    def _queue(self, *nodes: str | Slide) -> None:
-        for node in nodes:
-            if node not in self.queued:
-                self.queued.add(node)
-                self.waiting.append(node)
-
-    def _travel(self) -> None:
-        while self.waiting:
-            node = self.waiting.popleft()
-            self.queued.discard(node)
-            if isinstance(node, Slide):
-                self._through_slide(node)
-            elif node in self.retired:
-                self._turning_known(node)
-            elif node != self.net.ground:
-                self._through_body(node)
-
-    def _file(self, place: Place, source: str, rank: int, *, marked: bool = False) -> None:
-        """Enter a fact; where a place then knows enough, its end is marked, and the neighbours are told."""
-        here = self.facts.setdefault(place, {})
-        here[source] = max(rank, here.get(source, 0))
-        if marked:
-            self.drawn.add(place)
-        elif place not in self.drawn and sum(here.values()) >= 2:
-            if max(here.values()) < 2:
-                one, two = list(here)[:2]
-                self.moves.append(Meet(place, (one, two)))
-            self.drawn.add(place)
-        self._tell(place)
-
-    def _tell(self, place: Place) -> None:
-        for body in self._at(place):
-            self._queue(body, *self.net.slides_of.get(body, ()))
-
-    def _at(self, place: Place) -> list[str]:
-        if place not in self.bodies:
-            self.bodies[place] = self.net.bodies_at(place)
-        return self.bodies[place]
-
-    def _heard(self, place: Place, body: str) -> int:
-        """What a place knows that this body did not tell it."""
-        return min(2, sum(rank for source, rank in self.facts.get(place, {}).items() if source != body))
-
-    def _loci(self, body: str, but: Place) -> Iterator[Locus]:
-        """Loci at other places of the body, from other sources."""
-        for place in self.places[body]:
-            for source, rank in self.facts.get(place, {}).items():
-                if place != but and source != body and rank == 1 and not source.startswith(TRIAL):
-                    yield place, source
-                    break
-
-    def _like(self, body: str) -> str:
-        """The body by whose turning this one's is known, if any."""
-        source = self.turning.get(self.net.classes[body], "")
-        return "" if source == body else source
-
-    def _count(self, body: str) -> int:
-        return sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
-
-    def _known(self, body: str) -> bool:
-        return body == self.net.ground or body in self.retired or self._count(body) >= 3
-
-    def _through_body(self, body: str) -> None:
-        count = self._count(body)
-        if count - self.spent.get(body, 0) >= 4:
-            self._close(body)
-        for place in list(self.places[body]):
-            rest = count - self._heard(place, body)
-            rank = 2 if rest >= 3 else 1 if rest == 2 else 0
-            if rank > self.told.get((body, place), 0) and place not in self.drawn:
-                self._emit(body, place, rank)
-        if count >= 3:
-            self._turning_known(body)
-
-    def _emit(self, body: str, X: Place, rank: int) -> None:
-        """Tell a place what the body knows of it."""
-        figure = self._figure(body, X) if rank == 2 else None
-        if rank == 2 and figure is None and not self.told.get((body, X)):
-            rank = 1  # known wholly, but no end is drawn yet to begin a figure at
-        whole = rank == 1 and (self._settle(body, X) or self._beside(body, X))
-        move = figure or whole or (self._line(body, X) if rank == 1 else None)
-        if move is None:
-            return
-        if isinstance(whole, (Settle, Figure)):
-            self.moves.append(Swing(body, whole.K, X))  # a locus that others may ask for; pruned if nobody does
-        self.moves.append(move)
-        self.told[body, X] = rank
-        self._file(X, body, rank, marked=bool(whole))
-
-    def _line(self, body: str, X: Place) -> Move | None:
-        """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        if known:
-            return Swing(body, max(known, key=lambda place: self._heard(place, body)), X)
-        loci, like = list(self._loci(body, X)), self._like(body)
-        if loci and like:
-            return Slip(body, loci[0], X, like)
-        return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
-
-    def _settle(self, body: str, X: Place) -> Settle | None:
-        """The end of X, in a body with three loci: from an end found by them, and the two others."""
-        loci = list(self._loci(body, ("", "")))
-        own = [locus for locus in loci if locus[0] == X]
-        known = [place for place, _ in loci if place in self.drawn and place != X]
-        if len(loci) < 3 or not own or not known:
-            return None
-        K = known[0]
-        return Settle(body, K, own[0], next(locus for locus in loci if locus[0] not in (K, X)))
-
-    def _beside(self, body: str, X: Place) -> Figure | None:
-        """The end of X, which has a locus of its own, in a body of which an end and the turning are known."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        like = self._like(body)
-        return Figure(body, known[0], X, like=like) if known and like and self.facts.get(X) else None
-
-    def _figure(self, body: str, X: Place) -> Move | None:
-        """The end of X from the whole body."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        if len(known) > 1:
-            return Figure(body, known[0], X, R=known[1])
-        if known and (like := self._like(body)):
-            return Figure(body, known[0], X, like=like)
-        return None
-
-    def _turning_known(self, body: str) -> None:
-        if self.net.classes[body] not in self.turning and len(self._ends(body)) > 1:
-            self.turning[self.net.classes[body]] = body
-            self._wake_class(body)
-
-    def _ends(self, body: str) -> list[Place]:
-        return [place for place in self.places[body] if place in self.drawn]
-
-    def _wake_class(self, body: str) -> None:
-        if body in self.net.slides_of or self.net.turning:
-            self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
-
-    # ---- sliding pairs --------------------------------------------------------------------------------------
-
-    def _through_slide(self, slide: Slide) -> None:
-        """A known end in one link's plane gives the other link one locus, once."""
-        for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
-            if slide.name not in self.passed and (point := self._seen(slide, known, new)):
-                target = self.net.place(point, new)
-                self.passed.add(slide.name)
-                self._add_place(self.net.body[new], target)
-                self.moves.append(Guide(slide, point, known, new))
-                self._file(target, slide.name, 1)
-
-    def _seen(self, slide: Slide, known: str, new: str) -> str:
-        """A point whose end is known in the plane of `known`, not by way of this slide."""
-        if self.net.body[new] == self.net.ground:
-            return ""
-        if self.net.body[known] == self.net.ground:
-            own = self.net.scene.links[new]
-            joints = [p for p in own if len(self.net.scene.links_of[p]) > 1]
-            return slide.at if slide.at in own else (joints or list(own) or [slide.at])[0]
-        for place in self.places[self.net.body[known]]:
-            told = sum(rank for source, rank in self.facts.get(place, {}).items() if source != slide.name)
-            if place in self.drawn and told >= 2 and self.net.link_at(self.net.body[known], place) == known:
-                return place[0]
-        return ""
-
-    def _add_place(self, body: str, place: Place) -> None:
-        if place not in self.places[body]:
-            self.places[body].append(place)
-
-    # ---- rings ------------------------------------------------------------------------------------------------------
+    # ---- rings ----------------------------------------------------------------------------------------------
 
     def _break(self, loose: list[str]) -> bool:
         """Facts have stopped travelling: put in a relative pole, an auxiliary point or a trial."""
@@ -348,9 +133,9 @@ class Planner:
         self.open.append(_Open(at, len(self.moves)))
         self._file(at[0], TRIAL + str(len(self.open)), 1, marked=True)
 
-    def _close(self, body: str) -> None:
+    def _overheard(self, body: str, count: int) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
-        closing = self._closing(body) if self.open else None
+        closing = self._closing(body) if self.open and count - self.spent.get(body, 0) > 3 else None
         if closing is None:
             return
         end, locus = closing

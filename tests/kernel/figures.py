@@ -23,6 +23,7 @@ Points = list[Mark]
 Draw = Callable[[Board, Points, Random, dict[str, Any]], tuple[Mark, ...]]
 
 NAMES = sorted(TABLE)
+LENGTHS = {POINT: 2, LINE: 3, OPENING: 1, CIRCLE: 3}
 COMPOUNDS = [name for name in NAMES if TABLE[name].compound]
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from figures import NAMES, corners, drawn, extremes, figure
+from figures import NAMES, Place, corners, drawn, extremes, figure
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -32,11 +32,11 @@ def test_claims_hold(name: str, r: Random) -> None:
 
 @pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize("place", [corners, extremes], ids=lambda place: str(place.__name__))
-def test_claims_hold_in_degenerate_figures(name: str, place: object) -> None:
+def test_claims_hold_in_degenerate_figures(name: str, place: Place) -> None:
     """Points that coincide or lie in line, and lengths 1e-9 and 1e9 apart, are drawn right or not at all."""
     r = Random(name)
     for _ in range(300):
-        program = figure(name, r, place)  # type: ignore[arg-type]
+        program = figure(name, r, place)
         values = drawn(program, Floats())
         assert values is None or check_claims(program, values) == []
 

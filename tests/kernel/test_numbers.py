@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 import pytest
-from figures import NAMES, Place, corners, drawn, extremes, figure, quarters, size
+from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, quarters, size
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Program
+from graphplan.kernel import TABLE, Program
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
@@ -29,9 +29,6 @@ def poses(program: Program, r: Random, place: Place, n: int) -> list[dict[str, d
 def stacked(given: list[dict[str, dict[str, float]]]) -> dict[str, dict[str, Any]]:
     """Poses as arrays."""
     return {name: {axis: np.array([pose[name][axis] for pose in given]) for axis in "xy"} for name in given[0]}
-
-
-LENGTHS = {POINT: 2, LINE: 3, OPENING: 1, CIRCLE: 3}
 
 
 def last(program: Program, given: dict[str, dict[str, float]]) -> tuple[float, ...]:

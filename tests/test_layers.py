@@ -1,0 +1,118 @@
+"""The arrows between the folders, read from the imports: errors <- kernel <- methods, and so on."""
+
+from __future__ import annotations
+
+import ast
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+ROOT = Path(__file__).parent.parent
+PACKAGE = ROOT / "graphplan"
+FILES = sorted(PACKAGE.rglob("*.py"))
+
+# What a folder may import from graphplan, itself apart. `commands` and the front door may import anything.
+MAY = {
+    "errors": set(),
+    "kernel": {"errors"},
+    "mechanism": {"errors"},
+    "solver": {"errors", "mechanism"},
+    "methods": {"errors", "kernel", "mechanism"},
+    "sheet": {"errors", "kernel", "mechanism", "methods"},
+    "backends": {"errors", "kernel", "mechanism", "methods", "sheet"},
+    "check": {"errors", "kernel", "mechanism", "methods", "solver"},
+}
+FRONT = {"__init__", "__main__", "commands"}
+
+# Who may import what does not come with Python.
+OUTSIDE = {
+    "shapely": {"sheet/labels.py", "sheet/clip.py"},
+    "svgwrite": {"backends"},
+    "matplotlib": {"backends"},
+}
+
+
+def folder(path: Path) -> str:
+    return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
+
+
+def imports(path: Path, *, typing: bool = False) -> Iterator[str]:
+    """The modules that a file imports; those for the type checker alone only if asked for."""
+    tree = ast.parse(path.read_text())
+    skipped = {id(node) for block in ast.walk(tree) if _for_typing(block) for node in ast.walk(block)}
+    for node in ast.walk(tree):
+        if id(node) in skipped and not typing:
+            continue
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom):
+            assert node.level == 0, f"{path}: imports are absolute"
+            module = node.module or ""
+            yield from (f"{module}.{alias.name}" for alias in node.names) if module == "graphplan" else [module]
+
+
+def _for_typing(node: ast.AST) -> bool:
+    return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+
+
+def inside(path: Path) -> set[str]:
+    """The folders of graphplan that a file imports from."""
+    return {name.split(".")[1] for name in imports(path) if name.startswith("graphplan.")}
+
+
+def outside(path: Path) -> set[str]:
+    """The packages beyond graphplan and Python that a file imports."""
+    return {name.split(".")[0] for name in imports(path, typing=True)} - set(sys.stdlib_module_names) - {"graphplan"}
+
+
+def named(path: Path) -> str:
+    return str(path.relative_to(PACKAGE))
+
+
+DOORS = {"sheet/__init__.py"}  # calls the back end, as users do: `gp.sheet.svg(drawing)`
+LAYERED = [path for path in FILES if folder(path) not in FRONT and named(path) not in DOORS]
+
+
+@pytest.mark.parametrize("path", LAYERED, ids=named)
+def test_arrows(path: Path) -> None:
+    """A file imports from its own folder and from those below it."""
+    assert folder(path) in MAY, f"say in MAY what {folder(path)} may import"
+    assert inside(path) - {folder(path)} <= MAY[folder(path)]
+
+
+def test_no_circles() -> None:
+    """What a folder may import may not import it."""
+    assert not [(one, two) for one, below in MAY.items() for two in below if one in MAY[two]]
+
+
+@pytest.mark.parametrize("path", FILES, ids=named)
+def test_outside_packages(path: Path) -> None:
+    """shapely serves labels and clipping, svgwrite and matplotlib back ends; numpy in the kernel serves arrays."""
+    found = outside(path)
+    for package, users in OUTSIDE.items():
+        assert package not in found or users & {folder(path), named(path)}
+    assert found <= {"numpy", *OUTSIDE}
+    if folder(path) in ("errors", "kernel") and named(path) != "kernel/numbers/arrays.py":
+        assert not found
+
+
+@pytest.mark.parametrize("path", FILES, ids=named)
+def test_files_are_short(path: Path) -> None:
+    """No file is longer than 400 lines, and none is a drawer for odds and ends."""
+    assert len(path.read_text().splitlines()) <= 400
+    assert path.stem not in {"utils", "helpers", "common", "util", "misc"}
+
+
+def test_solving_needs_no_drawing_packages() -> None:
+    """Solving a scene loads neither shapely nor svgwrite nor matplotlib."""
+    scenes = sorted((PACKAGE / "scenes").glob("*.toml"))
+    if not scenes:
+        pytest.skip("no scenes yet")
+    code = ("import sys; from graphplan.commands import main; "
+            f"assert main(['solve', {str(scenes[0])!r}]) in (0, None); "
+            "print({'shapely', 'svgwrite', 'matplotlib'} & set(sys.modules), file=sys.stderr)")
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stderr.strip().endswith("set()"), done.stderr

@@ -1,9 +1,9 @@
 """From compounds to single movements: each compound is drawn in the form that suits the pose.
 
 A form is tried on the board itself, so that it may use what is drawn already; it counts only if it can be drawn and
-gives the value of the compound's rule from the marks that it reads. Of those, one on the sheet beats one off it,
-crossings above 15 degrees beat flatter ones, and then the fewest movements win. What no form can draw in this pose
-stays one step.
+gives the value of the compound's rule from the marks that it reads. Crossings below one degree are for want of
+better; of the others, one on the sheet beats one off it, crossings above 15 degrees beat flatter ones, and then the
+fewest movements win. What no form can draw in this pose stays one step.
 """
 
 from __future__ import annotations
@@ -20,6 +20,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Program, Step
 
 SHARP = math.sin(math.radians(15))
+BLUNT = math.sin(math.radians(1))
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
 SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
 FLOATS = Floats()
@@ -66,8 +67,8 @@ class Trial:
     undrawn: int = 0
 
     @property
-    def rank(self) -> tuple[int, bool, bool, int]:
-        return self.undrawn, not self.on_sheet, self.sharpest < SHARP, self.movements
+    def rank(self) -> tuple[int, bool, bool, bool, int]:
+        return self.undrawn, self.sharpest < BLUNT, not self.on_sheet, self.sharpest < SHARP, self.movements
 
     def __str__(self) -> str:
         angle = math.degrees(math.asin(min(1.0, self.sharpest)))

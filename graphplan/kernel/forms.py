@@ -191,6 +191,22 @@ form("divide", "ray")(_ray("on"))
 form("divide", "ray, beyond")(_ray("back"))
 
 
+def _on_the_link(way: str) -> Callable[..., Any]:
+    """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
+
+    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        ray = s.perpendicular(s.side(A, B), A)
+        Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
+        P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)
+        return s.line_meets_circle(s.line(P, Q), s.circle(P, s.opening(A, P1)), way=way)
+
+    return drawn
+
+
+form("divide", "on the link")(_on_the_link("on"))
+form("divide", "on the link, beyond")(_on_the_link("back"))
+
+
 @form("similar", "at a corner")
 def _(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
     return a if s.one(A, C) or s.one(a, b) else b if s.one(B, C) else None

@@ -134,3 +134,20 @@ def test_fault_while_drawing_names_the_step() -> None:
     program = freeze(board, [board.line(A, B)])
     with pytest.raises(ConstructionError, match="points-coincide at step 1"):
         Expander(program, []).run()
+
+
+@pytest.mark.parametrize("gap", [0.0, 1e-13, 1e-9, 1e-7, 1e-4, 1.0])
+@pytest.mark.parametrize("verb", ["perpendicular", "parallel"])
+def test_point_all_but_on_the_line(verb: str, gap: float) -> None:
+    """However close a point is to the line, perpendicular and parallel through it are drawn out well."""
+    board = Board()
+    A, B, P = points(board, A=(0, 0), B=(8, 2), P=(4, 1 + gap))
+    program = freeze(board, [getattr(board, verb)(board.line(A, B), P)])
+    truth = evaluate(program, Floats())
+    expander = Expander(program, truth, STRICT, windows={"": Window((4.0, 1.0), 8.0)})
+    drawing = expander.run()
+    one, two = truth[-1], expander.values[drawing.wanted[0]]
+    scale = (one[0] * two[0] + one[1] * two[1]) / (two[0] ** 2 + two[1] ** 2)
+    assert scale > 0
+    assert one == pytest.approx([scale * number for number in two], abs=1e-11)
+    assert all(step.op.name in STRICT for step in drawing.steps)

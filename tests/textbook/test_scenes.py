@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import math
+from itertools import combinations
 
+import numpy as np
 import pytest
 
 import graphplan as gp
@@ -94,3 +96,37 @@ def _meet_of_bars() -> None:
     points, board = gp.load("parallel-links").points, Board()
     K, A, L, B = (board.given(x=points[name][0], y=points[name][1], name=name) for name in "KALB")
     evaluate(freeze(board, [board.meet(board.line(K, A), board.line(L, B))]), Floats())
+
+
+def _crank_angles(name: str) -> int:
+    """How many of 72 steps of a turn the crank makes while all other links, with revolutes only, keep their lengths."""
+    scene = gp.load(name)
+    links = scene.links
+    points = {p: np.array([float(x), float(y)]) for p, (x, y) in scene.points.items()}
+    O, turning = points[links["1"][0]], links["1"][1:]
+    free = [p for p in points if p not in (*links["frame"], *links["1"])]
+    bars = [(p, q) for link in scene.moving if link != "1" for p, q in combinations(links[link], 2)]
+    lengths = {bar: np.linalg.norm(points[bar[0]] - points[bar[1]]) for bar in bars}
+    cos, sin = math.cos(math.tau / 72), math.sin(math.tau / 72)
+    turn = np.array([[cos, -sin], [sin, cos]])
+    for step in range(72):
+        points |= {p: O + turn @ (points[p] - O) for p in turning}
+        for _ in range(8):
+            gaps = {bar: points[bar[0]] - points[bar[1]] for bar in bars}
+            slopes = np.zeros((len(bars), len(free), 2))
+            for row, (p, q) in enumerate(bars):
+                for end, gap in ((p, gaps[p, q]), (q, -gaps[p, q])):
+                    if end in free:
+                        slopes[row, free.index(end)] = gap / np.linalg.norm(gap)
+            misses = [lengths[bar] - np.linalg.norm(gaps[bar]) for bar in bars]
+            moves = np.linalg.solve(slopes.reshape(len(bars), -1), misses).reshape(-1, 2)
+            points |= {p: points[p] + move for p, move in zip(free, moves, strict=True)}
+        if max(map(abs, misses)) > 1e-9 or np.abs(moves).max() > 1e-6:
+            return step
+    return 72
+
+
+@pytest.mark.parametrize("name", ["alt-eight-link-2", "alt-ten-link-2", "four-bar", "double-butterfly"])
+def test_the_crank_turns_all_the_way(name: str) -> None:
+    """One rotation into oscillations: these linkages close in every position of their crank."""
+    assert _crank_angles(name) == 72

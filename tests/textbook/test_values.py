@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import pytest
@@ -22,6 +23,7 @@ class Printed:
     note: str = ""
 
 
+OF_LINKS = {"relative velocity": "omega", "tangential acceleration": "alpha"}  # of two points of a link: "LINK P R"
 OZOLS = "Ozols 1974, 5-5"
 VALUES = [
     # read off the book's drawing at 1:10
@@ -31,6 +33,8 @@ VALUES = [
     Printed("ozols-5-1", "acceleration", "B", 30.1, 0.018, f"{OZOLS}, ex. 5-1"),
     Printed("ozols-5-1", "acceleration", "C", 27.0, 0.011, f"{OZOLS}, ex. 5-1"),
     Printed("ozols-5-1", "alpha", "2", 9.1, 0.001, f"{OZOLS}, ex. 5-1: opposite to omega"),
+    Printed("ozols-5-1", "relative velocity", "2 A B", 2.43, 0.003, f"{OZOLS}, ex. 5-1: over AB 3.33, printed 3.34"),
+    Printed("ozols-5-1", "tangential acceleration", "2 A B", 6.64, 0.001, f"{OZOLS}, ex. 5-1"),
     # recomputed
     Printed("ozols-5-1", "velocity", "B", 1.4973, 1e-4),
     Printed("ozols-5-1", "velocity", "C", 1.7051, 1e-4),
@@ -41,6 +45,10 @@ VALUES = [
     Printed("ozols-5-2", "alpha", "3", -34.749832, 1e-6),
     Printed("ozols-5-2", "velocity", "A", 3.018748, 1e-6),
     Printed("ozols-5-2", "acceleration", "A", 37.472294, 1e-6),
+    Printed("ozols-5-2", "velocity", "F", 3.583995, 1e-6),
+    Printed("ozols-5-2", "acceleration", "F", 43.299832, 1e-6),
+    Printed("ozols-5-2", "slide velocity", "2 along 1", 1.004225, 1e-6),
+    Printed("ozols-5-2", "slide acceleration", "2 along 1", 3.723068, 1e-6),
     Printed("ozols-5-3", "omega", "1", -4.978964, 1e-6),
     Printed("ozols-5-3", "omega", "3", -6.012094, 1e-6),
     Printed("ozols-5-3", "alpha", "1", -9.190684, 1e-6),
@@ -49,7 +57,9 @@ VALUES = [
     Printed("ozols-5-4", "omega", "3", 2.462812, 1e-6),
     Printed("ozols-5-4", "omega", "5", -1.095350, 1e-6),
     Printed("ozols-5-4", "alpha", "5", -62.503040, 1e-6),
+    Printed("ozols-5-4", "slide velocity", "4 along 5", 0.119225, 5e-6),
     Printed("ozols-5-5", "omega", "1", -8.138972, 1e-6),
+    Printed("ozols-5-5", "omega", "2", 3.861028, 1e-6),
     Printed("ozols-5-5", "omega", "3", -7.988959, 1e-6),
     Printed("ozols-5-5", "alpha", "1", -15.214981, 1e-6),
     Printed("ozols-5-5", "alpha", "3", 3.746078, 1e-6),
@@ -58,6 +68,10 @@ VALUES = [
 
 def measured(found: Report, value: Printed) -> float:
     """What the construction gives: a vector's size in metres, or a link's rate; signs only where the value has one."""
+    if value.kind in OF_LINKS:
+        link, one, other = value.of.split()
+        (x, y), (u, v) = (found.scene.points[name] for name in (one, other))
+        return math.hypot(x - u, y - v) * abs(found.results[OF_LINKS[value.kind]][link]) / 1000
     number = found.results[value.kind][value.of]
     if isinstance(number, tuple):
         return float(abs(complex(*number))) / 1000

@@ -12,6 +12,7 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
+from graphplan.methods.network import Network
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -62,6 +63,10 @@ def _coordinates(construction: Construction, points: Mapping[str, Any]) -> tuple
     shapes = {array.shape for array in arrays.values()} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
+    for (at, _), name in Network(construction.scene).coincident.items():  # one mark serves both
+        if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
+            why = "they coincide in the scene and differ here"
+            raise Refused(f"points {at} and {name}", why, "the same array for both")
     return next(iter(shapes))[0], {name: {"x": z.real, "y": z.imag} for name, z in arrays.items()}
 
 

@@ -60,8 +60,9 @@ class Draughtsman:
     def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
         for name in names:
             place = (name, "")
-            if place in plan.ends:
-                self._read(kind, name, plan.home(place), plan.ends[place])
+            if place not in plan.ends:
+                raise Refused(f"point {name}", "no construction known here reaches it", "ask for other points")
+            self._read(kind, name, plan.home(place), plan.ends[place])
 
     def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any
@@ -73,8 +73,9 @@ class Words:
         alpha = _scalars("alpha", "1/s²", values.get("alpha", {}), self.drawing.scene.links)
         yield from joined_tables(omega, alpha, wide)
         slides = [slide.name for slide in self.drawing.scene.slides]
-        velocity = _vectors("v", f"{unit}/s", values.get("slide velocity", {}), slides, "slide")
-        acceleration = _vectors("a", f"{unit}/s²", values.get("slide acceleration", {}), slides, "slide")
+        fastest, sharpest = (_largest(values.get(kind, {})) for kind in ("velocity", "acceleration"))
+        velocity = _vectors("v", f"{unit}/s", values.get("slide velocity", {}), slides, "slide", fastest)
+        acceleration = _vectors("a", f"{unit}/s²", values.get("slide acceleration", {}), slides, "slide", sharpest)
         yield from joined_tables(velocity, acceleration, wide)
 
     def _check(self, wide: float) -> Iterator[Row]:
@@ -106,13 +107,19 @@ def heading(text: str, size: float = HEADING, gap: float = 3.0) -> Row:
     return Row((Cell(0.0, sentence_runs(text), bold=True),), size=size, gap=gap, keep=2)
 
 
-def _vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point") -> Table:
+def _vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point",
+             beside: float = 0.0) -> Table:
     """Components and magnitudes, each row with its name first; nothing if there are none."""
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
-    largest = max((math.hypot(*value) for value in values.values()), default=0.0)
+    largest = max(_largest(values), beside)
     rows = [[name_runs(n), *(_figure(x, largest) for x in (*values[n], math.hypot(*values[n])))]
             for n in order if n in values]  # fmt: skip
     return [head, *rows] if rows else []
+
+
+def _largest(values: Mapping[str, Any]) -> float:
+    """The size of the largest vector."""
+    return max((math.hypot(*value) for value in values.values()), default=0.0)
 
 
 def _scalars(name: str, unit: str, values: Mapping[str, Any], order: Any) -> Table:
@@ -150,11 +157,6 @@ def _table(table: Table) -> Iterator[Row]:
         numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
         gap, keep = (1.0, min(15, len(table) - 1)) if i == 0 else (0.0, 0)
         yield Row((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
-
-
-def overlong(rows: Sequence[Row], wide: float) -> list[Row]:
-    """The rows that do not fit a column of this width."""
-    return [row for row in rows if row.right > wide + 1e-6]
 
 
 def _within(gap: float) -> str:

@@ -90,6 +90,17 @@ def test_singular_poses_in_an_array_are_nan_and_say_why() -> None:
     assert "parallel" in poses.faults[1]
 
 
+def test_coincident_points_move_together() -> None:
+    """A guide's point named apart moves the pair's one mark; two names for one place that differ are refused."""
+    drawing = gp.construct(gp.load("slotted-link"))
+    pin = np.array([-120 + 180j, -110 + 190j])
+    by_one, by_both = (drawing.evaluate(points=dict.fromkeys(names, pin)) for names in (["A3"], ["A", "A3"]))
+    assert np.array_equal(by_one.velocity["B"], by_both.velocity["B"])
+    assert by_one.velocity["B"][0] != by_one.velocity["B"][1]
+    with pytest.raises(Refused, match="coincide"):
+        drawing.evaluate(points={"A": pin, "A3": pin + 1})
+
+
 def test_points_that_the_scene_lacks_are_refused() -> None:
     """Evaluating with an unknown point says so."""
     with pytest.raises(Refused, match="no such point"):

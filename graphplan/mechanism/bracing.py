@@ -32,9 +32,9 @@ class Bracing:
         return not self.loose and not self.overbraced
 
 
-def bracing(scene: Scene) -> Bracing:
-    """How the scene's moving links are held."""
-    system = System(scene)
+def bracing(scene: Scene, balanced: bool = False) -> Bracing:
+    """How the scene's moving links are held: by its drives, or by its balances in their place."""
+    system = System(scene, balanced)
     rows = [equation.terms for equation in system.equations]
     loose = {name for (_, name), _ in freedom(system.unknowns, rows)}
     repeated = freedom(range(len(rows)), _transposed(system.unknowns, rows))

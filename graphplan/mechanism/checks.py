@@ -10,7 +10,7 @@ from collections.abc import Collection, Iterable, Mapping
 from fractions import Fraction
 from itertools import combinations, pairwise
 
-from graphplan.mechanism.bracing import bracing
+from graphplan.mechanism.bracing import Bracing, bracing
 from graphplan.mechanism.faults import Faults
 from graphplan.mechanism.items import quoted
 from graphplan.mechanism.model import FRAME, Pair, Scene
@@ -95,6 +95,15 @@ def check_mobility(scene: Scene, faults: Faults) -> None:
     elif not held.sound:
         what = f"{twice} {_are(held.overbraced)} overbraced while {loose} {_are(held.loose)} loose"
         faults.add("links", what, "joints, slides and drives that hold each link just once")
+
+
+def check_balance(scene: Scene, faults: Faults) -> None:
+    """With the balances in the place of the drives each link is held just once: then statics determines all forces."""
+    held: Bracing = bracing(scene, balanced=True)
+    if not held.sound:
+        loose, twice = _listed(held.loose), _listed(held.overbraced)
+        what = f"it does not hold {loose}, and {twice} {_are(held.overbraced)} statically indeterminate"
+        faults.add("balance", what, "a moment or a force that works when the drive moves the mechanism")
 
 
 def _count(number: int, noun: str) -> str:

@@ -37,9 +37,13 @@ class Equation:
 
 @dataclass(frozen=True)
 class System:
-    """All freedoms and all equations of a scene's moving links."""
+    """All freedoms and all equations of a scene's moving links.
+
+    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work.
+    """
 
     scene: Scene
+    balanced: bool = False
 
     @cached_property
     def known(self) -> frozenset[str]:
@@ -55,8 +59,8 @@ class System:
 
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
-        """All equations: of the revolute joints, of the slides, of the drives."""
-        return (*self._pins(), *self._slides(), *self._drives())
+        """All equations: of the revolute joints, of the slides, of the drives or the balances."""
+        return (*self._pins(), *self._slides(), *(self._balances() if self.balanced else self._drives()))
 
     @cached_property
     def _places(self) -> dict[str, tuple[int, int]]:
@@ -96,6 +100,14 @@ class System:
                 yield Equation(self._relative(one, other, at[one, other], self._guides[one, other]), pair, drive)
             else:
                 yield Equation(self._turning(one, other), pair, drive)
+
+    def _balances(self) -> Iterator[Equation]:
+        """A moment holds its link's turning, a force its point's motion along it."""
+        chance = Random(1952)
+        for balance in self.scene.loads.balances if self.scene.loads else ():
+            along = chance.randrange(1, PRIME), chance.randrange(1, PRIME)
+            held = self._relative(balance.link, FRAME, balance.at, along) if balance.at else {}
+            yield Equation(held or self._turning(balance.link, FRAME), (balance.link,))
 
     def _velocity(self, link: str, point: str) -> dict[str, Terms]:
         """The velocity of a link's point, by components; the frame's has no terms."""

@@ -87,10 +87,74 @@ class Motion:
 
 @dataclass(frozen=True)
 class Find:
-    """What is asked for: names of points."""
+    """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted.
+
+    `reactions` is None where nothing is said of them: then all are found where there are loads.
+    """
 
     velocity: tuple[str, ...]
     acceleration: tuple[str, ...]
+    reactions: tuple[str, ...] | None = None
+
+
+@dataclass(frozen=True)
+class Mass:
+    """A link's mass, its inertia about the centre of mass (mass * m^2), and that centre, a point of the link."""
+
+    mass: Number
+    inertia: Number
+    centre: str
+
+
+@dataclass(frozen=True)
+class Force:
+    """A given force on a link, at a point of it."""
+
+    on: str
+    at: str
+    value: Pair
+
+
+@dataclass(frozen=True)
+class Moment:
+    """A given couple on a link, in force * m, counter-clockwise positive."""
+
+    on: str
+    value: Number
+
+
+@dataclass(frozen=True)
+class Balance:
+    """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
+
+    The direction has any length; only where there is none it is a moment.
+    """
+
+    link: str
+    at: str = ""
+    direction: Pair | None = None
+
+
+@dataclass(frozen=True)
+class Friction:
+    """Friction in a pair: a journal `at` a joint, with its radius, or a slide (link, along); and its coefficient."""
+
+    at: str
+    slide: tuple[str, str] | None
+    radius: Number
+    coefficient: Number
+
+
+@dataclass(frozen=True)
+class Loads:
+    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units."""
+
+    gravity: Pair
+    masses: dict[str, Mass]
+    forces: tuple[Force, ...]
+    moments: tuple[Moment, ...]
+    balances: tuple[Balance, ...]
+    frictions: tuple[Friction, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -98,7 +162,8 @@ class Scene:
     """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
 
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
-    `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why.
+    `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
+    where no forces are asked for.
     """
 
     title: str
@@ -113,6 +178,7 @@ class Scene:
     motions: dict[str, Motion]
     find: Find
     irrational: tuple[str, ...] = ()
+    loads: Loads | None = None
 
     @property
     def moving(self) -> tuple[str, ...]:

@@ -15,6 +15,8 @@ from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
 from graphplan.mechanism.faults import Faults, perhaps
 from graphplan.mechanism.items import Item, quoted
+from graphplan.mechanism.loads import TABLES as LOADS
+from graphplan.mechanism.loads import check_loads, read_loads, read_reactions
 from graphplan.mechanism.model import FRAME, Find, Placement, Scene, Slide
 from graphplan.mechanism.numerals import decimal
 from graphplan.mechanism.placements import needs, place, read_placement
@@ -29,7 +31,6 @@ from graphplan.mechanism.sections import (
 )
 
 _TABLES = ("title", "source", "gravity", "units", "points", "links", "slides", "drive", "motion", "find")
-_FORCES = ("masses", "forces", "moments", "balance")
 
 
 def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
@@ -128,6 +129,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         drives=drives,
         motions=motions,
         find=_find(items.get("find"), names, slides),
+        loads=read_loads(items, names, slides),
         irrational=tuple(names.irrational),
     )
     _check(scene, placed, faults)
@@ -137,13 +139,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
 def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
     """The top-level tables; those that are left out are there and empty, except those whose absence says something."""
     empty: dict[str, object] = {"units": {}, "points": {}, "links": {}, "slides": [], "drive": [], "motion": {}}
-    for key in _FORCES:
-        if key in tables:
-            faults.add(key, "forces are not constructed by this version", "leave the table out")
-    whole = Item({**empty, **{k: v for k, v in tables.items() if k not in _FORCES}}, "", faults)
-    items = whole.fields(_TABLES, {}) or {}
-    if "gravity" in items:
-        items["gravity"].vector()
+    items = Item({**empty, **tables}, "", faults).fields((*_TABLES, *LOADS), {}) or {}
     for key, such in (("points", "A = [0, 0]"), ("links", '1 = "O A"')):
         if not items[key].value:
             items[key].fault(f"the scene has no {key}", f"[{key}] with entries such as {such}")
@@ -168,9 +164,11 @@ def _text(item: Item | None) -> str:
 def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
     """What is asked for: if nothing is said, velocity and acceleration of every joint that can move."""
     if item is not None:
-        fields = item.fields(("velocity", "acceleration"), {}) or {}
+        fields = item.fields(("velocity", "acceleration", "reactions"), {}) or {}
+        reactions = fields.pop("reactions", None)
         asked = {key: read_question(entry, names) for key, entry in fields.items()}
-        return Find(asked.get("velocity", ()), asked.get("acceleration", ()))
+        forces = None if reactions is None else read_reactions(reactions, names, slides)
+        return Find(asked.get("velocity", ()), asked.get("acceleration", ()), forces)
     fixed = names.links.get(FRAME, ())
     named = Counter(point for points in names.links.values() for point in points)
     at = {slide.at for slide in slides}
@@ -192,4 +190,6 @@ def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | fl
         check_connections(scene, faults)
         if faults.none_in("links"):
             check_mobility(scene, faults)
+        if faults.none_in("links", "drive", *LOADS):
+            check_loads(scene, faults)
     check_joints(scene, placed, faults)

@@ -82,7 +82,7 @@ def _read_slide(row: Item, names: Names) -> Slide | None:
         return None
     link, along = (fields[key].name_of("link", names.links) for key in ("link", "along"))
     at = fields["at"].name_of("point", names.points)
-    guide = _read_guide(fields["direction"], names)
+    guide = read_guide(fields["direction"], names)
     if link is None or along is None or at is None or guide is None:
         return None
     if link == along:
@@ -95,7 +95,7 @@ def _read_slide(row: Item, names: Names) -> Slide | None:
     return Slide(link, along, at, *guide)
 
 
-def _read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None] | None:
+def read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None] | None:
     """A guide's direction in this pose and the two points that give it, if points do."""
     direction = read_direction(item, names.points)
     if direction is None:
@@ -176,7 +176,7 @@ def _read_sliding(row: Item, names: Names, guides: dict[tuple[str, str], Slide])
     fields = row.fields(("slide", "speed", "acceleration"), wanted)
     if fields is None:
         return None
-    pair = _read_pair(fields["slide"], names)
+    pair = read_pair(fields["slide"], names)
     speed, acceleration = fields["speed"].number(), Fraction(0)
     if "acceleration" in fields:
         acceleration = fields["acceleration"].number() or acceleration
@@ -196,7 +196,7 @@ def _read_sliding(row: Item, names: Names, guides: dict[tuple[str, str], Slide])
     return SlidingDrive(*pair, speed, acceleration)
 
 
-def _read_pair(item: Item, names: Names) -> tuple[str, str] | None:
+def read_pair(item: Item, names: Names) -> tuple[str, str] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
         item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
         return None

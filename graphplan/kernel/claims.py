@@ -225,6 +225,48 @@ def _balanced(d: Drawn, A1: int, A2: int, Z1: int, l1: int, Z2: int, l2: int) ->
     return ((1 - part) * first + part * second) / d.size / (1 + abs(part))
 
 
+# ---- moments -------------------------------------------------------------------------------------------------------
+
+
+def _counters(d: Drawn, Y: int, X: int, C: int, p: int, q: int, m: int) -> float:
+    """The drawn force at X and the given one at C have no moment about Y."""
+    arm, reach = d[X] - d[Y], d[C] - d[Y]
+    return (_cross(arm, d[-1] - d[m]) + _cross(reach, d[q] - d[p])) / (abs(arm) + abs(reach)) / d.size
+
+
+def _counters_afar(d: Drawn, y: int, z: int, X: int, C: int, p: int, q: int, m: int) -> float:
+    """Forces along the two lines hold the given force and the drawn one, which is the least that does at X.
+
+    A force is its two components and its moment about X: three that are held by two lines have no determinant.
+    """
+    ways = d.way(y), d.way(z)
+    lines = [(way.real, way.imag, d.off(k, d[X])) for k, way in zip((y, z), ways, strict=True)]
+    pole = _cross3(*lines)
+    force, load = d[-1] - d[m], d[q] - d[p]
+    both = force + load
+    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * _cross(d[C] - d[X], load)
+    free = _cross(complex(pole[0], pole[1]), force)  # a part of the force along the way to the pole holds nothing
+    return (abs(lever) + abs(free)) / (math.hypot(*pole) or 1.0) / d.size / (1 + abs(d[C] - d[X]))
+
+
+def _concurrent(d: Drawn, y: int, z: int) -> float:
+    """The drawn line and the two others pass through one point, or are parallel."""
+    rows = [(way.real, way.imag, d.off(k, 0j) / d.size) for k in (y, z, -1) for way in (d.way(k),)]
+    return sum(a * b for a, b in zip(_cross3(rows[0], rows[1]), rows[2], strict=True))
+
+
+def _turns(d: Drawn, P: int, R: int, m: int) -> float:
+    arm = d[R] - d[P]
+    return (_cross(arm, d[-1] - d[m]) - d.number("moment")) / abs(arm) / d.size
+
+
+def _resists(d: Drawn, P: int, R: int, a: int, b: int, m: int) -> float:
+    """The couple is against the angular acceleration, `ratio` times as large."""
+    arm = d[R] - d[P]
+    turning = _forward(d[b] - d[a], 1j * arm) / abs(arm)
+    return (_cross(arm, d[-1] - d[m]) + d.number("ratio") * turning) / abs(arm) / d.size
+
+
 RESIDUALS: dict[str, Callable[..., float]] = {
     "stands": lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size,
     "on": _on,
@@ -260,6 +302,11 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "mean": _mean,
     "coriolis": _coriolis,
     "balanced": _balanced,
+    "counters": _counters,
+    "counters afar": _counters_afar,
+    "concurrent": _concurrent,
+    "turns": _turns,
+    "resists": _resists,
 }
 
 

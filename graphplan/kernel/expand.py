@@ -29,7 +29,7 @@ FLOATS = Floats()
 BY_SET_SQUARE = frozenset({
     "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
     "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
-    "quarter", "bisector",
+    "quarter", "bisector", "balance", "couple", "inertia_pair",
 })
 STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
 
@@ -176,7 +176,7 @@ class Expander:
     def _agrees(self, op: Primitive, value: Any, truth: Any) -> bool:
         if op.gives == LINE:
             centre = self.windows.get(self.panel, EVERYWHERE).centre
-            locus = any(claim[0] == "locus" for claim in op.claims)
+            locus = any(claim[0] in ("locus", "concurrent") for claim in op.claims)
             return _line_gap(truth, value, centre, self.size) <= AGREE * self.size and (
                 locus or not _runs_against(truth, value))
         return math.dist(value, truth) <= AGREE * self.size

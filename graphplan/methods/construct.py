@@ -3,33 +3,40 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import dataclass
 from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
+from graphplan.methods.forces import reactions, results
+from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
+from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.ways import best_way
+from graphplan.methods.ways import EQUAL, best_way, growth
 
 
 class Draughtsman:
     """Draws one scene by one list of moves, and says what can be read from it."""
 
-    def __init__(self, scene: Scene, planner: Planner, polar: bool):
-        self.scene, self.net, self.polar = scene, planner.net, polar
+    def __init__(self, scene: Scene, planner: Planner, style: Style, order: str = "polygons", pick: int = 0):
+        self.scene, self.net, self.style, self.order, self.pick = scene, planner.net, style, order, pick
+        self.polar = style.polar
         self.board = Board()
         self.pose = Pose(self.board, scene, {new: at for (at, _), new in self.net.coincident.items()})
         self.tempo = tempo(scene)
         self.moves = planner.moves
+        self.phi: Number = 1
+        self.options = 1
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
 
@@ -39,18 +46,36 @@ class Draughtsman:
         self._points(velocity, VELOCITY, self.scene.find.velocity)
         self._links(velocity, "omega", self.scene.find.velocity)
         self._slides(velocity, "slide velocity", self.scene.find.velocity)
-        if self.scene.find.acceleration:
-            self._accelerations(velocity)
+        plan = self._accelerations(velocity) if self._accelerated() else None
+        if self.scene.loads is not None:
+            self._forces(plan)
         program = freeze(self.board, self.marks)
-        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves))
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves),
+                            phi=self.phi)
 
-    def _accelerations(self, velocity: Velocity) -> None:
+    def _accelerated(self) -> bool:
+        """Whether accelerations are asked for, or make inertia forces."""
+        loads = self.scene.loads
+        return bool(self.scene.find.acceleration or (loads is not None and loads.masses))
+
+    def _accelerations(self, velocity: Velocity) -> Normal:
         kind = PolarAcceleration if self.polar else Normal
         plan = kind(self.board, self.net, self.pose, velocity, self.moves)
         plan.draw(self.moves)
         self._points(plan, ACCELERATION, self.scene.find.acceleration)
         self._links(plan, "alpha", self.scene.find.acceleration)
         self._slides(plan, "slide acceleration", self.scene.find.acceleration)
+        return plan
+
+    def _forces(self, plan: Normal | None) -> None:
+        """The reactions and the balance, group by group against the motion's order."""
+        self.phi = force_scale(self.scene)
+        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan)
+        if self.style.polygons:
+            forces, options = reactions(self.board, self.pose, loading, self.order, self.pick)
+            self.options = options
+            for kind, of, marks in results(self.scene, loading, forces, self.board):
+                self._read(kind, of, *marks)
 
     def _read(self, kind: str, of: str, *marks: Mark) -> None:
         start = len(self.marks)
@@ -103,21 +128,54 @@ def _ways(moves: Iterable[Move]) -> str:
 
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
-PLANS = ("orthogonal", "polar")
+PLANS = ("orthogonal", "polar", "lever", "polygons", "both")
+UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
+
+
+@dataclass(frozen=True)
+class Style:
+    """Which plans are drawn: orthogonal or polar ones of the motion; the lever, force polygons, or both."""
+
+    polar: bool = False
+    lever: bool = True
+    polygons: bool = True
+
+
+def style(plan: str) -> Style:
+    """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
+    words = plan.split(",")
+    for word in words:
+        if word not in PLANS:
+            raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
+    lever, polygons = "lever" in words, "polygons" in words
+    both = "both" in words or not (lever or polygons)
+    return Style("polar" in words, lever or both, polygons or both)
 
 
 def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False) -> Construction:
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
-    construction says why. `plan` is orthogonal or polar; `strict` draws with compasses and straightedge alone.
-    Fails with `Refused` where no move of the planner reaches what is asked; numbers are not looked at before they are
-    read, so a singular pose shows then.
+    construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
+    `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the planner reaches what
+    is asked; numbers are not looked at before they are read, so a singular pose shows then.
     """
     if method not in ("", *METHODS):
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
-    if plan not in PLANS:
-        raise Refused(f"plan {plan}", "there is no such plan", f"one of {', '.join(PLANS)}")
-    best = best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, plan == "polar").draw())
+    chosen = style(plan)
+    best = best_way(Network(scene), method, lambda planner: _steadiest(scene, planner, chosen))
     best.prefer, best.strict = METHODS.get(method, ""), strict
     return best
+
+
+def _steadiest(scene: Scene, planner: Planner, chosen: Style) -> Construction:
+    """The construction by these moves; force plans in which errors grow are weighed against other ways to draw them."""
+    draughtsman = Draughtsman(scene, planner, chosen)
+    first = draughtsman.draw()
+    if scene.loads is None or not chosen.polygons or growth(first.program) < UNSTEADY:
+        return first
+    ways = [(order, pick) for order in PREFERENCES for pick in range(draughtsman.options)][1:]
+    found = [first, *(Draughtsman(scene, planner, chosen, *way).draw() for way in ways)]
+    grown = [growth(construction.program) for construction in found]
+    least = min(grown)
+    return min(zip(grown, found, strict=True), key=lambda pair: (max(pair[0], EQUAL * least), len(pair[1].program)))[1]

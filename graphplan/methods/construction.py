@@ -14,7 +14,8 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Program, Step
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Number, Scene
+from graphplan.mechanism.units import metre
 from graphplan.methods.tempo import Tempo
 
 if TYPE_CHECKING:
@@ -66,6 +67,7 @@ class Construction:
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
+    phi: Number = 1
 
     @cached_property
     def truth(self) -> list[Any]:
@@ -172,9 +174,15 @@ class Construction:
         results: dict[str, dict[str, Any]] = {}
         for reading in self.readings:
             marks = [wanted[position] for position in reading.marks]
-            value = READERS[reading.kind](marks, domain.lift(self.tempo.unit), self.turned)
+            value = self._value(reading.kind, marks, domain)
             results.setdefault(reading.kind, {})[reading.of] = value
         return results
+
+    def _value(self, kind: str, marks: list[Any], domain: Domain) -> Any:
+        """What marks say: a rate in the scene's lengths and seconds, or a force in its units."""
+        if kind in FORCE_READERS:
+            return FORCE_READERS[kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))
+        return READERS[kind](marks, domain.lift(self.tempo.unit), self.turned)
 
     def evaluate(self, points: Mapping[str, Any]) -> Poses:
         """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still."""
@@ -241,4 +249,28 @@ READERS = {
     "alpha": _read_alpha,
     "slide velocity": _read_velocity,
     "slide acceleration": _read_acceleration,
+}
+
+
+def _read_force(marks: list[Any], phi: Any, metre: Any) -> Any:
+    x, y = _difference(*marks)
+    return x / phi, y / phi
+
+
+def _read_moment(marks: list[Any], phi: Any, metre: Any) -> Any:
+    """Of forces, each by its point, tail and head, about the first mark."""
+    pole, *rest = marks
+    total = 0 * phi
+    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
+        arm, force = _difference(pole, C), _difference(tail, head)
+        total = total + (arm[0] * force[1] - arm[1] * force[0])
+    return total / phi / metre
+
+
+FORCE_READERS = {
+    "reaction": _read_force,
+    "slide reaction": _read_force,
+    "slide moment": _read_moment,
+    "balance": _read_force,
+    "balance moment": _read_moment,
 }

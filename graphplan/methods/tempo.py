@@ -48,16 +48,16 @@ def tempo(scene: Scene) -> Tempo:
     speeds = [drive.speed for drive in scene.drives if isinstance(drive, SlidingDrive)]
     speeds += [v for motion in scene.motions.values() for v in motion.velocity]
     fastest = max((abs(float(speed)) for speed in speeds), default=0.0)
-    return Tempo(_round(5 * fastest / _size(scene)) if fastest else Fraction(1))
+    return Tempo(round_number(5 * fastest / extent(scene)) if fastest else Fraction(1))
 
 
-def _size(scene: Scene) -> float:
+def extent(scene: Scene) -> float:
     """The extent of the mechanism, across or upwards."""
     xs, ys = zip(*((float(x), float(y)) for x, y in scene.points.values()), strict=True)
     return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
 
 
-def _round(number: float) -> Fraction:
+def round_number(number: float) -> Fraction:
     """A round number nearby, of the series 1, 2, 5, exactly."""
     digits = f"{number:.0e}"
     lead, power = int(digits[0]), int(digits[2:])

@@ -101,7 +101,11 @@ class Elimination:
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
-        columns = [{i: row[j] for i, row in enumerate(self._given) if j in row} for j in range(self.width)]
-        proofs = Elimination(columns, len(self._given)).null_vectors
+        proofs = Elimination(transpose(self._given, self.width), len(self._given)).null_vectors
         against = (y for y in proofs if sum(a * Fraction(b) for a, b in zip(y, right, strict=True)))
         return frozenset(i for y in against for i, value in enumerate(y) if value)
+
+
+def transpose(rows: Sequence[Mapping[int, Number]], width: int) -> list[dict[int, Number]]:
+    """The columns of a system as rows."""
+    return [{i: row[j] for i, row in enumerate(rows) if j in row} for j in range(width)]

@@ -2,8 +2,8 @@
 
 Three unknowns a link: the velocity (x, y) of its first point and its angular velocity. Coordinates enter as
 differences only, so the rows do not depend on where the origin is. Velocities and accelerations share the rows and
-differ in the right-hand side. Nothing is solved here, and nothing tests a number: the same rows can be filled
-with arrays of poses.
+differ in the right-hand side. Transposed, with the forces that hold the facts as unknowns, they are the equilibrium
+of every link. Nothing is solved here, and nothing tests a number: the same rows can be filled with arrays of poses.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.solver.facts import Fact, Rate, Side, facts
+from graphplan.solver.facts import Fact, Rate, Side
 from graphplan.solver.plane import less
 
 Row = dict[int, Number]
@@ -21,14 +21,10 @@ Row = dict[int, Number]
 
 @dataclass(frozen=True)
 class Equations:
-    """The facts of a scene: `rows` times the unknowns equal `velocities`, and `accelerations(...)`."""
+    """What each row states: `rows` times the unknowns equal `velocities`, and `accelerations(...)`."""
 
     scene: Scene
-
-    @cached_property
-    def facts(self) -> tuple[Fact, ...]:
-        """What each row states."""
-        return facts(self.scene)
+    facts: tuple[Fact, ...]
 
     @cached_property
     def columns(self) -> dict[str, int]:

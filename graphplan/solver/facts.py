@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
 
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide, TurningDrive
+from graphplan.mechanism.model import FRAME, Balance, Number, Pair, Scene, Slide, TurningDrive
 from graphplan.solver.plane import dot, less, plus, times, turned
 
 X: Pair = (1, 0)
@@ -105,7 +105,17 @@ Fact = Turning | Along
 
 def facts(scene: Scene) -> tuple[Fact, ...]:
     """Every fact that the scene states, in its order: joints, slides, drives, given motions."""
-    return (*joints(scene), *slides(scene), *drives(scene), *motions(scene))
+    return (*pairs(scene), *drives(scene), *motions(scene))
+
+
+def supports(scene: Scene) -> tuple[Fact, ...]:
+    """What holds the links against forces: the pairs, and the balances in the place of the drives."""
+    return (*pairs(scene), *map(held, scene.loads.balances if scene.loads else ()))
+
+
+def pairs(scene: Scene) -> tuple[Fact, ...]:
+    """Two facts for each revolute pair, then two for each slide."""
+    return (*joints(scene), *slides(scene))
 
 
 def joints(scene: Scene) -> Iterator[Fact]:
@@ -141,6 +151,13 @@ def motions(scene: Scene) -> Iterator[Fact]:
         link = scene.links_of[point][0]
         for axis in X, Y:
             yield Along(link, FRAME, point, axis, dot(axis, motion.velocity), dot(axis, motion.acceleration))
+
+
+def held(balance: Balance) -> Fact:
+    """What would stand still if a balance were a support of the frame: a turning, or a motion along its direction."""
+    if balance.direction is None:
+        return Turning(balance.link, FRAME, 0, 0)
+    return Along(balance.link, FRAME, balance.at, balance.direction, 0, 0)
 
 
 def length(slide: Slide) -> Number:

@@ -26,10 +26,10 @@ SWEEPS = 4
 
 
 class Floating:
-    """A system decomposed once, to be solved for any right-hand side; lengths are measured in `reach`."""
+    """A system decomposed once, to be solved for any right-hand side: an equilibrated matrix and its factors."""
 
-    def __init__(self, rows: Sequence[Mapping[int, Number]], width: int, reach: float):
-        self._matrix, self._rows, self._columns = equilibrated(dense(rows, width), reach)
+    def __init__(self, matrix: Array, rows: Array, columns: Array):
+        self._matrix, self._rows, self._columns = matrix, rows, columns
         self._left, self._sigma, self._right = np.linalg.svd(self._matrix)
         self._tolerance = max(self._matrix.shape, default=0) * ROUNDING
         self._rank = int(np.sum(self._sigma > self._tolerance * self._sigma.max(initial=0.0)))
@@ -74,9 +74,15 @@ class Floating:
         return frozenset(int(i) for i in np.flatnonzero(self._contradiction(self._sides(right))))
 
 
-def decomposed(equations: Equations) -> Floating:
+def for_rates(equations: Equations) -> Floating:
     """The equations of a scene, decomposed."""
-    return Floating(equations.rows, equations.width, equations.reach)
+    return Floating(*equilibrated(dense(equations.rows, equations.width), equations.reach))
+
+
+def for_forces(equations: Equations) -> Floating:
+    """The transposed equations of a scene, decomposed: what is a factor of rows in the one is one of columns here."""
+    matrix, rows, columns = equilibrated(dense(equations.rows, equations.width), equations.reach)
+    return Floating(matrix.T, columns, rows)
 
 
 def dense(rows: Sequence[Mapping[int, Number]], width: int) -> Array:

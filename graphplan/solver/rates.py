@@ -6,29 +6,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import chain
-from typing import Protocol
 
-from graphplan.errors import Refused, SingularPose
+from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.solver.elimination import Elimination
 from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Rate, centripetal, slip, surplus
+from graphplan.solver.facts import Rate, centripetal, facts, slip, surplus
+from graphplan.solver.linear import Linear, condition, for_rates
 from graphplan.solver.plane import dot, less, times
-
-
-class Linear(Protocol):
-    """A linear system made ready once, over floats or over fractions."""
-
-    @property
-    def free(self) -> frozenset[int]:
-        """The columns that it leaves undetermined."""
-
-    def solve(self, right: Sequence[Number]) -> Sequence[Number] | None:
-        """A solution, or None where there is none."""
-
-    def conflict(self, right: Sequence[Number]) -> frozenset[int]:
-        """The rows that contradict each other."""
 
 
 @dataclass(frozen=True)
@@ -50,9 +34,7 @@ class Rates:
     @cached_property
     def condition(self) -> float:
         """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
-        from graphplan.solver.floating import decomposed
-
-        return decomposed(self.equations).condition
+        return condition(self.equations)
 
 
 def solve(scene: Scene, exact: bool = False) -> Rates:
@@ -61,29 +43,12 @@ def solve(scene: Scene, exact: bool = False) -> Rates:
     Fails with `Refused` where fractions are asked of an irrational scene, and with `SingularPose`, which names the
     links, where the motion is not determined or is impossible.
     """
-    equations = Equations(scene)
-    linear = in_fractions(equations) if exact else in_floats(equations)
+    equations = Equations(scene, facts(scene))
+    linear = for_rates(equations, exact)
     zero: Number = Fraction(0) if exact else 0.0
     first = equations.rates(solved(equations, linear, equations.velocities), zero)
     second = equations.rates(solved(equations, linear, equations.accelerations(first)), zero)
     return read(equations, first, second)
-
-
-def in_floats(equations: Equations) -> Linear:
-    """The equations made ready in floats; numpy is imported here, so that fractions do without it."""
-    from graphplan.solver.floating import decomposed
-
-    return decomposed(equations)
-
-
-def in_fractions(equations: Equations) -> Linear:
-    """The equations made ready in fractions; fails with `Refused` where the scene's values are irrational."""
-    used = chain(*(row.values() for row in equations.rows), *((f.rate, f.change) for f in equations.facts))
-    rounded = any(isinstance(number, float) for number in used)
-    if rounded or equations.scene.irrational:
-        why = "; ".join(equations.scene.irrational) or "a coordinate, a drive or a given motion is not a fraction"
-        raise Refused("exact numbers", why, "ask for floats, without --exact")
-    return Elimination(equations.rows, equations.width)
 
 
 def solved(equations: Equations, linear: Linear, right: Sequence[Number]) -> Sequence[Number]:

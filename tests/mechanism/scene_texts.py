@@ -1,4 +1,4 @@
-"""Three small scenes that the tests read, and spoil."""
+"""Small scenes that the tests read, and spoil."""
 
 from __future__ import annotations
 
@@ -69,6 +69,70 @@ direction = "O C"
 [[drive]]
 slide = ["rod", "barrel"]
 speed = 0.5
+"""
+
+
+FIVE_BAR = """
+[points]
+O = [0, 0]
+A = [-5, 90]
+C = [100, 290]
+B = [230, 70]
+P = [190, 0]
+[links]
+1 = "O A"
+2 = "A C"
+3 = "C B"
+4 = "P B"
+frame = "O P"
+[[drive]]
+link = "1"
+omega = 10
+[[drive]]
+link = "4"
+omega = -10
+[[forces]]
+on = "3"
+at = "C"
+value = [0, -80]
+"""
+"""Two drives, a load, and no balance yet."""
+
+LOADED = f"""gravity = [0, -9.81]
+{PRESS}
+[masses.2]
+mass = 2.5
+inertia = 0.01
+centre = "M"
+
+[masses.3]
+mass = 4
+centre = "B"
+
+[[forces]]
+on = "3"
+at = "B"
+value = [-150, 0.5]
+
+[[moments]]
+on = "2"
+value = 0.3
+
+[balance]
+link = "1"
+
+[[friction]]
+at = "A"
+radius = 5
+coefficient = 0.1
+
+[[friction]]
+slide = ["3", "frame"]
+coefficient = 0.08
+
+[find]
+velocity = ["B"]
+reactions = ["A", "3 along frame"]
 """
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from scene_texts import ACTUATOR, OPEN, PRESS, changed
+from scene_texts import ACTUATOR, FIVE_BAR, LOADED, OPEN, PRESS, changed
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.model import Scene
@@ -19,6 +19,13 @@ def faults(text: str) -> list[str]:
     assert all(line.startswith("f.toml: ") for line in error.value.lines)
     return [line.removeprefix("f.toml: ") for line in error.value.lines]
 
+
+def balanced(balance: str) -> str:
+    """The loaded scene with these lines for its balance."""
+    return changed(LOADED, ('[balance]\nlink = "1"', f"[balance]\n{balance}"))
+
+
+BALANCE = '[balance] with link = "1" for a moment, or with at, on and direction for a force'
 
 FAULTS: list[tuple[str, str]] = [
     # the text
@@ -48,10 +55,6 @@ FAULTS: list[tuple[str, str]] = [
         "gravity = 9.81" + PRESS,
         "gravity: the number 9.81 where two numbers are wanted; two numbers such as [10, 5]",
     ),
-    *[
-        (f"{PRESS}[{table}]", f"{table}: forces are not constructed by this version; leave the table out")
-        for table in ("masses", "forces", "moments", "balance")
-    ],
     # points
     (changed(PRESS, ("O = [0, 0]", "O = [0, true]")), "points.O: true where a number is wanted; a number such as 12.5"),
     (
@@ -264,6 +267,219 @@ FAULTS: list[tuple[str, str]] = [
         changed(PRESS, ("M = {", "Z = [9, 9]\nM = {")) + '[find]\nacceleration = ["Z"]',
         "find.acceleration: no link has the point Z, so it has no motion; a point of a link",
     ),
+    # loads
+    ("masses = 3\n" + PRESS, "masses: the number 3 where a table is wanted; a table of keys and values"),
+    (
+        PRESS + "[forces]",
+        "forces: an empty table where a list of tables is wanted; [[forces]], in double brackets",
+    ),
+    (
+        changed(LOADED, ("[[moments]]", "[moments]")),
+        "moments: a table with the keys on, value where a list of tables is wanted; [[moments]], in double brackets",
+    ),
+    (
+        PRESS + "[friction]\nat = 'A'",
+        "friction: a table with the keys at where a list of tables is wanted; [[friction]], in double brackets",
+    ),
+    ("forces = [3]\n" + PRESS, "forces.1: the number 3 where a table is wanted; a table of keys and values"),
+    ("balance = 3\n" + PRESS, "balance: the number 3 where a table is wanted; a table of keys and values"),
+    (changed(LOADED, ("[balance]", "[balanc]")), "balanc: unknown key; perhaps balance"),
+    # masses
+    (PRESS + "[masses]\n2 = 3", "masses.2: the number 3 where a table is wanted; a table of keys and values"),
+    (changed(LOADED, ("mass = 2.5\n", "")), "masses.2: mass is missing; a mass, such as mass = 10"),
+    (
+        changed(LOADED, ('centre = "M"\n', "")),
+        'masses.2: centre is missing; a point of the link, such as centre = "S"',
+    ),
+    (changed(LOADED, ('centre = "M"', 'center = "M"')), "masses.2.center: unknown key; perhaps centre"),
+    (changed(LOADED, ("[masses.2]", "[masses.5]")), "masses.5: there is no link 5; one of 1, 2, 3, frame"),
+    (changed(LOADED, ("[masses.2]", "[masses.frame]")), "masses.frame: the frame is given a mass; a moving link"),
+    (
+        changed(LOADED, ("mass = 2.5", "mass = -2.5")),
+        "masses.2.mass: the mass -2.5 is negative; a mass of 0 or more",
+    ),
+    (
+        changed(LOADED, ("mass = 2.5", 'mass = "2.5 kg"')),
+        'masses.2.mass: the string "2.5 kg" where a number is wanted; a number such as 12.5',
+    ),
+    (
+        changed(LOADED, ("inertia = 0.01", "inertia = inf")),
+        "masses.2.inertia: inf is no usable number; a finite number between 1e-60 and 1e60 in size",
+    ),
+    (changed(LOADED, ('centre = "M"', 'centre = "S"')), "masses.2.centre: there is no point S; one of O, A, B, M"),
+    (changed(LOADED, ('centre = "M"', 'centre = "O"')), "masses.2.centre: O is no point of link 2; one of A, M, B"),
+    (
+        changed(LOADED, ('centre = "M"', "centre = [45, 20]")),
+        'masses.2.centre: a list of 2 where the name of a point is wanted; a name in quotes, such as "3"',
+    ),
+    # forces and moments
+    (changed(LOADED, ('on = "3"\n', "")), 'forces.1: on is missing; the loaded link, such as on = "2"'),
+    (
+        changed(LOADED, ('at = "B"\nvalue', "value")),
+        'forces.1: at is missing; a point of that link, such as at = "C"',
+    ),
+    (
+        changed(LOADED, ("value = [-150, 0.5]", "")),
+        "forces.1: value is missing; two components, such as value = [-150, 0]",
+    ),
+    (changed(LOADED, ("value = [-150", "vale = [-150")), "forces.1.vale: unknown key; perhaps value"),
+    (changed(LOADED, ('on = "3"', 'on = "5"')), "forces.1.on: there is no link 5; one of 1, 2, 3, frame"),
+    (changed(LOADED, ('on = "3"', 'on = "frame"')), "forces.1.on: a load on the frame moves nothing; a moving link"),
+    (changed(LOADED, ('at = "B"\nvalue', 'at = "C"\nvalue')), "forces.1.at: there is no point C; one of O, A, B, M"),
+    (changed(LOADED, ('on = "3"', 'on = "1"')), "forces.1.at: B is no point of link 1; one of O, A"),
+    (
+        changed(LOADED, ("[-150, 0.5]", "-150")),
+        "forces.1.value: the number -150 where two numbers are wanted; two numbers such as [10, 5]",
+    ),
+    (changed(LOADED, ('on = "2"\n', "")), 'moments.1: on is missing; the loaded link, such as on = "3"'),
+    (changed(LOADED, ("value = 0.3", "")), "moments.1: value is missing; a moment, such as value = 12.0"),
+    (changed(LOADED, ("value = 0.3", 'at = "M"\nvalue = 0.3')), "moments.1.at: unknown key; one of on, value"),
+    (changed(LOADED, ('on = "2"', 'on = "5"')), "moments.1.on: there is no link 5; one of 1, 2, 3, frame"),
+    (changed(LOADED, ('on = "2"', 'on = "frame"')), "moments.1.on: a load on the frame moves nothing; a moving link"),
+    (
+        changed(LOADED, ("value = 0.3", "value = [0, 0.3]")),
+        "moments.1.value: a list of 2 where a number is wanted; a number such as 12.5",
+    ),
+    # balance
+    (PRESS + "[balance]", 'balance: link is missing; the link on which a moment acts, such as link = "1"'),
+    (balanced('lnk = "1"'), "balance.lnk: unknown key; perhaps link"),
+    (balanced('link = "5"'), "balance.link: there is no link 5; one of 1, 2, 3, frame"),
+    (
+        balanced('link = "frame"'),
+        "balance.link: a balance on the frame, which does not move, keeps no motion; a moving link",
+    ),
+    (
+        balanced('at = "O"\non = "frame"\ndirection = [0, 1]'),
+        "balance.on: a balance on the frame, which does not move, keeps no motion; a moving link",
+    ),
+    (balanced('link = "1"\nat = "A"'), "balance.link: unknown key; one of at, on, direction"),
+    (
+        balanced('on = "1"\ndirection = [0, 1]'),
+        'balance: at is missing; the point where a force acts, such as at = "B"',
+    ),
+    (
+        balanced('at = "A"\ndirection = [0, 1]'),
+        'balance: on is missing; the link on which it acts, such as on = "1"',
+    ),
+    (
+        balanced('at = "A"\non = "1"'),
+        "balance: direction is missing; the force's direction: a vector, an angle in degrees, or two points",
+    ),
+    (balanced('at = "B"\non = "1"\ndirection = [0, 1]'), "balance.at: B is no point of link 1; one of O, A"),
+    (
+        balanced('at = "A"\non = "1"\ndirection = [0, 0]'),
+        "balance.direction: the direction is zero; a vector that is not [0, 0]",
+    ),
+    (
+        balanced('at = "A"\non = "1"\ndirection = "A"'),
+        'balance.direction: the string "A" where two points are wanted; two points such as "O A"',
+    ),
+    *[
+        (text, f"balance: {what}: nothing keeps the prescribed motion; {BALANCE}")
+        for text, what in (
+            (PRESS + "[masses]", "no balances for 1 drive"),
+            ("balance = []\n" + PRESS, "no balances for 1 drive"),
+            (changed(LOADED, ('[balance]\nlink = "1"', "")), "no balances for 1 drive"),
+            (FIVE_BAR, "no balances for 2 drives"),
+            (FIVE_BAR + '[balance]\nlink = "1"', "1 balance for 2 drives"),
+        )
+    ],
+    (
+        changed(LOADED, ("[balance]", '[[balance]]\nlink = "2"\n[[balance]]')),
+        "balance: 2 balances for 1 drive: statically indeterminate; one balance for each drive",
+    ),
+    (
+        FIVE_BAR + "".join(f"[[balance]]\nlink = '{link}'\n" for link in "124"),
+        "balance: 3 balances for 2 drives: statically indeterminate; one balance for each drive",
+    ),
+    *[
+        (
+            text,
+            f"balance: it does not hold {loose}, and link {twice} is statically indeterminate; "
+            "a moment or a force that works when the drive moves the mechanism",
+        )
+        for text, loose, twice in (
+            (balanced('link = "3"'), "links 1 2 3", "3"),  # the block only translates
+            (balanced('at = "O"\non = "1"\ndirection = [0, 1]'), "links 1 2 3", "1"),  # O stands still
+            (FIVE_BAR + "[[balance]]\nlink = '1'\n" * 2, "links 2 3 4", "1"),
+        )
+    ],
+    (
+        OPEN + '[[forces]]\non = "2"\nat = "A"\nvalue = [0, -1]\n[balance]\nlink = "2"',
+        "motion: what moves these points is no link, so nothing is known of its force; "
+        "drives, where forces are asked for",
+    ),
+    # friction
+    (changed(LOADED, ("radius = 5\n", "")), "friction.1: radius is missing; the journal's radius"),
+    (
+        changed(LOADED, ('at = "A"\nradius = 5\n', "")),
+        'friction.1: at is missing; a joint, such as at = "B", or slide = ["3", "2"]',
+    ),
+    *[
+        (
+            changed(LOADED, (f"coefficient = {number}\n", "")),
+            f"friction.{row}: coefficient is missing; the coefficient of friction, such as coefficient = 0.1",
+        )
+        for row, number in enumerate(("0.1", "0.08"), 1)
+    ],
+    (
+        changed(LOADED, ("radius = 5", "radius = -5")),
+        "friction.1.radius: the radius -5 is negative; a radius of 0 or more",
+    ),
+    (
+        changed(LOADED, ("coefficient = 0.1", "coefficient = -0.1")),
+        "friction.1.coefficient: the coefficient -0.1 is negative; a coefficient of 0 or more",
+    ),
+    (
+        changed(LOADED, ('at = "A"\nradius', 'at = "C"\nradius')),
+        "friction.1.at: there is no point C; one of O, A, B, M",
+    ),
+    (
+        changed(LOADED, ('at = "A"\nradius', 'at = "M"\nradius')),
+        "friction.1.at: M is no joint of two links; a joint",
+    ),
+    (
+        changed(LOADED, ("coefficient = 0.08", "coefficient = 0.08\nradius = 2")),
+        "friction.2.radius: unknown key; one of slide, coefficient",
+    ),
+    (
+        changed(LOADED, ('slide = ["3", "frame"]', 'slide = "3 along frame"')),
+        'friction.2.slide: the string "3 along frame" where two links are wanted; two links such as ["3", "2"]',
+    ),
+    (
+        changed(LOADED, ('slide = ["3", "frame"]', 'slide = ["5", "frame"]')),
+        "friction.2.slide: there is no link 5; one of 1, 2, 3, frame",
+    ),
+    (
+        changed(LOADED, ('slide = ["3", "frame"]', 'slide = ["frame", "3"]')),
+        'friction.2.slide: no slide of link frame along link 3; slide = ["3", "frame"]',
+    ),
+    (
+        FIVE_BAR + '[[friction]]\nslide = ["2", "1"]\ncoefficient = 0.1',
+        "friction.1.slide: no slide of link 2 along link 1; a joint and its radius",
+    ),
+    # reactions
+    (
+        PRESS + '[find]\nreactions = ["A"]',
+        "find.reactions: reactions are asked for, but no load is given; [[forces]] or [masses]",
+    ),
+    (
+        changed(LOADED, ('"3 along frame"]\n', '"3 along 2"]\n')),
+        "find.reactions: there is no joint or slide 3 along 2; perhaps 3 along frame",
+    ),
+    (
+        changed(LOADED, ('reactions = ["A"', 'reactions = ["M"')),
+        "find.reactions: there is no joint or slide M; one of O, A, B, 3 along frame",
+    ),
+    (
+        changed(LOADED, ('reactions = ["A"', "reactions = [3")),
+        'find.reactions: the number 3 where the name of a joint or slide is wanted; a name in quotes, such as "3"',
+    ),
+    (
+        changed(LOADED, ('reactions = ["A", "3 along frame"]', 'reactions = "A"')),
+        'find.reactions: the string "A" where a list of joints and slides is wanted; '
+        'a list such as ["A", "3 along 2"], or "all"',
+    ),
     # bracing
     (
         changed(PRESS, ('3 = "B"', '3 = "B"\n4 = "O A"\n5 = "M N"'), ("M = {", "N = [5, 5]\nM = {")),
@@ -294,6 +510,12 @@ def test_all_faults_are_told_at_once() -> None:
     assert [line.split(":")[0] for line in faults(text)] == ["points.C", "points.A"]
     text = changed(ACTUATOR, ('at = "D"', 'at = "C"'))
     assert [line.split(":")[0] for line in faults(text)] == ["slides.1.at"]
+    text = changed(LOADED, ('centre = "M"', 'centre = "O"'), ('on = "3"', 'on = "5"'), ("radius = 5", "radius = -5"))
+    assert [line.split(":")[0] for line in faults(text)] == ["forces.1.on", "friction.1.radius", "masses.2.centre"]
+    text = changed(LOADED, ("O = [0, 0]", "O = [0]"), ('[balance]\nlink = "1"', ""))
+    assert [line.split(":")[0] for line in faults(text)] == ["points.O", "balance"]
+    text = changed(LOADED, ("omega", "omga"), ('[balance]\nlink = "1"', ""))
+    assert [line.split(":")[0] for line in faults(text)] == ["drive.1.omga", "drive.1"]
 
 
 def test_faults_are_full_lines() -> None:
@@ -309,14 +531,15 @@ PIECES = st.sampled_from(
         *"[]{}=\"',.\n# -019",
         *("nan", "1e400", "true", "1979-05-27", "0x" + "f" * 5000, "9" * 5000, "\\u0000", "\ud7ff", "\x00"),
         *("[[drive]]\n", "[points]\n", "[find]\n", "[[", "1 = ", "angle = ", "frame", "slides", "motion.A", "A B"),
+        *("[masses.2]\n", "[[forces]]\n", "balance", "[[friction]]\n", "reactions = "),
     ]
 )
 
 
 @settings(max_examples=400, deadline=None)
 @given(
-    st.sampled_from([PRESS, OPEN, ACTUATOR]),
-    st.lists(st.tuples(st.integers(0, 600), st.integers(0, 30), PIECES), max_size=5),
+    st.sampled_from([PRESS, OPEN, ACTUATOR, LOADED]),
+    st.lists(st.tuples(st.integers(0, 1000), st.integers(0, 30), PIECES), max_size=5),
 )
 @example("a = " + "9" * 5000, [])
 @example("a" + ".a" * 5000 + " = 1", [])
@@ -352,7 +575,7 @@ VALUES = st.recursive(
 
 
 @settings(max_examples=400, deadline=None)
-@given(st.sampled_from([PRESS, OPEN, ACTUATOR]), st.integers(0, 40), VALUES)
+@given(st.sampled_from([PRESS, OPEN, ACTUATOR, LOADED]), st.integers(0, 60), VALUES)
 def test_any_value_anywhere_is_a_scene_or_a_scene_error(text: str, line: int, value: str) -> None:
     """Whatever value stands behind any key, nothing but a SceneError comes out."""
     lines = text.splitlines()

@@ -146,7 +146,7 @@ def test_questions() -> None:
 
 
 def test_units_and_gravity() -> None:
-    """The scene's units are kept by name; gravity is accepted, though nothing here uses it."""
+    """The scene's units are kept by name; gravity is accepted, though a scene without loads has no use for it."""
     scene = parse('gravity = [0, -9.81]\nunits = { length = "ft", mass = "lb" }\n' + PRESS, "x")
     assert scene.units == Units("ft", "N", "lb")
 

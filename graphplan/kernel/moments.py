@@ -1,0 +1,110 @@
+"""The statics of the table: forces that balance others about a point, couples as pairs of forces.
+
+A force is a vector of a force plan (two points there) that acts at a point of the mechanism plan. Its arm is measured
+on the mechanism plan, so a moment is a product of a drawn force and a drawn length, and a force is had back by
+dividing by an arm.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphplan.kernel.kinds import LINE, POINT, SCALE, STRAIGHTEDGE, primitive
+
+
+def _vector(P: Any, Q: Any) -> Any:
+    return Q[0] - P[0], Q[1] - P[1]
+
+
+def _cross(u: Any, v: Any) -> Any:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def _square(u: Any) -> Any:
+    return u[0] * u[0] + u[1] * u[1]
+
+
+def _size(u: Any) -> Any:
+    return abs(u[0]) + abs(u[1])
+
+
+def _arm(d: Any, P: Any, Q: Any) -> Any:
+    """The vector of two points that must not coincide."""
+    u = _vector(P, Q)
+    d.nonzero(_size(u), _size(P) + _size(Q), "points-coincide", "the two points coincide: there is no arm")
+    return u
+
+
+def _across(u: Any, part: Any, m: Any) -> Any:
+    """From m a multiple of u, turned a quarter."""
+    return m[0] - part * u[1], m[1] + part * u[0]
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances {3}{4} at "
+           "{2}; mark {out}.",
+           claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
+           source="Ozols 1974, 10-2: tangential parts from moments")
+def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
+    """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
+    arm = _arm(d, Y, X)
+    return _across(arm, -_cross(_vector(Y, C), _vector(p, q)) / _square(arm), m)
+
+
+@primitive((POINT, POINT, POINT), POINT, SCALE,
+           "For the couple {moment} take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at "
+           "{1}; mark {out}.",
+           claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
+           source="Ozols 1974, 10-6")
+def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
+    """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
+    arm = _arm(d, P, R)
+    return _across(arm, d.lift(moment) / _square(arm), m)
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "For the inertia couple, {ratio} times the tangential acceleration {2}{3} over the square of {0}{1}, take a "
+           "pair of forces at {0} and {1}: from {4} lay off that at {1}, reversed; mark {out}.",
+           claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
+           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4")
+def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
+    """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
+    arm = _arm(d, P, R)
+    square = _square(arm)
+    return _across(arm, -d.lift(ratio) * _cross(arm, _vector(a, b)) / square / square, m)
+
+
+def _meeting(y: Any, z: Any) -> Any:
+    """Where two lines meet, as (x, y, w): the point (x/w, y/w), far away where w is nothing."""
+    return y[1] * z[2] - z[1] * y[2], y[2] * z[0] - z[2] * y[0], y[0] * z[1] - z[0] * y[1]
+
+
+def _aimed(d: Any, y: Any, z: Any, X: Any) -> Any:
+    """The vector to X from where two lines meet, as long as it pleases."""
+    Y = _meeting(y, z)
+    u = Y[2] * X[0] - Y[0], Y[2] * X[1] - Y[1]
+    reach = _size(y) * (_size(z) * _size(X) + abs(z[2])) + abs(y[2]) * _size(z)
+    d.nonzero(_size(u), reach, "points-coincide", "the two lines meet in the point itself, or are one")
+    return u
+
+
+@primitive((LINE, LINE, POINT), LINE, STRAIGHTEDGE, "Through {2} draw {out} to where {0} meets {1}.",
+           claims=(("on", 2), ("concurrent", 0, 1)), fails=("points-coincide",),
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces")
+def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
+    """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
+    u = _aimed(d, y, z, X)
+    return -u[1], u[0], u[1] * X[0] - u[0] * X[1]
+
+
+@primitive((LINE, LINE, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
+           "that point, that balances {4}{5} at {3}; mark {out}.",
+           claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces")
+def weigh(d: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
+    """The end of the force at X, laid off from m, that balances pq at C about the point where two lines meet."""
+    Y = _meeting(y, z)
+    arm = _aimed(d, y, z, X)
+    reach = Y[2] * C[0] - Y[0], Y[2] * C[1] - Y[1]
+    return _across(arm, -_cross(reach, _vector(p, q)) / _square(arm), m)

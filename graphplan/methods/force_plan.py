@@ -1,0 +1,515 @@
+"""Force plans: how the moves of statics are drawn, one force polygon for each group.
+
+The loads of a group's links stand in one chain, link after link; the reactions close it. Tangential parts come from
+moments, lines of action from the mechanism plan, and the corner that is looked for is where two lines meet, as on the
+drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import Balance, Slide
+from graphplan.methods.loading import Acting, Loading
+from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.sites import Group, Joint, Site
+from graphplan.methods.statics import (
+    About,
+    Along,
+    AlongLine,
+    Assume,
+    AtPoint,
+    Close,
+    Fact,
+    Found,
+    Pin,
+    Polygon,
+    StaticMove,
+    Where,
+)
+
+Span = tuple[Mark, Mark]
+TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
+
+
+@dataclass
+class Known:
+    """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
+    action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
+
+    part: Span | None
+    line: Mark | None
+    at: Mark | None
+    pair: tuple[Acting, Acting] | None = None
+
+
+class Forces:
+    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance."""
+
+    def __init__(self) -> None:
+        self.joints: dict[tuple[str, str], Span] = {}
+        self.slides: dict[Slide, Span] = {}
+        self.pairs: dict[Slide, tuple[Acting, Acting] | None] = {}
+        self.seats: dict[Slide, Mark] = {}
+        self.balances: dict[Balance, Span] = {}
+        self.moments: dict[Balance, tuple[Acting, Acting] | None] = {}
+
+
+class ForcePlan:
+    """Draws the moves of one group on a panel of its own, and enters the reactions in `forces`."""
+
+    def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
+        self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
+        self.panel = "force plan " + ", ".join(group.links)
+        self.known: dict[Site, Known] = {}
+        self.ends: dict[Site, Span] = {}
+        self.pairs: dict[Site, tuple[Acting, Acting] | None] = {}
+        self.seats: dict[Site, Mark] = {}
+        self.chains: dict[str, list[Acting]] = {}
+        self.couples: dict[str, list[tuple[Acting, Acting]]] = {}
+        with board.on(self.panel, group.links):
+            self.origin = board.begin(plan=self.panel, number=1)
+            self._chain()
+        for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
+            assert site.direction is not None
+            with board.on(MECHANISM, group.links):
+                at = pose.points[site.at]
+                line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
+            self.known[site] = Known(None, line, at)
+
+    # ---- loads -------------------------------------------------------------------------------------------------
+
+    def _chain(self) -> None:
+        """The known forces, link after link, head to tail; couples beside them."""
+        corner = self.origin
+        for link in self.group.links:
+            own = list(self.loading.forces(link, corner))
+            for point in self.group.points:
+                if not self.group.rest(point) and self.group.members(point) == (link,):
+                    for force in self._from_done(point):
+                        tail = own[-1].head if own else corner
+                        own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail)))
+            for slide in self.group.scene.slides:
+                if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
+                    tail = own[-1].head if own else corner
+                    own += self._slid(slide, slide.link == link, tail)
+            self.chains[link] = own
+            corner = own[-1].head if own else corner
+            self.couples[link] = list(self.loading.couples(link, corner))
+            for slide in self.group.scene.slides:
+                if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
+                    pair = self.forces.pairs[slide]
+                    if pair is not None:
+                        one, two = pair
+                        self.couples[link].append((one, two) if slide.link == link else (one.reversed, two.reversed))
+
+    def _from_done(self, point: str) -> Iterator[Acting]:
+        """What the links of solved groups pass on at a joint."""
+        for link in self.group.scene.links_of[point]:
+            if link in self.group.done:
+                tail, head = self.forces.joints[point, link]
+                yield Acting(self.pose.points[point], head, tail)
+
+    def _slid(self, slide: Slide, same: bool, tail: Mark) -> Iterator[Acting]:
+        """The known reaction of a slide."""
+        one, two = self.forces.slides[slide] if same else self.forces.slides[slide][::-1]
+        yield Acting(self.forces.seats[slide], tail, self.board.transfer(one, two, tail))
+
+    # ---- a part of the group -----------------------------------------------------------------------------------
+
+    def _solved(self, part: frozenset[str]) -> Iterator[tuple[Site, int]]:
+        """The sites of a part's boundary whose forces are found, with their signs."""
+        yield from ((site, sign) for site, sign in self.group.boundary(part) if site in self.ends or site in self.pairs)
+
+    def _vectors(self, part: frozenset[str], but: Iterable[Site] = ()) -> Iterator[Acting]:
+        """The known forces that act on a part beyond its links' chains."""
+        for point in self.group.passed_on(part):
+            if len(self.group.members(point)) > 1:
+                yield from self._from_done(point)
+        for site, sign in self._solved(part):
+            if site in self.ends and site not in but:
+                tail, head = self.ends[site]
+                yield Acting(self._seat(site), *((tail, head) if sign > 0 else (head, tail)))
+
+    def _seat(self, site: Site) -> Mark:
+        """Where a site's force acts."""
+        if site in self.seats:
+            return self.seats[site]
+        return self.pose.points[site.point if isinstance(site, Joint) else site.at]
+
+    def _polygon(self, part: frozenset[str], extra: Iterable[Acting] = (), but: Iterable[Site] = ()) -> Span:
+        """The open polygon of a part's known forces: where it starts and where it ends."""
+        spans: list[Span] = []
+        for link in self.group.links:
+            if link in part and self.chains[link]:
+                spans.append((self.chains[link][0].tail, self.chains[link][-1].head))
+        if not spans:
+            corner = self._corner(part)
+            spans = [(corner, corner)]
+        start, end = spans[0]
+        for tail, head in (*spans[1:], *((v.tail, v.head) for v in (*self._vectors(part, but), *extra))):
+            if tail is end:
+                end = head
+            elif head is start:
+                start = tail
+            else:
+                end = self.board.transfer(tail, head, end)
+        return start, end
+
+    def _corner(self, part: frozenset[str]) -> Mark:
+        """The corner of the chain at which the loads of an unloaded part would stand."""
+        corner = self.origin
+        for link in self.group.links:
+            if link in part:
+                break
+            corner = self.chains[link][-1].head if self.chains[link] else corner
+        return corner
+
+    def _acting(self, part: frozenset[str], facts: Iterable[tuple[Site, int]], but: Site) -> Iterator[Acting]:
+        """Every known force on a part, with couples as pairs, and the known parts of forces with known lines."""
+        for link in self.group.links:
+            if link in part:
+                yield from self.chains[link]
+                for pair in self.couples[link]:
+                    yield from pair
+        yield from self._vectors(part, (but,))
+        for site, sign in self._solved(part):
+            pair_of = self.pairs.get(site)
+            if pair_of is not None and site != but:
+                yield from pair_of if sign > 0 else (force.reversed for force in pair_of)
+        own = [(but, sign) for site, sign in self.group.boundary(part) if site == but and isinstance(but, Slide)]
+        for site, sign in (*facts, *own):
+            known = self.known.get(site)
+            if known is None or site in self.ends:
+                continue
+            if known.part is not None:
+                tail, head = known.part if sign > 0 else known.part[::-1]
+                yield Acting(self._at(site, known), tail, head)
+            if known.pair is not None:
+                yield from known.pair if sign > 0 else (force.reversed for force in known.pair)
+
+    def _at(self, site: Site, known: Known) -> Mark:
+        return known.at if known.at is not None else self._seat(site)
+
+    # ---- moves -------------------------------------------------------------------------------------------------
+
+    def draw(self, moves: Iterable[StaticMove]) -> None:
+        for move in moves:
+            links = tuple(move.part) if not isinstance(move, Pin) else (move.site.link,)
+            with self.board.on(self.panel, tuple(link for link in self.group.links if link in links)):
+                self._draw(move)
+
+    def _draw(self, move: StaticMove) -> None:
+        match move:
+            case Fact(part, site, about):
+                self.known[site] = self._told(part, site, about)
+            case Found(part, site, about):
+                self._found(part, site, about)
+            case Polygon(part, one, two):
+                self._close_two(part, one, two)
+            case Close(part, site):
+                self._close(part, site)
+            case Pin(site):
+                self._pin(site)
+            case Assume():
+                self._trial(move)
+
+    def _sign(self, part: frozenset[str], site: Site) -> int:
+        return next(sign for other, sign in self.group.boundary(part) if other == site)
+
+    def _others(self, part: frozenset[str], site: Site) -> list[tuple[Site, int]]:
+        return [(other, sign) for other, sign in self.group.boundary(part) if other != site]
+
+    def _told(self, part: frozenset[str], site: Site, about: About) -> Known:
+        """What a part's equilibrium about a point tells of a force."""
+        sign = self._sign(part, site)
+        if isinstance(about, Along | AlongLine):
+            return self._across(part, site, about, sign)
+        if isinstance(site, Slide):
+            return self._slide_line(part, site, about, sign)
+        X = self._seat(site)
+        line = self._line_to(about, X)
+        load = self._moments(part, site, about, X, sign)
+        return Known(load, line, X)
+
+    def _line_to(self, about: About, X: Mark) -> Mark:
+        """The line of action through a point and the point that moments are taken about."""
+        with self.board.on(MECHANISM):
+            if isinstance(about, AtPoint):
+                return self.board.side(self.pose.points[about.point], X)
+            assert isinstance(about, Where)
+            return self.board.towards(*self._lines(about), X, names=self._letters(about))
+
+    def _lines(self, about: Where) -> Span:
+        one, two = (self.known[site].line for site in (about.one, about.two))
+        assert one is not None
+        assert two is not None
+        return one, two
+
+    def _letters(self, about: Where) -> dict[str, str]:
+        names = [site.link for site in (about.one, about.two) if isinstance(site, Joint | Slide | Balance)]
+        return {"Q": self.pose.letter(" ".join(sorted(names)))}
+
+    def _moments(self, part: frozenset[str], site: Site, about: About, X: Mark, sign: int,
+                 base: Mark | None = None) -> Span | None:
+        """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
+
+        Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
+        """
+        backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
+        start, end = self._polygon(part) if base is None else (base, base)
+        mark = first = start if backwards else end
+        for force in self._acting(part, self._others(part, site), site):
+            if force.at is self._about_mark(about):
+                continue
+            tail, head = (force.head, force.tail) if backwards != (sign < 0) else (force.tail, force.head)
+            mark = self._weighed(about, X, force.at, tail, head, mark)
+        if mark is first:
+            return None
+        return (mark, first) if backwards else (first, mark)
+
+    def _about_mark(self, about: About) -> Mark | None:
+        return self.pose.points[about.point] if isinstance(about, AtPoint) else None
+
+    def _weighed(self, about: About, X: Mark, C: Mark, tail: Mark, head: Mark, mark: Mark) -> Mark:
+        if isinstance(about, AtPoint):
+            return self.board.balance(self.pose.points[about.point], X, C, tail, head, mark)
+        assert isinstance(about, Where)
+        return self.board.weigh(*self._lines(about), X, C, tail, head, mark, names=self._letters(about))
+
+    def _slide_line(self, part: frozenset[str], slide: Slide, about: About, sign: int) -> Known:
+        """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
+        Y = self._mark_of(about)
+        with self.board.on(MECHANISM):
+            line = self.board.perpendicular(self.pose.guide(slide), Y)
+        return Known(None, line, Y, self._pair(part, slide, Y, sign))
+
+    def _mark_of(self, about: About) -> Mark:
+        """The point that moments are taken about, as a mark."""
+        if isinstance(about, AtPoint):
+            return self.pose.points[about.point]
+        assert isinstance(about, Where)
+        with self.board.on(MECHANISM):
+            return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
+
+    def _pair(self, part: frozenset[str], site: Site, Y: Mark, sign: int) -> tuple[Acting, Acting] | None:
+        """The couple that balances all known forces on the part about a point, as a pair of forces there."""
+        assert isinstance(site, Slide | Balance)
+        R = self._arm_beside(site, Y)
+        mark = first = self._polygon(part)[1]
+        for force in self._acting(part, self._others(part, site), site):
+            if force.at is not Y:
+                tail, head = (force.tail, force.head) if sign > 0 else (force.head, force.tail)
+                mark = self.board.balance(Y, R, force.at, tail, head, mark)
+        return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
+
+    def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
+        """A point at which a pair with Y has a good arm."""
+        one, two = self.loading.arm(site.link)
+        return two if one is Y else one if two is Y else two
+
+    def _across(self, part: frozenset[str], site: Site, about: About, sign: int) -> Known:
+        """No moments: what the forces along a direction leave unknown is told by those across it."""
+        start, end = self._polygon(part, self._parts(self._others(part, site)), (site,))
+        with self.board.on(MECHANISM):
+            if isinstance(about, Along):
+                guide = self.pose.guide(about.slide)
+                line = self.board.perpendicular(guide, self.pose.points[about.slide.at])
+            else:
+                assert isinstance(about, AlongLine)
+                known_line = self.known[about.site].line
+                assert known_line is not None
+                line = known_line
+        if isinstance(site, Slide):
+            return self._slide_size(site, line, start, end, sign)
+        X = self._seat(site)
+        with self.board.on(MECHANISM):
+            through = self.board.parallel(line, X)
+        span = (end, start) if sign > 0 else (start, end)
+        return Known(None if start is end else span, through, X)
+
+    def _parts(self, sites: Iterable[tuple[Site, int]]) -> Iterator[Acting]:
+        """The known parts of forces whose lines are known."""
+        for site, sign in sites:
+            known = self.known.get(site)
+            if known is not None and known.part is not None and site not in self.ends:
+                tail, head = known.part if sign > 0 else known.part[::-1]
+                yield Acting(self._at(site, known), tail, head)
+
+    def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> Known:
+        """A slide's reaction closes the polygon with a force of known direction; where it acts is not told."""
+        with self.board.on(MECHANISM):
+            normal = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
+        corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
+        return Known((end, corner) if sign > 0 else (corner, end), None, None)
+
+    def _found(self, part: frozenset[str], site: Site, about: About) -> None:
+        """A force of known line, from moments about a point that its line does not pass; or a couple."""
+        sign = self._sign(part, site)
+        known = self.known.get(site)
+        if isinstance(site, Balance) and not site.at:
+            self.pairs[site] = self._pair(part, site, self._mark_of(about), sign)
+            return
+        assert known is not None
+        if known.line is None:
+            self._couple_found(part, site, known)
+            return
+        if isinstance(about, Along | AlongLine):
+            told = self._across(part, site, about, sign)
+            base = told.part[0] if told.part else self._polygon(part)[1]
+            second = told.line, told.part
+        else:
+            base = known.part[0] if known.part else self._polygon(part)[1]
+            second = self._line_to(about, self._at(site, known)), self._moments(
+                part, site, about, self._at(site, known), sign, base)
+        assert second[0] is not None
+        corner = self.board.meet(self._locus(known.line, known.part, base), self._locus(second[0], second[1], base))
+        self._enter(site, (base, corner))
+
+    def _locus(self, line: Mark, part: Span | None, base: Mark) -> Mark:
+        """Where the head of a force lies that is laid off from `base`: its part across the line is known."""
+        head = base if part is None else part[1] if part[0] is base else self.board.transfer(*part, base)
+        return self.board.parallel(line, head)
+
+    def _tail_locus(self, line: Mark, part: Span | None, corner: Mark) -> Mark:
+        """Where the tail of a force lies that ends in `corner`."""
+        tail = corner if part is None else part[0] if part[1] is corner else self.board.transfer(*part[::-1], corner)
+        return self.board.parallel(line, tail)
+
+    def _enter(self, site: Site, span: Span) -> None:
+        """A force is found; a slide's acts where its line says, with the pair known besides."""
+        self.ends[site] = span
+        known = self.known.get(site)
+        if isinstance(site, Slide):
+            if known is not None and known.at is not None:
+                self.seats[site] = known.at
+                self.pairs[site] = known.pair
+            else:
+                self.seats[site] = self.pose.points[site.at]
+
+    def _close_two(self, part: frozenset[str], one: Site, two: Site) -> None:
+        """The corner between two forces of known lines."""
+        start, end = self._polygon(part)
+        first, last = self.known[one], self.known[two]
+        signs = self._sign(part, one), self._sign(part, two)
+        assert first.line is not None
+        assert last.line is not None
+        tails = first.part if signs[0] > 0 or first.part is None else first.part[::-1]
+        heads = last.part if signs[1] > 0 or last.part is None else last.part[::-1]
+        corner = self.board.meet(self._tail_locus(first.line, tails, start), self._locus(last.line, heads, end))
+        self._enter(one, (corner, start) if signs[0] > 0 else (start, corner))
+        self._enter(two, (end, corner) if signs[1] > 0 else (corner, end))
+
+    def _close(self, part: frozenset[str], site: Site) -> None:
+        """The last force of a part closes its polygon; of a slide, and of a couple, the moment too."""
+        sign = self._sign(part, site)
+        known = self.known.get(site)
+        if isinstance(site, Balance) and not site.at:
+            one = self.loading.arm(site.link)[0]
+            self.pairs[site] = self._pair(part, site, one, sign)
+            return
+        if known is not None and known.line is None and known.part is not None:
+            self._couple_found(part, site, known)
+            return
+        start, end = self._polygon(part, self._parts(self._others(part, site)), (site,))
+        self._enter(site, (end, start) if sign > 0 else (start, end))
+        if isinstance(site, Slide) and site not in self.pairs:
+            Y = self.pose.points[site.at]
+            self.pairs[site] = self._pair(part, site, Y, sign)
+
+    def _couple_found(self, part: frozenset[str], site: Site, known: Known) -> None:
+        """A slide's reaction of known size: its moment."""
+        assert isinstance(site, Slide)
+        assert known.part is not None
+        self.ends[site], self.seats[site] = known.part, self.pose.points[site.at]
+        Y = self.pose.points[site.at]
+        self.pairs[site] = self._pair(part, site, Y, self._sign(part, site))
+
+    def _pin(self, site: Joint) -> None:
+        """The forces on the links of a joint balance."""
+        mark = first = self.origin
+        spans = [self.ends[Joint(site.point, link)] for link in self.group.members(site.point) if link != site.link]
+        spans += [self.forces.joints[site.point, link] for link in self.group.scene.links_of[site.point]
+                  if link in self.group.done]
+        for tail, head in spans:
+            mark = self.board.transfer(tail, head, mark)
+        self.ends[site] = mark, first
+
+    # ---- trials ------------------------------------------------------------------------------------------------
+
+    def _trial(self, move: Assume) -> None:
+        """Two forces assumed on the known line, the false position, then the true force by the same moves."""
+        known = self.known[move.site]
+        assert known.line is not None
+        base = known.part[0] if known.part else self._polygon(move.part)[1]
+        locus = self._locus(known.line, known.part, base)
+        size = self.board.transfer(*self.loading.arm(self.group.links[0]), base)
+        before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
+        trials: list[Mark] = []
+        for ratio in TRIAL_RATIOS:
+            start = self.board.pick(locus, base, size, ratio=ratio)
+            self._enter(move.site, (base, start))
+            self.draw(move.moves)
+            trials += [start, *self._missed(move)]
+            self.known, self.ends = dict(before[0]), dict(before[1])
+            self.pairs, self.seats = dict(before[2]), dict(before[3])
+        A1, Z1, l1, A2, Z2, l2 = trials
+        self._enter(move.site, (base, self.board.false_position(A1, A2, Z1, l1, Z2, l2)))
+        self.draw(move.moves)
+
+    def _missed(self, move: Assume) -> Span:
+        """The head of a force found by a trial, and the line on which it should lie."""
+        told = self._told(move.part, move.end, move.about)
+        assert told.line is not None
+        tail, head = self.ends[move.end]
+        return head, self._locus(told.line, told.part, tail)
+
+    # ---- what is found -----------------------------------------------------------------------------------------
+
+    def idle(self) -> bool:
+        """Whether nothing acts on the group, so that all its reactions are nothing."""
+        return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
+            balance.link in self.group.links for balance in self.loading.loads.balances) and not any(
+            self._passed(point) for point in self.group.points)
+
+    def _passed(self, point: str) -> bool:
+        """Whether solved groups pass anything on at a joint between links of this one."""
+        return not self.group.rest(point) and len(self.group.members(point)) > 1 and any(
+            force.tail is not force.head for force in self._from_done(point))
+
+    def rest(self) -> None:
+        """All reactions are nothing."""
+        for part in self.group.parts:
+            for site, _ in self.group.boundary(part):
+                self._enter(site, (self.origin, self.origin))
+                self.pairs[site] = None
+
+    def enter(self) -> None:
+        """Tell the groups that follow what was found here."""
+        with self.board.on(self.panel, self.group.links):
+            for point in self.group.points:
+                for link in self.group.members(point):
+                    self.forces.joints[point, link] = self._at_joint(point, link)
+        for site, span in self.ends.items():
+            if isinstance(site, Slide):
+                self.forces.slides[site] = span
+                self.forces.pairs[site], self.forces.seats[site] = self.pairs.get(site), self.seats[site]
+            elif isinstance(site, Balance) and site.at:
+                self.forces.balances[site] = span
+        for site, pair in self.pairs.items():
+            if isinstance(site, Balance) and not site.at:
+                self.forces.moments[site] = pair
+
+    def _at_joint(self, point: str, link: str) -> Span:
+        """The force on a link at a joint, from the pin: found, or what is left by the others there."""
+        if Joint(point, link) in self.ends:
+            return self.ends[Joint(point, link)]
+        spans = [(force.tail, force.head) for force in self._from_done(point)]
+        spans += [self.ends[Joint(point, other)][::-1] for other in self.group.members(point) if other != link]
+        mark = first = spans[0][0]
+        for tail, head in spans:
+            mark = head if tail is mark else self.board.transfer(tail, head, mark)
+        return first, mark

@@ -1,0 +1,88 @@
+"""Reactions and balance of a scene: the force plans of all groups, against the order of the motion (Assur)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import Scene, Slide
+from graphplan.methods.force_plan import ForcePlan, Forces
+from graphplan.methods.loading import Acting, Loading
+from graphplan.methods.poses import Pose
+from graphplan.methods.sites import Group, groups
+from graphplan.methods.statics import Equilibrium
+
+REACTION, SLIDE_REACTION, SLIDE_MOMENT = "reaction", "slide reaction", "slide moment"
+BALANCE, BALANCE_MOMENT = "balance", "balance moment"
+Result = tuple[str, str, tuple[Mark, ...]]
+
+
+def reactions(board: Board, pose: Pose, loading: Loading, order: str, pick: int) -> tuple[Forces, int]:
+    """All reactions, drawn; and at how many places a trial could begin, where one is needed."""
+    forces, done, options = Forces(), list[str](), 1
+    for links in groups(loading.scene):
+        group = Group(loading.scene, links, done)
+        plan = ForcePlan(board, pose, group, loading, forces)
+        if plan.idle():
+            plan.rest()
+        else:
+            equilibrium = Equilibrium(group, order, pick)
+            plan.draw(equilibrium.plan())
+            options = max(options, equilibrium.options)
+        plan.enter()
+        done += links
+    return forces, options
+
+
+def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:
+    """The revolute pairs: joint, link, and the link named first there, which carries the pin."""
+    for point in scene.joints:
+        pin, *others = scene.links_of[point]
+        for link in others:
+            yield point, link, pin
+
+
+def pair_name(point: str, link: str) -> str:
+    """How the reaction on a link at a joint is named among the readings."""
+    return f"{link} at {point}"
+
+
+def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:
+    """What is read of the force plans: kind, name and marks of everything that is asked for."""
+    asked = scene.find.reactions
+    for point, link, _ in pairs(scene):
+        if asked is None or point in asked:
+            yield REACTION, pair_name(point, link), _on(scene, forces, board, point, link)
+    for slide in scene.slides:
+        if asked is None or slide.name in asked:
+            yield SLIDE_REACTION, slide.name, forces.slides[slide]
+            yield SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
+    for number, balance in enumerate(loading.loads.balances, 1):
+        if balance.at:
+            yield BALANCE, str(number), forces.balances[balance]
+        else:
+            pair = forces.moments[balance]
+            yield BALANCE_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
+
+
+def _on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:
+    """The force on a link, the frame among them, at a joint."""
+    if (point, link) in forces.joints:
+        return forces.joints[point, link]
+    spans = [forces.joints[point, other][::-1] for other in scene.links_of[point] if other != link]
+    first, mark = spans[0]
+    for tail, head in spans[1:]:
+        mark = board.transfer(tail, head, mark)
+    return first, mark
+
+
+def _moment(loading: Loading, slide: Slide, forces: Forces) -> tuple[Mark, ...]:
+    """The moment of a slide's reaction about its point."""
+    acting = [Acting(forces.seats[slide], *forces.slides[slide]), *(forces.pairs[slide] or ())]
+    return _about(loading.pose.points[slide.at], acting)
+
+
+def _about(pole: Mark, acting: Iterable[Acting]) -> tuple[Mark, ...]:
+    """A point, and of each force that has a moment about it where it acts, its tail and its head."""
+    marks = [(force.at, force.tail, force.head) for force in acting if force.at is not pole]
+    return pole, *(mark for three in marks for mark in three)

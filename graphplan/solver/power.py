@@ -1,0 +1,65 @@
+"""The balances from the power equation alone: the third opinion, which knows no reactions.
+
+In any motion that the pairs allow they do no work, so loads and balances together have no power. Each drive in turn
+gives one such motion, even of a mechanism at rest, and so one equation for the balances.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+
+from graphplan.mechanism.model import Balance, Force, Moment, Number, Pair, Scene
+from graphplan.mechanism.units import metre
+from graphplan.solver.elimination import Elimination
+from graphplan.solver.equations import Equations
+from graphplan.solver.facts import Rate, pairs, supports
+from graphplan.solver.linear import for_rates, require_fractions
+from graphplan.solver.loads import Load, acting, asked
+from graphplan.solver.plane import dot, times
+from graphplan.solver.rates import Rates, solve, solved
+from graphplan.solver.reactions import not_held
+
+
+def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
+    """The scene's balances, each a moment (force * m) or a force, from the powers of its loads.
+
+    Fails as `reactions` does.
+    """
+    rates, units = solve(scene, exact), [unit(balance) for balance in asked(scene).balances]
+    loads, motions = acting(scene, rates), list(virtual(rates, exact))
+    system = Elimination([dict(enumerate(powers(rates, units, motion))) for motion in motions], len(units))
+    right = [-sum(powers(rates, loads, motion)) for motion in motions]
+    if exact:
+        require_fractions(scene, right)
+    held, values = Equations(scene, supports(scene)), system.solve(right)
+    if values is None or system.free or for_rates(held, exact).free:
+        raise not_held(held, exact)
+    found: Iterable[Number] = values if exact else map(float, values)
+    return tuple(times(v, one.value) if isinstance(one, Force) else v for v, one in zip(found, units, strict=True))
+
+
+def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
+    """For each drive the velocities of every link while this drive alone moves, at a unit rate."""
+    equations, zero = rates.equations, Fraction(0) if exact else 0.0
+    linear, first = for_rates(equations, exact), len(pairs(equations.scene))
+    for drive in range(first, first + len(equations.scene.drives)):
+        right = [Fraction(i == drive) for i in range(len(equations.facts))]
+        yield equations.rates(solved(equations, linear, right), zero)
+
+
+def unit(balance: Balance) -> Load:
+    """The balance with a moment of 1, or with its direction as its force."""
+    if balance.direction is None:
+        return Moment(balance.link, Fraction(1))
+    return Force(balance.link, balance.at, balance.direction)
+
+
+def powers(rates: Rates, loads: Iterable[Load], motion: dict[str, Rate]) -> Iterator[Number]:
+    """The power of each load in a motion, in force * length/s."""
+    for load in loads:
+        if isinstance(load, Moment):
+            yield load.value * metre(rates.equations.scene.units) * motion[load.on].turn
+        else:
+            point = rates.equations.side(load.on, load.at, motion)
+            yield dot(load.value, point.rate.at(point.arm))

@@ -1,0 +1,97 @@
+"""The reactions and the balances of a scene from one linear system: the equilibrium of every moving link.
+
+The rows of the rates state what a pair forbids; a pair's forces are what holds those facts. So the same rows, with the
+balances in the place of the drives, are the system for the forces when they are transposed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+from graphplan.errors import SingularPose
+from graphplan.mechanism.model import Balance, Number, Pair, Scene, Slide
+from graphplan.mechanism.units import metre
+from graphplan.solver.equations import Equations
+from graphplan.solver.facts import pairs, supports
+from graphplan.solver.linear import condition, for_forces, for_rates, require_fractions
+from graphplan.solver.loads import acting, asked, resultants
+from graphplan.solver.plane import times, turned
+from graphplan.solver.rates import Rates, bound_by, moved_by, solve
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """What the links do to each other in one pose, in the scene's force and force * m; floats or fractions.
+
+    `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
+    `slides`: by name, the force on the sliding link from its guide, at the point `at`, and the moment about it.
+    `balances`: a moment or a force for each balance of the scene. `rates`: the motion that all this keeps up.
+    """
+
+    joints: dict[tuple[str, str], Pair]
+    slides: dict[str, tuple[Pair, Number]]
+    balances: tuple[Pair | Number, ...]
+    rates: Rates
+    equations: Equations = field(repr=False, compare=False)
+
+    @cached_property
+    def condition(self) -> float:
+        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
+        return condition(self.equations)
+
+
+def reactions(scene: Scene, exact: bool = False) -> Reactions:
+    """The forces in every joint and slide of the scene, and its balances; with `exact` as fractions.
+
+    Fails with `Refused` where the scene has no loads or fractions are asked of an irrational one, and with
+    `SingularPose`, which names the links, where its motion or its forces are not determined.
+    """
+    return equilibrium(Equations(scene, supports(scene)), solve(scene, exact), exact)
+
+
+def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
+    """What must hold the facts, so that on each link, with the loads, forces and moments add up to nothing."""
+    right = [-value for value in resultants(equations, acting(equations.scene, rates))]
+    if exact:
+        require_fractions(equations.scene, right)
+    linear = for_forces(equations, exact)
+    values = linear.solve(right)
+    if values is None or linear.free:
+        raise not_held(equations, exact)
+    return read(equations, values, rates)
+
+
+def not_held(equations: Equations, exact: bool) -> SingularPose:
+    """The error that says which links the balances do not hold."""
+    play = for_rates(equations, exact).free
+    if not play:
+        twice = bound_by(equations, for_forces(equations, exact).free)
+        return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
+    one = len(equations.facts) - len(pairs(equations.scene)) == 1
+    balance, does = ("the balance", "it does") if one else ("the balances", "they do")
+    why = f"{balance} cannot hold the motion in this pose: these links can move while {does} no work"
+    return SingularPose(why, moved_by(equations, play))
+
+
+def read(equations: Equations, values: Sequence[Number], rates: Rates) -> Reactions:
+    """What the unknowns are: two for each pair, in the order of the facts, then one for each balance."""
+    scene, unknown = equations.scene, iter(values)
+    return Reactions(
+        joints={(p, k): (next(unknown), next(unknown)) for p in scene.joints for k in scene.links_of[p][1:]},
+        slides={s.name: sliding(scene, s, next(unknown), next(unknown)) for s in scene.slides},
+        balances=tuple(balancing(scene, balance, next(unknown)) for balance in asked(scene).balances),
+        rates=rates,
+        equations=equations,
+    )
+
+
+def sliding(scene: Scene, slide: Slide, turn: Number, across: Number) -> tuple[Pair, Number]:
+    """A slide's force, across its guide, and its moment."""
+    return times(across, turned(slide.direction)), turn / metre(scene.units)
+
+
+def balancing(scene: Scene, balance: Balance, value: Number) -> Pair | Number:
+    """A balance's moment, or its force along its direction."""
+    return value / metre(scene.units) if balance.direction is None else times(value, balance.direction)

@@ -1,0 +1,62 @@
+"""Which way friction acts: against the turning in each journal and the slip in each slide."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.solver.loads import asked
+from graphplan.solver.plane import dot
+from graphplan.solver.rates import Rates
+
+ROUNDING = 8 * 2.0**-52  # times the condition of the rates: what moves more slowly beside the rest stands still
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """What friction makes of a reaction, negative where it opposes a positive motion.
+
+    `journals`: by point and link, the radius of the friction circle. `guides`: by slide, the coefficient of friction.
+    """
+
+    journals: dict[tuple[str, str], float]
+    guides: dict[str, float]
+
+
+def rubbing(scene: Scene, rates: Rates) -> Rubbing:
+    """The frictions of the scene, with the senses of these rates; nothing where a pair does not move."""
+    return Rubbing(
+        {(p, k): -circle(scene, p) * turning(scene, p, k, rates) for p in scene.joints for k in scene.links_of[p][1:]},
+        {slide.name: -coefficient(scene, slide) * slipping(slide, rates) for slide in scene.slides},
+    )
+
+
+def circle(scene: Scene, point: str) -> float:
+    """The radius of the friction circle of a joint."""
+    return float(sum(f.radius * f.coefficient for f in asked(scene).frictions if f.at == point))
+
+
+def coefficient(scene: Scene, slide: Slide) -> float:
+    """The coefficient of friction of a slide."""
+    return float(sum(f.coefficient for f in asked(scene).frictions if f.slide == (slide.link, slide.along)))
+
+
+def turning(scene: Scene, point: str, link: str, rates: Rates) -> float:
+    """The sense in which a link turns on the one that carries the pin: 1, -1, or 0 where it does not."""
+    omega = {**rates.omega, FRAME: 0.0}
+    return sense(float(omega[link] - omega[scene.links_of[point][0]]) * rates.equations.reach, rates)
+
+
+def slipping(slide: Slide, rates: Rates) -> float:
+    """The sense in which a link slides along its guide's direction."""
+    length = math.hypot(*slide.direction)
+    return sense(float(dot(rates.slide_velocity[slide.name], slide.direction)) / length, rates)
+
+
+def sense(speed: float, rates: Rates) -> float:
+    """The sign of a speed, in length/s; 0 where rounding could make it of what moves fastest."""
+    points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
+    turnings = (abs(float(omega)) * rates.equations.reach for omega in rates.omega.values())
+    fastest = max(*points, *turnings, 0.0)
+    return math.copysign(1.0, speed) if abs(speed) > ROUNDING * rates.condition * fastest else 0.0

@@ -12,7 +12,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.forces import reactions, results
+from graphplan.methods.forces import freed_reactions, levers, reactions, results
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
@@ -48,7 +48,7 @@ class Draughtsman:
         self._slides(velocity, "slide velocity", self.scene.find.velocity)
         plan = self._accelerations(velocity) if self._accelerated() else None
         if self.scene.loads is not None:
-            self._forces(plan)
+            self._forces(velocity, plan)
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves),
                             phi=self.phi)
@@ -67,7 +67,7 @@ class Draughtsman:
         self._slides(plan, "slide acceleration", self.scene.find.acceleration)
         return plan
 
-    def _forces(self, plan: Normal | None) -> None:
+    def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """The reactions and the balance, group by group against the motion's order."""
         self.phi = force_scale(self.scene)
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan)
@@ -75,6 +75,12 @@ class Draughtsman:
             forces, options = reactions(self.board, self.pose, loading, self.order, self.pick)
             self.options = options
             for kind, of, marks in results(self.scene, loading, forces, self.board):
+                self._read(kind, of, *marks)
+        if self.style.lever:
+            found, _ = levers(self.pose, velocity, loading)
+            if not self.style.polygons:
+                found += freed_reactions(self.pose, loading)[0]
+            for kind, of, marks in found:
                 self._read(kind, of, *marks)
 
     def _read(self, kind: str, of: str, *marks: Mark) -> None:

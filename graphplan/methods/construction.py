@@ -273,4 +273,6 @@ FORCE_READERS = {
     "slide moment": _read_moment,
     "balance": _read_force,
     "balance moment": _read_moment,
+    "lever": _read_force,
+    "lever moment": _read_moment,
 }

@@ -359,6 +359,10 @@ class ForcePlan:
             return
         if isinstance(about, Along | AlongLine):
             told = self._across(part, site, about, sign)
+            if told.line is None:
+                assert told.part is not None
+                self._enter(site, told.part)
+                return
             base = told.part[0] if told.part else self._polygon(part)[1]
             second = told.line, told.part
         else:

@@ -7,13 +7,16 @@ from collections.abc import Iterable, Iterator
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.force_plan import ForcePlan, Forces
+from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import Pose
 from graphplan.methods.sites import Group, groups
 from graphplan.methods.statics import Equilibrium
+from graphplan.methods.velocity import Velocity
 
 REACTION, SLIDE_REACTION, SLIDE_MOMENT = "reaction", "slide reaction", "slide moment"
 BALANCE, BALANCE_MOMENT = "balance", "balance moment"
+LEVER, LEVER_MOMENT = "lever", "lever moment"
 Result = tuple[str, str, tuple[Mark, ...]]
 
 
@@ -63,6 +66,45 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
         else:
             pair = forces.moments[balance]
             yield BALANCE_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
+
+
+def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Result], list[Lever]]:
+    """The balances by Zhukovsky's lever: one lever for each."""
+    scene, board = loading.scene, pose.board
+    results: list[Result] = []
+    drawn: list[Lever] = []
+    for mode, balance in enumerate(loading.loads.balances):
+        serves = moving(scene)
+        motion = velocity if serves else virtual(scene, unit_drives(scene, mode), pose, {})
+        panel = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}"
+        lever = Lever(board, motion, loading, panel)
+        drawn.append(lever)
+        if balance.at:
+            results.append((LEVER, str(mode + 1), lever.force(balance)))
+        else:
+            results.append((LEVER_MOMENT, str(mode + 1), lever.moment(balance.link)))
+    return results, drawn
+
+
+def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Lever]]:
+    """The reactions that are asked for by name, each by two levers with its pair freed."""
+    scene, board = loading.scene, pose.board
+    results: list[Result] = []
+    drawn: list[Lever] = []
+    for point, link, pin in pairs(scene):
+        if point not in (scene.find.reactions or ()):
+            continue
+        spans = []
+        for axis, name in zip(AXES, "xy", strict=True):
+            changed, drives, new = freed(scene, point, link, pin, axis)
+            velocity = virtual(changed, drives, pose, {new: point})
+            lever = Lever(board, velocity, loading, f"lever {pair_name(point, link)}, {name}", {(link, point): new})
+            spans.append(lever.across(point, link, pin))
+            drawn.append(lever)
+        (tail, corner), other = spans
+        with board.on(drawn[-1].panel):
+            results.append((REACTION, pair_name(point, link), (tail, board.transfer(*other, corner))))
+    return results, drawn
 
 
 def _on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:

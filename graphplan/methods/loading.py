@@ -6,8 +6,9 @@ acceleration plan; a couple becomes a pair of forces at two points of its link (
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from typing import Protocol
 
 from graphplan.kernel.program import Board, Mark
@@ -33,6 +34,9 @@ class Acting:
         return Acting(self.at, self.head, self.tail, self.name)
 
 
+Lay = Callable[[Mark], Acting]
+
+
 class Motion(Protocol):
     """The acceleration plan, as far as loads need it: of a link's point the mark in its figure, and the end."""
 
@@ -54,34 +58,39 @@ class Loading:
         self.loads: Loads = self.scene.loads
 
     def forces(self, link: str, start: Mark) -> Iterator[Acting]:
-        """The forces on a link, one after the other from `start`; a force that is nothing is left out."""
+        """The forces on a link, one after the other from `start`."""
+        for _, lay in self.each(link):
+            force = lay(start)
+            yield force
+            start = force.head
+
+    def each(self, link: str) -> Iterator[tuple[str, Lay]]:
+        """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
         for nth, force in enumerate((f for f in self.loads.forces if f.on == link), 1):
-            x, y = force.value
-            if x or y:
-                name = f"P_{link}" + "'" * (nth - 1)
-                head = self._lay(start, x, y, name, f"the given force on link {link} at {force.at}")
-                yield Acting(self.pose.points[force.at], start, head, name)
-                start = head
-        if link in self.loads.masses:
-            yield from self._of_mass(link, self.loads.masses[link], start)
+            if any(force.value):
+                why = f"the given force on link {link} at {force.at}"
+                yield force.at, partial(self._given, force.at, force.value, f"P_{link}" + "'" * (nth - 1), why)
+        mass = self.loads.masses.get(link)
+        if mass and mass.mass:
+            heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
+            if any(heaviness):
+                yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", f"the weight of link {link}")
+            if self._accelerated(link, mass.centre):
+                yield mass.centre, partial(self._inertia, link, mass)
 
-    def _lay(self, start: Mark, x: Number, y: Number, name: str, why: str) -> Mark:
-        return self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, name=name, why=why)
+    def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
+        x, y = value
+        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, name=name, why=why)
+        return Acting(self.pose.points[at], start, head, name)
 
-    def _of_mass(self, link: str, mass: Mass, start: Mark) -> Iterator[Acting]:
-        """Weight and inertia force, both at the centre of mass."""
-        x, y = (mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
-        if x or y:
-            head = self._lay(start, x, y, f"G_{link}", f"the weight of link {link}")
-            yield Acting(self.pose.points[mass.centre], start, head, f"G_{link}")
-            start = head
-        if mass.mass and self._accelerated(link, mass.centre):
-            assert self.motion is not None
-            home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
-            ratio = -mass.mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
-            why = f"the inertia force of link {link}, against the acceleration of {mass.centre}"
-            head = self.board.step_off(home, end, start, ratio=ratio, name=f"J_{link}", why=why)
-            yield Acting(self.pose.points[mass.centre], start, head, f"J_{link}")
+    def _inertia(self, link: str, mass: Mass, start: Mark) -> Acting:
+        """The inertia force, against the acceleration of the centre of mass."""
+        assert self.motion is not None
+        home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+        ratio = -mass.mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
+        why = f"the inertia force of link {link}, against the acceleration of {mass.centre}"
+        head = self.board.step_off(home, end, start, ratio=ratio, name=f"J_{link}", why=why)
+        return Acting(self.pose.points[mass.centre], start, head, f"J_{link}")
 
     def _accelerated(self, link: str, point: str) -> bool:
         return self.motion is not None and FRAME not in self.scene.links_of[point]

@@ -260,7 +260,8 @@ class Equilibrium:
                     return [], 1
                 return [equation(part, way) for way in FORCES], 2
             case Close(part, site):
-                turn = (TURN,) if isinstance(site, Slide | Balance) else ()
+                alone = self._unknown(part) == [site]  # else a couple is unknown besides, and moments tell nothing
+                turn = (TURN,) if alone and isinstance(site, Slide | Balance) else ()
                 return [equation(part, way) for way in (*FORCES, *turn)], 2 - self.rank[site]
         return [], 0
 

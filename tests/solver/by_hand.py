@@ -8,7 +8,13 @@ from typing import Any
 
 from graphplan.mechanism.model import (
     FRAME,
+    Balance,
     Find,
+    Force,
+    Friction,
+    Loads,
+    Mass,
+    Moment,
     Motion,
     Number,
     Pair,
@@ -53,6 +59,54 @@ def move(velocity: Sequence[Written], acceleration: Sequence[Written] = (0, 0)) 
     return Motion(pair(velocity), pair(acceleration))
 
 
+def force(on: str, at: str, value: Sequence[Written]) -> Force:
+    """A given force on a link."""
+    return Force(on, at, pair(value))
+
+
+def moment(on: str, value: Written) -> Moment:
+    """A given couple on a link."""
+    return Moment(on, number(value))
+
+
+def mass(kilograms: Written, inertia: Written, centre: str) -> Mass:
+    """The mass of a link."""
+    return Mass(number(kilograms), number(inertia), centre)
+
+
+def hold(link: str, at: str = "", direction: Sequence[Written] | None = None) -> Balance:
+    """A balance: a moment, or a force along a direction."""
+    return Balance(link, at, pair(direction) if direction else None)
+
+
+def journal(at: str, radius: Written, coefficient: Written) -> Friction:
+    """Friction in a joint."""
+    return Friction(at, None, number(radius), number(coefficient))
+
+
+def rough(link: str, along: str, coefficient: Written) -> Friction:
+    """Friction in a slide."""
+    return Friction("", (link, along), Fraction(0), number(coefficient))
+
+
+def loads(
+    *given: Force | Moment,
+    masses: Mapping[str, Mass] | None = None,
+    gravity: Sequence[Written] = (0, 0),
+    balances: Sequence[Balance] = (),
+    frictions: Sequence[Friction] = (),
+) -> Loads:
+    """The loads of a scene: given forces and moments, masses, balances and frictions."""
+    return Loads(
+        gravity=pair(gravity),
+        masses=dict(masses or {}),
+        forces=tuple(load for load in given if isinstance(load, Force)),
+        moments=tuple(load for load in given if isinstance(load, Moment)),
+        balances=tuple(balances),
+        frictions=tuple(frictions),
+    )
+
+
 def mechanism(
     points: Mapping[str, tuple[Written, Written]],
     links: Mapping[str, str],
@@ -60,13 +114,15 @@ def mechanism(
     slides: Sequence[Slide] = (),
     motions: Mapping[str, Motion] | None = None,
     irrational: Sequence[str] = (),
+    loads: Loads | None = None,
+    units: Units | None = None,
 ) -> Scene:
-    """A scene of points, links as in the scene file, drives, slides and given motions."""
+    """A scene of points, links as in the scene file, drives, slides, given motions and loads; lengths in mm."""
     return Scene(
         title="by hand",
         source="",
         name="by hand",
-        units=Units(),
+        units=units or Units(),
         points={name: pair(at) for name, at in points.items()},
         placements={name: Placement("given") for name in points},
         links={name: tuple(names.split()) for name, names in links.items()},
@@ -75,4 +131,5 @@ def mechanism(
         motions=dict(motions or {}),
         find=Find((), ()),
         irrational=tuple(irrational),
+        loads=loads,
     )

@@ -13,10 +13,14 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import metre
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.forces import pair_name, pairs
 from graphplan.methods.ways import growth
 from graphplan.solver import Rates, solve
+from graphplan.solver.power import power
+from graphplan.solver.reactions import Reactions, reactions
 
 EPSILON = 2.0**-52
 SAFETY = 100  # roundings of the mechanism's own condition that a difference may have
@@ -27,6 +31,7 @@ KINDS = {
     "acceleration": ("acceleration", "alpha", "slide acceleration"),
 }
 RATES = ("omega", "alpha")
+MOMENTS = ("slide moment", "balance moment", "lever moment")
 
 
 @dataclass(frozen=True)
@@ -37,6 +42,8 @@ class Report:
     rates: Rates
     results: dict[str, dict[str, Any]]
     exact: bool
+    reactions: Reactions | None = None
+    power: tuple[Any, ...] = ()
 
     @property
     def scene(self) -> Scene:
@@ -51,20 +58,55 @@ class Report:
         found = {}
         for kind, parts in KINDS.items():
             gaps = [self._gap(part) for part in parts if part in self.results]
-            truth = [self._truth(part).values() for part in parts if part not in RATES]
+            truth = [self.truth(part).values() for part in parts if part not in RATES]
             largest = max((_size(value) for values in truth for value in values), default=0)
             if gaps:
                 found[kind] = max(gaps) / largest if largest else max(gaps)
+        if self.forces:
+            found["force"] = self._force_gap()
         return found
 
-    def _truth(self, part: str) -> Mapping[str, Any]:
+    @cached_property
+    def forces(self) -> dict[str, dict[str, Any]]:
+        """What the solver says of every force that the construction gives, by the same kinds and names."""
+        if self.reactions is None:
+            return {}
+        joints = {pair_name(p, link): self.reactions.joints[p, link] for p, link, _ in pairs(self.scene)}
+        slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
+        balances = {str(k): value for k, value in enumerate(self.reactions.balances, 1)}
+        held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
+        turned = {name: value for name, value in balances.items() if name not in held}
+        return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "balance": held, "lever": held,
+                "balance moment": turned, "lever moment": turned}
+
+    @property
+    def _metres(self) -> Any:
+        """The mechanism's extent in metres: a moment counts as the force that it is at that arm."""
+        return self._extent / metre(self.scene.units)
+
+    def _force_gap(self) -> Any:
+        """The largest difference of forces and moments beside the largest force; lever and power balance among them."""
+        gaps, sizes = [], []
+        for kind, truth in self.forces.items():
+            arm = self._metres if kind in MOMENTS else 1
+            sizes += [_size(value) / arm for value in truth.values()]
+            ours = self.results.get(kind, {})
+            gaps += [_size(_less(ours[name], truth[name])) / arm for name in ours]
+        for value, other in zip(self.power, self.reactions.balances if self.reactions else (), strict=True):
+            gaps.append(_size(_less(value, other)) / (1 if isinstance(value, tuple) else self._metres))
+        largest = max(sizes, default=0)
+        return max(gaps, default=0) / largest if largest else max(gaps, default=0)
+
+    def truth(self, part: str) -> Mapping[str, Any]:
         """The solver's values for one kind of reading."""
+        if part in self.forces:
+            return self.forces[part]
         truth: Mapping[str, Any] = getattr(self.rates, part.replace(" ", "_"))
         return truth
 
     def _gap(self, part: str) -> Any:
         """The largest difference in one kind of reading."""
-        ours, truth = self.results[part], self._truth(part)
+        ours, truth = self.results[part], self.truth(part)
         gap = max(_size(_less(ours[name], truth[name])) for name in ours)
         return gap * self._extent if part in RATES else gap
 
@@ -77,7 +119,12 @@ class Report:
     @property
     def tolerance(self) -> float:
         """What rounding may make of the mechanism's own condition; nothing where the numbers are exact."""
-        return 0.0 if self.exact else max(1e-12, SAFETY * EPSILON * self.rates.condition)
+        return 0.0 if self.exact else max(1e-12, SAFETY * EPSILON * self.condition)
+
+    @property
+    def condition(self) -> float:
+        """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
+        return max(self.rates.condition, self.reactions.condition if self.reactions else 1.0)
 
     @property
     def agrees(self) -> bool:
@@ -97,10 +144,37 @@ class Report:
             "links": self._merged(scene.moving, omega="omega", alpha="alpha"),
             "slides": self._merged((s.name for s in scene.slides), velocity="slide velocity",
                                    acceleration="slide acceleration"),
+            **self._forces_data(),
             "method": self.drawing.method,
             "check": {kind: _number(value) if value else 0 for kind, value in self.check.items()},
             "steps": len(self.drawing.drawn) - self.drawing.drawn.givens,
         }
+
+    def _forces_data(self) -> dict[str, Any]:
+        """Balance and reactions as JSON takes them; nothing where there are no loads."""
+        if self.reactions is None:
+            return {}
+        balances = [self._balance(str(k)) for k in range(1, len(self.reactions.balances) + 1)]
+        entries: list[dict[str, Any]] = []
+        for point, link, pin in pairs(self.scene):
+            force = self.results.get("reaction", {}).get(pair_name(point, link))
+            if force is not None:
+                entries.append({"at": point, "on": link, "from": pin, "force": _number(force)})
+        for slide in self.scene.slides:
+            if slide.name in self.results.get("slide reaction", {}):
+                entries.append({"slide": slide.name, "on": slide.link, "from": slide.along,
+                                "force": _number(self.results["slide reaction"][slide.name]),
+                                "moment": _number(self.results["slide moment"][slide.name])})
+        told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
+        return {**told, "reactions": entries}
+
+    def _balance(self, name: str) -> dict[str, Any]:
+        """One balance, from the force plans, else from the lever."""
+        for kind, word in (("balance", "force"), ("balance moment", "moment"), ("lever", "force"),
+                           ("lever moment", "moment")):
+            if name in self.results.get(kind, {}):
+                return {word: _number(self.results[kind][name])}
+        return {}
 
     def _merged(self, names: Iterable[str], **kinds: str) -> dict[str, Any]:
         """Readings of several kinds by name, as JSON takes them."""
@@ -131,7 +205,8 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
         rates = solve(scene, exact)
     except SingularPose as singular:
         raise SingularPose(singular.why, singular.links, _miss(drawing, domain)) from None
-    return Report(drawing, rates, drawing.read(domain), exact)
+    held = reactions(scene, exact) if scene.loads is not None else None
+    return Report(drawing, rates, drawing.read(domain), exact, held, power(scene, exact) if held else ())
 
 
 def _miss(drawing: Construction, domain: Domain) -> str:

@@ -30,14 +30,14 @@ def run(options: argparse.Namespace) -> int:
     found = report(scene, exact=options.exact, method=options.method, plan=options.plan)
     lines = [scene.title, *structure(scene).lines(), "", f"{'':<24}{'construction':>32}{'analytic solver':>32}"]
     for part, ours in found.results.items():
-        truth = getattr(found.rates, part.replace(" ", "_"))
+        truth = found.truth(part)
         lines += [f"{part + ' ' + name:<24}{_text(ours[name]):>32}{_text(truth[name]):>32}" for name in ours]
     lines.append("")
     for kind, difference in found.check.items():
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")
     lines += map(str, shortcuts(found.drawing))
     if not found.exact:
-        lines.append(f"condition of the mechanism: {found.rates.condition:.3g}; allowed: {found.tolerance:.2g}")
+        lines.append(f"condition of the mechanism: {found.condition:.3g}; allowed: {found.tolerance:.2g}")
     write("\n".join(lines) + "\n", None)
     if not found.agrees:
         print("the construction and the analytic solver disagree", file=sys.stderr)

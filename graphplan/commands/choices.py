@@ -14,8 +14,9 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     """The options that choose how it is drawn."""
     command.add_argument("--method", default="", choices=("auxiliary", "trial", "poles"),
                          help="the form of loci and rings; without it the pose chooses, and the protocol says why")
-    command.add_argument("--plan", default="orthogonal", choices=("orthogonal", "polar"),
-                         help="orthogonal velocities on the mechanism plan (default), or polar plans")
+    command.add_argument("--plan", default="orthogonal", metavar="PLAN",
+                         help="orthogonal velocities on the mechanism plan (default), or polar plans; of the forces "
+                         "lever, polygons, or both (default); such as --plan polar,lever")
     if strict:
         command.add_argument("--strict", action="store_true",
                              help="compasses and straightedge alone, no set squares")

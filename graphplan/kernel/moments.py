@@ -41,8 +41,8 @@ def _across(u: Any, part: Any, m: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances {3}{4} at "
-           "{2}; mark {out}.",
+           "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
+           "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
            source="Ozols 1974, 10-2: tangential parts from moments")
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
@@ -63,7 +63,8 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "For the inertia couple, {ratio} times the tangential acceleration {2}{3} over the square of {0}{1}, take a "
+           "For the inertia couple, {ratio} times the tangential acceleration from {2} to {3} over the square of "
+           "{0}{1}, take a "
            "pair of forces at {0} and {1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4")
@@ -99,7 +100,7 @@ def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
 
 @primitive((LINE, LINE, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
-           "that point, that balances {4}{5} at {3}; mark {out}.",
+           "that point, that balances the force from {4} to {5} at {3}; mark {out}.",
            claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
            source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces")
 def weigh(d: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 
 from graphplan.kernel.program import Board, Mark, Program, Step
@@ -13,19 +13,26 @@ def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
     return pruned(Program(tuple(board.steps), tuple(mark.step.index for mark in wanted)))
 
 
+def needed_steps(board: Board, wanted: Iterable[Mark]) -> set[int]:
+    """The steps, by index, that the wanted marks need."""
+    return _needed(board.steps, (mark.step.index for mark in wanted))
+
+
+def _needed(steps: Sequence[Step], wanted: Iterable[int]) -> set[int]:
+    needed = set(wanted)
+    for step in reversed(steps):
+        if step.index in needed:
+            needed.update(step.args)
+    return needed
+
+
 def pruned(program: Program) -> Program:
     """The same program without the steps that no wanted mark needs."""
-    needed = [False] * len(program)
-    for index in program.wanted:
-        needed[index] = True
-    for step in reversed(program.steps):
-        if needed[step.index]:
-            for arg in step.args:
-                needed[arg] = True
+    needed = _needed(program.steps, program.wanted)
     place: dict[int, int] = {}
     steps: list[Step] = []
     for step in program.steps:
-        if needed[step.index]:
+        if step.index in needed:
             place[step.index] = len(steps)
             steps.append(replace(step, index=len(steps), args=tuple(place[arg] for arg in step.args)))
     return Program(tuple(steps), tuple(place[index] for index in program.wanted))

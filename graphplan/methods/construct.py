@@ -7,11 +7,12 @@ from dataclasses import dataclass
 from itertools import combinations
 
 from graphplan.errors import Refused
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
+from graphplan.methods.force_plan import Shown
 from graphplan.methods.forces import freed_reactions, levers, reactions, results
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.moves import Move, Pole, Trial
@@ -37,6 +38,7 @@ class Draughtsman:
         self.moves = planner.moves
         self.phi: Number = 1
         self.options = 1
+        self.shown: list[Shown] = []
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
 
@@ -49,9 +51,21 @@ class Draughtsman:
         plan = self._accelerations(velocity) if self._accelerated() else None
         if self.scene.loads is not None:
             self._forces(velocity, plan)
+        shown = self._arrows()
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves),
-                            phi=self.phi)
+                            phi=self.phi, shown=shown)
+
+    def _arrows(self) -> tuple[Reading, ...]:
+        """The forces drawn as arrows: of those that what is asked for needs."""
+        needed = needed_steps(self.board, self.marks)
+        found = []
+        for force in dict.fromkeys(self.shown):
+            if force.tail is not force.head and {force.tail.step.index, force.head.step.index} <= needed:
+                start = len(self.marks)
+                self.marks += [force.tail, force.head]
+                found.append(Reading(force.kind, force.label, (start, start + 1)))
+        return tuple(found)
 
     def _accelerated(self) -> bool:
         """Whether accelerations are asked for, or make inertia forces."""
@@ -72,14 +86,16 @@ class Draughtsman:
         self.phi = force_scale(self.scene)
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan)
         if self.style.polygons:
-            forces, options = reactions(self.board, self.pose, loading, self.order, self.pick)
-            self.options = options
+            forces, self.options = reactions(self.board, self.pose, loading, self.order, self.pick)
+            self.shown += forces.shown
             for kind, of, marks in results(self.scene, loading, forces, self.board):
                 self._read(kind, of, *marks)
         if self.style.lever:
-            found, _ = levers(self.pose, velocity, loading)
+            found, shown = levers(self.pose, velocity, loading)
             if not self.style.polygons:
-                found += freed_reactions(self.pose, loading)[0]
+                freed, more = freed_reactions(self.pose, loading)
+                found, shown = found + freed, shown + more
+            self.shown += shown
             for kind, of, marks in found:
                 self._read(kind, of, *marks)
 

@@ -68,6 +68,7 @@ class Construction:
     strict: bool = False
     notes: list[str] = field(default_factory=list)
     phi: Number = 1
+    shown: tuple[Reading, ...] = ()
 
     @cached_property
     def truth(self) -> list[Any]:
@@ -157,6 +158,9 @@ class Construction:
                 panel = self.drawn.steps[end].panel
                 prefix = "v" if reading.kind == VELOCITY else "j"
                 found.append(Arrow(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
+        for force in self.shown:
+            start, end = (self.drawn.wanted[position] for position in force.marks)
+            found.append(Arrow(force.kind, force.of, force.of, self.drawn.steps[end].panel, start, end))
         return tuple(found)
 
     def read(

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Balance, Slide
+from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import MECHANISM, Pose
 from graphplan.methods.sites import Group, Joint, Site
@@ -46,10 +46,28 @@ class Known:
     pair: tuple[Acting, Acting] | None = None
 
 
+@dataclass(frozen=True)
+class Shown:
+    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter."""
+
+    kind: str
+    label: str
+    tail: Mark
+    head: Mark
+
+
+def applied(board: Board, force: Acting) -> Shown:
+    """A load drawn where it acts, on the mechanism plan."""
+    with board.on(MECHANISM):
+        return Shown("load", force.name, force.at, board.transfer(force.tail, force.head, force.at))
+
+
 class Forces:
-    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance."""
+    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows."""
 
     def __init__(self) -> None:
+        self.shown: list[Shown] = []
+        self.corners = 0
         self.joints: dict[tuple[str, str], Span] = {}
         self.slides: dict[Slide, Span] = {}
         self.pairs: dict[Slide, tuple[Acting, Acting] | None] = {}
@@ -71,7 +89,7 @@ class ForcePlan:
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[tuple[Acting, Acting]]] = {}
         with board.on(self.panel, group.links):
-            self.origin = board.begin(plan=self.panel, number=1)
+            self.origin = self._corner_named(board.begin(plan=self.panel, number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None
@@ -79,6 +97,13 @@ class ForcePlan:
                 at = pose.points[site.at]
                 line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
             self.known[site] = Known(None, line, at)
+
+    def _corner_named(self, mark: Mark) -> Mark:
+        """A corner of the polygon, with the next number if it has none."""
+        if not mark.step.name:
+            self.forces.corners += 1
+            self.board.named(mark, str(self.forces.corners))
+        return mark
 
     # ---- loads -------------------------------------------------------------------------------------------------
 
@@ -91,14 +116,22 @@ class ForcePlan:
                 if not self.group.rest(point) and self.group.members(point) == (link,):
                     for force in self._from_done(point):
                         tail = own[-1].head if own else corner
-                        own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail)))
+                        head = self.board.transfer(force.tail, force.head, tail)
+                        own.append(Acting(force.at, tail, head, force.name))
             for slide in self.group.scene.slides:
                 if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
                     tail = own[-1].head if own else corner
                     own += self._slid(slide, slide.link == link, tail)
             self.chains[link] = own
+            for force in own:
+                self._corner_named(force.head)
+                kind = "load" if force.name[:1] in "PGJ" else "reaction"
+                self.forces.shown.append(Shown(kind, force.name, force.tail, force.head))
+                if kind == "load":
+                    self.forces.shown.append(applied(self.board, force))
             corner = own[-1].head if own else corner
             self.couples[link] = list(self.loading.couples(link, corner))
+            self.forces.shown += [applied(self.board, force) for pair in self.couples[link] for force in pair]
             for slide in self.group.scene.slides:
                 if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
                     pair = self.forces.pairs[slide]
@@ -111,12 +144,14 @@ class ForcePlan:
         for link in self.group.scene.links_of[point]:
             if link in self.group.done:
                 tail, head = self.forces.joints[point, link]
-                yield Acting(self.pose.points[point], head, tail)
+                name = reaction_letter(self.group.scene, point, self.group.members(point)[0])
+                yield Acting(self.pose.points[point], head, tail, name)
 
     def _slid(self, slide: Slide, same: bool, tail: Mark) -> Iterator[Acting]:
         """The known reaction of a slide."""
         one, two = self.forces.slides[slide] if same else self.forces.slides[slide][::-1]
-        yield Acting(self.forces.seats[slide], tail, self.board.transfer(one, two, tail))
+        name = pair_letter(*((slide.along, slide.link) if same else (slide.link, slide.along)))
+        yield Acting(self.forces.seats[slide], tail, self.board.transfer(one, two, tail), name)
 
     # ---- a part of the group -----------------------------------------------------------------------------------
 
@@ -262,11 +297,12 @@ class ForcePlan:
         backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
         start, end = self._polygon(part) if base is None else (base, base)
         mark = first = start if backwards else end
+        why = self._why(part, about)
         for force in self._acting(part, self._others(part, site), site):
             if force.at is self._about_mark(about):
                 continue
             tail, head = (force.head, force.tail) if backwards != (sign < 0) else (force.tail, force.head)
-            mark = self._weighed(about, X, force.at, tail, head, mark)
+            mark = self._weighed(about, X, force.at, tail, head, mark, why)
         if mark is first:
             return None
         return (mark, first) if backwards else (first, mark)
@@ -274,11 +310,18 @@ class ForcePlan:
     def _about_mark(self, about: About) -> Mark | None:
         return self.pose.points[about.point] if isinstance(about, AtPoint) else None
 
-    def _weighed(self, about: About, X: Mark, C: Mark, tail: Mark, head: Mark, mark: Mark) -> Mark:
+    def _why(self, part: frozenset[str], about: About) -> str:
+        """The law: of which links, and about what, the moments are taken."""
+        links = [link for link in self.group.links if link in part]
+        names = f"link {links[0]}" if len(links) == 1 else f"links {', '.join(links)}"
+        where = about.point if isinstance(about, AtPoint) else "the auxiliary point"
+        return f"moments of {names} about {where}"
+
+    def _weighed(self, about: About, X: Mark, C: Mark, tail: Mark, head: Mark, mark: Mark, why: str) -> Mark:
         if isinstance(about, AtPoint):
-            return self.board.balance(self.pose.points[about.point], X, C, tail, head, mark)
+            return self.board.balance(self.pose.points[about.point], X, C, tail, head, mark, why=why)
         assert isinstance(about, Where)
-        return self.board.weigh(*self._lines(about), X, C, tail, head, mark, names=self._letters(about))
+        return self.board.weigh(*self._lines(about), X, C, tail, head, mark, names=self._letters(about), why=why)
 
     def _slide_line(self, part: frozenset[str], slide: Slide, about: About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
@@ -295,12 +338,13 @@ class ForcePlan:
         with self.board.on(MECHANISM):
             return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
 
-    def _pair(self, part: frozenset[str], site: Site, Y: Mark, sign: int) -> tuple[Acting, Acting] | None:
+    def _pair(self, part: frozenset[str], site: Site, Y: Mark, sign: int,
+              own: Iterable[Acting] = ()) -> tuple[Acting, Acting] | None:
         """The couple that balances all known forces on the part about a point, as a pair of forces there."""
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
         mark = first = self._polygon(part)[1]
-        for force in self._acting(part, self._others(part, site), site):
+        for force in (*self._acting(part, self._others(part, site), site), *own):
             if force.at is not Y:
                 tail, head = (force.tail, force.head) if sign > 0 else (force.head, force.tail)
                 mark = self.board.balance(Y, R, force.at, tail, head, mark)
@@ -355,7 +399,7 @@ class ForcePlan:
             return
         assert known is not None
         if known.line is None:
-            self._couple_found(part, site, known)
+            self._couple_found(part, site, known, self._mark_of(about))
             return
         if isinstance(about, Along | AlongLine):
             told = self._across(part, site, about, sign)
@@ -386,6 +430,8 @@ class ForcePlan:
     def _enter(self, site: Site, span: Span) -> None:
         """A force is found; a slide's acts where its line says, with the pair known besides."""
         self.ends[site] = span
+        for mark in span:
+            self._corner_named(mark)
         known = self.known.get(site)
         if isinstance(site, Slide):
             if known is not None and known.at is not None:
@@ -416,7 +462,8 @@ class ForcePlan:
             self.pairs[site] = self._pair(part, site, one, sign)
             return
         if known is not None and known.line is None and known.part is not None:
-            self._couple_found(part, site, known)
+            assert isinstance(site, Slide)
+            self._couple_found(part, site, known, self.pose.points[site.at])
             return
         start, end = self._polygon(part, self._parts(self._others(part, site)), (site,))
         self._enter(site, (end, start) if sign > 0 else (start, end))
@@ -424,13 +471,15 @@ class ForcePlan:
             Y = self.pose.points[site.at]
             self.pairs[site] = self._pair(part, site, Y, sign)
 
-    def _couple_found(self, part: frozenset[str], site: Site, known: Known) -> None:
-        """A slide's reaction of known size: its moment."""
+    def _couple_found(self, part: frozenset[str], site: Site, known: Known, Y: Mark) -> None:
+        """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
         assert isinstance(site, Slide)
         assert known.part is not None
-        self.ends[site], self.seats[site] = known.part, self.pose.points[site.at]
-        Y = self.pose.points[site.at]
-        self.pairs[site] = self._pair(part, site, Y, self._sign(part, site))
+        at = self.pose.points[site.at]
+        sign = self._sign(part, site)
+        own = Acting(at, *(known.part if sign > 0 else known.part[::-1]))
+        self.pairs[site] = self._pair(part, site, Y, sign, () if Y is at else (own,))
+        self.ends[site], self.seats[site] = known.part, at
 
     def _pin(self, site: Joint) -> None:
         """The forces on the links of a joint balance."""
@@ -498,6 +547,11 @@ class ForcePlan:
                 for link in self.group.members(point):
                     self.forces.joints[point, link] = self._at_joint(point, link)
         for site, span in self.ends.items():
+            self.forces.shown.append(Shown("balance" if isinstance(site, Balance) else "reaction",
+                                           self._letter(site), *span))
+            part = self.known[site].part if site in self.known else None
+            if part is not None and self.known[site].line is not None:
+                self.forces.shown.append(Shown("part", "T" + self._letter(site)[1:], *part))
             if isinstance(site, Slide):
                 self.forces.slides[site] = span
                 self.forces.pairs[site], self.forces.seats[site] = self.pairs.get(site), self.seats[site]
@@ -506,6 +560,14 @@ class ForcePlan:
         for site, pair in self.pairs.items():
             if isinstance(site, Balance) and not site.at:
                 self.forces.moments[site] = pair
+                if pair is not None:
+                    self.forces.shown.append(Shown("balance", f"T_{site.link}", pair[0].tail, pair[0].head))
+
+    def _letter(self, site: Site) -> str:
+        """The letter of a site's force: that of the force of one link on another, or of the balance."""
+        if isinstance(site, Joint):
+            return reaction_letter(self.group.scene, site.point, site.link)
+        return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
 
     def _at_joint(self, point: str, link: str) -> Span:
         """The force on a link at a joint, from the pin: found, or what is left by the others there."""
@@ -517,3 +579,15 @@ class ForcePlan:
         for tail, head in spans:
             mark = head if tail is mark else self.board.transfer(tail, head, mark)
         return first, mark
+
+
+def pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another; the frame is 0."""
+    names = ["0" if name == FRAME else name for name in (one, other)]
+    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def reaction_letter(scene: Scene, point: str, link: str) -> str:
+    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
+    pin, *others = scene.links_of[point]
+    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)

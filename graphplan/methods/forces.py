@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
-from graphplan.methods.force_plan import ForcePlan, Forces
+from graphplan.methods.force_plan import ForcePlan, Forces, Shown
 from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import Pose
@@ -68,29 +68,31 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
             yield BALANCE_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
 
 
-def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Result], list[Lever]]:
+def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Result], list[Shown]]:
     """The balances by Zhukovsky's lever: one lever for each."""
     scene, board = loading.scene, pose.board
     results: list[Result] = []
-    drawn: list[Lever] = []
+    shown: list[Shown] = []
     for mode, balance in enumerate(loading.loads.balances):
         serves = moving(scene)
         motion = velocity if serves else virtual(scene, unit_drives(scene, mode), pose, {})
         panel = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}"
         lever = Lever(board, motion, loading, panel)
-        drawn.append(lever)
         if balance.at:
-            results.append((LEVER, str(mode + 1), lever.force(balance)))
+            marks: tuple[Mark, ...] = lever.force(balance)
+            results.append((LEVER, str(mode + 1), marks))
         else:
-            results.append((LEVER_MOMENT, str(mode + 1), lever.moment(balance.link)))
-    return results, drawn
+            marks = lever.moment(balance.link)
+            results.append((LEVER_MOMENT, str(mode + 1), marks))
+        shown += [*lever.shown, Shown("balance", f"{'F' if balance.at else 'T'}_{balance.link}", *marks[-2:])]
+    return results, shown
 
 
-def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Lever]]:
+def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Shown]]:
     """The reactions that are asked for by name, each by two levers with its pair freed."""
     scene, board = loading.scene, pose.board
     results: list[Result] = []
-    drawn: list[Lever] = []
+    shown: list[Shown] = []
     for point, link, pin in pairs(scene):
         if point not in (scene.find.reactions or ()):
             continue
@@ -100,11 +102,11 @@ def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Le
             velocity = virtual(changed, drives, pose, {new: point})
             lever = Lever(board, velocity, loading, f"lever {pair_name(point, link)}, {name}", {(link, point): new})
             spans.append(lever.across(point, link, pin))
-            drawn.append(lever)
+            shown += [*lever.shown, Shown("reaction", f"R_{name}", *spans[-1])]
         (tail, corner), other = spans
-        with board.on(drawn[-1].panel):
+        with board.on(lever.panel):
             results.append((REACTION, pair_name(point, link), (tail, board.transfer(*other, corner))))
-    return results, drawn
+    return results, shown
 
 
 def _on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:

@@ -26,6 +26,7 @@ from graphplan.mechanism.model import (
     SlidingDrive,
     TurningDrive,
 )
+from graphplan.methods.force_plan import Shown
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
@@ -44,7 +45,7 @@ class Lever:
                  renamed: dict[tuple[str, str], str] | None = None):
         self.board, self.velocity, self.loading, self.panel = board, velocity, loading, panel
         self.renamed = renamed or {}
-        self.shown: list[Acting] = []
+        self.shown: list[Shown] = []
         with board.on(panel):
             self.pole = board.begin(plan=panel, number=1, name="o")
 
@@ -90,8 +91,9 @@ class Lever:
         """The force at the end X, square to its velocity and laid off there, that keeps the lever in balance."""
         mark = X
         for force in self.forces():
-            self.shown.append(force)
-            mark = self.board.balance(self.pole, X, force.at, force.tail, force.head, mark)
+            self.shown.append(Shown("load", force.name, force.tail, force.head))
+            mark = self.board.balance(self.pole, X, force.at, force.tail, force.head, mark,
+                                      why="moments about the pole balance, since powers do")
         return mark
 
     def moment(self, link: str) -> tuple[Mark, ...]:

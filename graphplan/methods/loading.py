@@ -68,19 +68,21 @@ class Loading:
         """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
         for nth, force in enumerate((f for f in self.loads.forces if f.on == link), 1):
             if any(force.value):
-                why = f"the given force on link {link} at {force.at}"
-                yield force.at, partial(self._given, force.at, force.value, f"P_{link}" + "'" * (nth - 1), why)
+                name = f"P_{link}" + "'" * (nth - 1)
+                why = f"{name}, the given force on link {link} at {force.at}"
+                yield force.at, partial(self._given, force.at, force.value, name, why)
         mass = self.loads.masses.get(link)
         if mass and mass.mass:
             heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
             if any(heaviness):
-                yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", f"the weight of link {link}")
+                why = f"G_{link}, the weight of link {link}, at {mass.centre}"
+                yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
             if self._accelerated(link, mass.centre):
                 yield mass.centre, partial(self._inertia, link, mass)
 
     def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
         x, y = value
-        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, name=name, why=why)
+        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why)
         return Acting(self.pose.points[at], start, head, name)
 
     def _inertia(self, link: str, mass: Mass, start: Mark) -> Acting:
@@ -88,8 +90,8 @@ class Loading:
         assert self.motion is not None
         home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
         ratio = -mass.mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
-        why = f"the inertia force of link {link}, against the acceleration of {mass.centre}"
-        head = self.board.step_off(home, end, start, ratio=ratio, name=f"J_{link}", why=why)
+        why = f"J_{link}, the inertia force of link {link}, against the acceleration of {mass.centre}"
+        head = self.board.step_off(home, end, start, ratio=ratio, why=why)
         return Acting(self.pose.points[mass.centre], start, head, f"J_{link}")
 
     def _accelerated(self, link: str, point: str) -> bool:
@@ -154,7 +156,7 @@ class Loading:
 
 
 def force_scale(scene: Scene) -> Number:
-    """How long a unit of force is drawn: the largest load about as long as the mechanism, in a round number."""
+    """How long a unit of force is drawn: the largest load about a third of the mechanism, in a round number."""
 
     loads = scene.loads
     assert loads is not None
@@ -164,7 +166,7 @@ def force_scale(scene: Scene) -> Number:
     sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]
     sizes += _inertia_sizes(scene, size)
     largest = max(sizes, default=0.0)
-    return round_number(size / largest) if largest else round_number(size)
+    return round_number(size / largest / 3) if largest else round_number(size)
 
 
 def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -19,6 +19,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces import pair_name, pairs
 from graphplan.methods.ways import growth
 from graphplan.solver import Rates, solve
+from graphplan.solver.friction import efficiency, with_friction
 from graphplan.solver.power import power
 from graphplan.solver.reactions import Reactions, reactions
 
@@ -166,15 +167,43 @@ class Report:
                                 "force": _number(self.results["slide reaction"][slide.name]),
                                 "moment": _number(self.results["slide moment"][slide.name])})
         told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
-        return {**told, "reactions": entries}
+        return {**told, "reactions": entries, **self._friction_data()}
+
+    def _friction_data(self) -> dict[str, Any]:
+        """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
+        kinds = ("balance with friction", "balance moment with friction")
+        rubbed = {name: value for kind in kinds for name, value in self.results.get(kind, {}).items()}
+        if not rubbed:
+            return {}
+        stands = with_friction(self.scene)
+        drawn = [rubbed[name] for name in sorted(rubbed)]
+        return {"friction": {
+            "balance": [_balance(value) for value in drawn], "efficiency": self.efficiency,
+            "stands": {"balance": [_balance(value) for value in stands.balances], "efficiency": stands.efficiency},
+        }}
+
+    @property
+    def efficiency(self) -> float | None:
+        """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
+        with_, without = (self._delivered(suffix) for suffix in (" with friction", ""))
+        return efficiency(without, with_)
+
+    def _delivered(self, suffix: str) -> float:
+        """The power that the balances of the construction give, in force * length/s."""
+        loads, power = self.scene.loads, 0.0
+        for number, balance in enumerate(loads.balances if loads else (), 1):
+            if balance.at:
+                force, velocity = self.results["balance" + suffix][str(number)], self.rates.velocity[balance.at]
+                power += float(force[0] * velocity[0] + force[1] * velocity[1])
+            else:
+                moment = self.results["balance moment" + suffix][str(number)]
+                power += float(moment * metre(self.scene.units) * self.rates.omega[balance.link])
+        return power
 
     def _balance(self, name: str) -> dict[str, Any]:
         """One balance, from the force plans, else from the lever."""
-        for kind, word in (("balance", "force"), ("balance moment", "moment"), ("lever", "force"),
-                           ("lever moment", "moment")):
-            if name in self.results.get(kind, {}):
-                return {word: _number(self.results[kind][name])}
-        return {}
+        kinds = ("balance", "balance moment", "lever", "lever moment")
+        return next(_balance(self.results[kind][name]) for kind in kinds if name in self.results.get(kind, {}))
 
     def _merged(self, names: Iterable[str], **kinds: str) -> dict[str, Any]:
         """Readings of several kinds by name, as JSON takes them."""
@@ -188,16 +217,18 @@ class Report:
 
 
 def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "orthogonal",
-           strict: bool = False) -> Report:
+           strict: bool = False, inertia: str = "couple") -> Report:
     """Construct, read, solve and compare.
 
-    Fails with `SingularPose`, which names the links and the lines that should meet; with `Refused` where --exact meets
+    Friction, which depends on the sizes of reactions, is left out of exact numbers. Fails with `SingularPose`, which names the links and the lines that should meet; with `Refused` where --exact meets
     an irrational scene, or where no construction reaches what is asked.
     """
     if exact and scene.irrational:
         raise Refused(f"{scene.name}: {', '.join(scene.irrational)}", "fractions cannot hold this", "leave out --exact")
+    if exact and scene.loads is not None:  # the size of a reaction is a root
+        scene = replace(scene, loads=replace(scene.loads, frictions=()))
     try:
-        drawing = construct(scene, method=method, plan=plan, strict=strict)
+        drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
     except Refused as refused:
         raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
     domain: Domain = Fractions() if exact else Floats()
@@ -226,6 +257,11 @@ def _miss(drawing: Construction, domain: Domain) -> str:
 def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
     (a, b, _), (c, d, _) = (drawing.truth[line] for line in lines)
     return float(abs(a * d - b * c) / ((a * a + b * b) * (c * c + d * d)) ** 0.5)
+
+
+def _balance(value: Any) -> dict[str, Any]:
+    """A balance as JSON takes it."""
+    return {"force" if isinstance(value, tuple) else "moment": _number(value)}
 
 
 def _less(one: Any, two: Any) -> Any:

@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.structure import structure
 
     scene = load(options.scene)
-    found = report(scene, exact=options.exact, method=options.method, plan=options.plan)
+    found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia)
     lines = [scene.title, *structure(scene).lines(), "", f"{'':<24}{'construction':>32}{'analytic solver':>32}"]
     for part, ours in found.results.items():
         truth = found.truth(part)

@@ -17,6 +17,9 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     command.add_argument("--plan", default="orthogonal", metavar="PLAN",
                          help="orthogonal velocities on the mechanism plan (default), or polar plans; of the forces "
                          "lever, polygons, or both (default); such as --plan polar,lever")
+    command.add_argument("--inertia", default="couple", choices=("couple", "shifted", "points"),
+                         help="inertia forces: at the centre of mass with a couple (default), shifted so that they "
+                         "need none, or at two points that replace the link")
     if strict:
         command.add_argument("--strict", action="store_true",
                              help="compasses and straightedge alone, no set squares")

@@ -23,6 +23,6 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
-    found = report(load(options.scene), method=options.method, plan=options.plan)
+    found = report(load(options.scene), method=options.method, plan=options.plan, inertia=options.inertia)
     write(sheet.svg(found.drawing, paper=options.paper, check=found.check), options.output)
     return 0

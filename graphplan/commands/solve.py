@@ -23,6 +23,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
-    found = report(load(options.scene), exact=options.exact, method=options.method, plan=options.plan)
+    found = report(load(options.scene), exact=options.exact, method=options.method, plan=options.plan,
+                   inertia=options.inertia)
     write(json.dumps(found.data(), indent=2, ensure_ascii=False) + "\n", None)
     return 0 if found.agrees else 1

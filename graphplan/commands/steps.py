@@ -26,7 +26,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.structure import structure
 
     scene = load(options.scene)
-    found = report(scene, method=options.method, plan=options.plan, strict=options.strict)
+    found = report(scene, method=options.method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     lines = structure(scene).lines()
     if options.json:
         write(json.dumps(text.steps(found.drawing, lines), indent=1, ensure_ascii=False) + "\n", None)

@@ -240,13 +240,13 @@ def _counters_afar(d: Drawn, y: int, z: int, X: int, C: int, p: int, q: int, m: 
     A force is its two components and its moment about X: three that are held by two lines have no determinant.
     """
     ways = d.way(y), d.way(z)
-    lines = [(way.real, way.imag, d.off(k, d[X])) for k, way in zip((y, z), ways, strict=True)]
-    pole = _cross3(*lines)
+    lines = [(way.real, way.imag, d.off(k, d[X]) / d.size) for k, way in zip((y, z), ways, strict=True)]
+    pole = _cross3(*lines)  # the flatter the lines cross, the less they tell
     force, load = d[-1] - d[m], d[q] - d[p]
     both = force + load
-    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * _cross(d[C] - d[X], load)
+    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * _cross(d[C] - d[X], load) / d.size
     free = _cross(complex(pole[0], pole[1]), force)  # a part of the force along the way to the pole holds nothing
-    return (abs(lever) + abs(free)) / (math.hypot(*pole) or 1.0) / d.size / (1 + abs(d[C] - d[X]))
+    return (abs(lever) + abs(free)) / d.size / (1 + abs(force) / d.size)
 
 
 def _concurrent(d: Drawn, y: int, z: int) -> float:
@@ -265,6 +265,28 @@ def _resists(d: Drawn, P: int, R: int, a: int, b: int, m: int) -> float:
     arm = d[R] - d[P]
     turning = _forward(d[b] - d[a], 1j * arm) / abs(arm)
     return (_cross(arm, d[-1] - d[m]) + d.number("ratio") * turning) / abs(arm) / d.size
+
+
+def _carries_couple(d: Drawn, C: int, s: int, t: int, P: int, R: int, a: int, b: int) -> float:
+    """At the drawn point the force against the acceleration has the couple's moment about the centre."""
+    arm, rate = d[R] - d[P], d[t] - d[s]
+    turning = _forward(d[b] - d[a], 1j * arm) / abs(arm)
+    moment, couple = _cross(d[-1] - d[C], -rate), -d.number("ratio") * turning
+    return (moment - couple) / abs(rate) / (d.size + abs(d[-1] - d[C]))
+
+
+def _rubs(d: Drawn, P: int, R: int, w: int, p: int, q: int, m: int) -> float:
+    """The couple is the reaction at the radius of the friction circle, against the turning."""
+    arm, turned = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P])
+    couple = d.number("radius") * abs(d[q] - d[p]) * math.copysign(1.0, turned)
+    return (_cross(arm, d[-1] - d[m]) - couple) / abs(arm) / (d.size + abs(couple) / abs(arm))
+
+
+def _drags(d: Drawn, B: int, w: int, p: int, q: int, m: int) -> float:
+    """The friction is the reaction times its coefficient, against the sliding."""
+    sliding = _unit((d[w] - d[B]) / 1j)
+    friction = -d.number("coefficient") * abs(d[q] - d[p]) * sliding
+    return abs(d[-1] - d[m] - friction) / d.size
 
 
 RESIDUALS: dict[str, Callable[..., float]] = {
@@ -307,6 +329,9 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "concurrent": _concurrent,
     "turns": _turns,
     "resists": _resists,
+    "carries couple": _carries_couple,
+    "rubs": _rubs,
+    "drags": _drags,
 }
 
 

@@ -29,7 +29,8 @@ FLOATS = Floats()
 BY_SET_SQUARE = frozenset({
     "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
     "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
-    "quarter", "bisector", "balance", "couple", "inertia_pair",
+    "quarter", "bisector", "balance", "couple", "inertia_pair", "shifted", "journal",
+    "drag",
 })
 STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
 
@@ -151,10 +152,10 @@ class Expander:
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
              form: str) -> Trial | None:
         """Draw a form without letters, look at it, take it back."""
-        before = len(self.board.steps)
+        before, size = len(self.board.steps), self.size
         try:
             out: Mark | None = op.forms[form](Pencil(self, None), *args, **params)
-            if out is None or not self._agrees(op, self.value(out), truth):
+            if out is None or not self._agrees(op, self.value(out), truth, size):
                 return None
             return self._judge(form, before)
         except (Undrawable, ZeroDivisionError):
@@ -173,13 +174,14 @@ class Expander:
         points = [self.values[s.index] for s in self.board.steps if s.op.gives == POINT and s.index < len(self.values)]
         return max((math.hypot(*point) for point in points), default=1.0) or 1.0
 
-    def _agrees(self, op: Primitive, value: Any, truth: Any) -> bool:
+    def _agrees(self, op: Primitive, value: Any, truth: Any, size: float) -> bool:
+        """Whether a form gave the rule's value; `size` is the drawing's without the form's own marks."""
         if op.gives == LINE:
             centre = self.windows.get(self.panel, EVERYWHERE).centre
             locus = any(claim[0] in ("locus", "concurrent") for claim in op.claims)
-            return _line_gap(truth, value, centre, self.size) <= AGREE * self.size and (
+            return _line_gap(truth, value, centre, size) <= AGREE * size and (
                 locus or not _runs_against(truth, value))
-        return math.dist(value, truth) <= AGREE * self.size
+        return math.dist(value, truth) <= AGREE * size
 
     def _judge(self, form: str, before: int) -> Trial | None:
         steps = self.board.steps[before:]

@@ -75,6 +75,52 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
     return _across(arm, -d.lift(ratio) * _cross(arm, _vector(a, b)) / square / square, m)
 
 
+@primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Shift the inertia force of {0} aside, square to the acceleration from {1} to {2}, by e: {ratio} times the "
+           "angular acceleration (from {5} to {6} over {3}{4}) by it. Mark {out}, where it acts alone.",
+           claims=(("across", (0, -1), (1, 2)), ("carries couple", 0, 1, 2, 3, 4, 5, 6)),
+           fails=("points-coincide", "couple-alone"), params=("ratio",), where=0,
+           source="Ozols 1974, 9-2, fig. 9-4c")
+def shifted(d: Any, C: Any, s: Any, t: Any, P: Any, R: Any, a: Any, b: Any, /, *, ratio: Any) -> Any:
+    """The point, square to the acceleration st of the centre C, where a link's inertia force acts without a couple."""
+    arm, rate = _arm(d, P, R), _vector(s, t)
+    d.nonzero(_size(rate), _size(s) + _size(t), "couple-alone", "the centre of mass does not accelerate")
+    turning = _cross(arm, _vector(a, b)) / _square(arm)
+    return _across(rate, -d.lift(ratio) * turning / _square(rate), C)
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "The reaction from {3} to {4} touches the friction circle of {0}, of radius {radius}: for its couple, "
+           "against the turning shown by {1}{2}, take a pair of forces at {0} and {1}; from {5} lay off that at {1}, "
+           "mark {out}.",
+           claims=(("across", (5, -1), (0, 1)), ("rubs", 0, 1, 2, 3, 4, 5)), fails=("points-coincide", "stands-still"),
+           params=("radius",), source="Ozols 1974, 12-4, fig. 12-11")
+def journal(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, m: Any, /, *, radius: Any) -> Any:
+    """The end of the force at R, laid off from m, whose pair with P is the friction couple of a journal at P.
+
+    pq is the journal's reaction; Rw the orthogonal velocity of R against the other link, which runs with PR where the
+    link turns clockwise.
+    """
+    arm, force, slip = _arm(d, P, R), _vector(p, q), _vector(R, w)
+    turning = arm[0] * slip[0] + arm[1] * slip[1]
+    d.nonzero(turning, _square(arm), "stands-still", "the two links do not turn on each other")
+    couple = d.lift(radius) * d.sqrt(_square(force), "not-rational", "a reaction has a square")
+    return _across(arm, couple * turning / abs(turning) / _square(arm), m)
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "The reaction from {2} to {3} leans by the friction angle, of tangent {coefficient}, against the sliding "
+           "shown by {0}{1}: from {4} lay off its part along the guide; mark {out}.",
+           claims=(("drags", 0, 1, 2, 3, 4),), fails=("stands-still",), params=("coefficient",),
+           source="Ozols 1974, 12-1")
+def drag(d: Any, B: Any, w: Any, p: Any, q: Any, m: Any, /, *, coefficient: Any) -> Any:
+    """The end of the friction force of a slide, laid off from m; Bw is the orthogonal velocity along the guide."""
+    slip, force = _vector(B, w), _vector(p, q)
+    speed2 = d.nonzero(_square(slip), _size(B) * _size(B), "stands-still", "the two links do not slide")
+    size = d.lift(coefficient) * d.sqrt(_square(force) / speed2, "not-rational", "a reaction has a square")
+    return _across(slip, size, m)
+
+
 def _meeting(y: Any, z: Any) -> Any:
     """Where two lines meet, as (x, y, w): the point (x/w, y/w), far away where w is nothing."""
     return y[1] * z[2] - z[1] * y[2], y[2] * z[0] - z[2] * y[0], y[0] * z[1] - z[0] * y[1]

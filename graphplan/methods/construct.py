@@ -12,8 +12,9 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.force_plan import Shown
-from graphplan.methods.forces import freed_reactions, levers, reactions, results
+from graphplan.methods.force_plan import Forces, Shown
+from graphplan.methods.forces import freed_reactions, levers, reactions, results, rubbed
+from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
@@ -56,6 +57,15 @@ class Draughtsman:
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves),
                             phi=self.phi, shown=shown)
 
+    def _friction(self, velocity: Velocity, loading: Loading, forces: Forces) -> None:
+        """The same force plans with the friction of the reactions among the loads, for the balances alone."""
+        loading.rubbing = Rubbed(self.board, velocity, loading, forces)
+        second, _ = reactions(self.board, self.pose, loading, self.order, self.pick, forces)
+        self.shown += second.shown
+        for kind, of, marks in rubbed(loading, second):
+            self._read(kind, of, *marks)
+        loading.rubbing = None
+
     def _arrows(self) -> tuple[Reading, ...]:
         """The forces drawn as arrows: of those that what is asked for needs."""
         needed = needed_steps(self.board, self.marks)
@@ -84,12 +94,15 @@ class Draughtsman:
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """The reactions and the balance, group by group against the motion's order."""
         self.phi = force_scale(self.scene)
-        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan)
+        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan,
+                          self.style.inertia)
         if self.style.polygons:
             forces, self.options = reactions(self.board, self.pose, loading, self.order, self.pick)
             self.shown += forces.shown
             for kind, of, marks in results(self.scene, loading, forces, self.board):
                 self._read(kind, of, *marks)
+            if loading.loads.frictions:
+                self._friction(velocity, loading, forces)
         if self.style.lever:
             found, shown = levers(self.pose, velocity, loading)
             if not self.style.polygons:
@@ -151,6 +164,7 @@ def _ways(moves: Iterable[Move]) -> str:
 
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 PLANS = ("orthogonal", "polar", "lever", "polygons", "both")
+INERTIA = ("couple", "shifted", "points")
 UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
 
@@ -161,30 +175,35 @@ class Style:
     polar: bool = False
     lever: bool = True
     polygons: bool = True
+    inertia: str = "couple"
 
 
-def style(plan: str) -> Style:
+def style(plan: str, inertia: str) -> Style:
     """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
+    if inertia not in INERTIA:
+        raise Refused(f"inertia {inertia}", "there is no such form", f"one of {', '.join(INERTIA)}")
     words = plan.split(",")
     for word in words:
         if word not in PLANS:
             raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
-    return Style("polar" in words, lever or both, polygons or both)
+    return Style("polar" in words, lever or both, polygons or both, inertia)
 
 
-def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False) -> Construction:
+def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False,
+              inertia: str = "couple") -> Construction:
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
     construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
-    `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the planner reaches what
-    is asked; numbers are not looked at before they are read, so a singular pose shows then.
+    `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
+    replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
+    planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
     """
     if method not in ("", *METHODS):
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
-    chosen = style(plan)
+    chosen = style(plan, inertia)
     best = best_way(Network(scene), method, lambda planner: _steadiest(scene, planner, chosen))
     best.prefer, best.strict = METHODS.get(method, ""), strict
     return best

@@ -135,7 +135,25 @@ class Construction:
                 found[kind] = once or [PLAIN[self.turned, kind]]
             else:
                 found.pop(kind, None)
-        return found
+        return found | self._force_method()
+
+    def _force_method(self) -> dict[str, list[str]]:
+        """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
+        names = ["force polygons"] if self._force_steps else []
+        letters = sorted({step.name for step in self.drawn.steps} & self._moment_points)
+        names += ["auxiliary points " + ", ".join(letters)] if letters else []
+        names += ["false position"] if any(step.op.name == "false_position" for step in self._force_steps) else []
+        names += ["Zhukovsky's lever"] if any(step.panel.startswith("lever") for step in self.drawn.steps) else []
+        return {"force": names} if names else {}
+
+    @property
+    def _force_steps(self) -> list[Step]:
+        return [step for step in self.program.steps if step.panel.startswith("force plan")]
+
+    @property
+    def _moment_points(self) -> set[str]:
+        """The letters of the points that moments are taken about where two lines of action meet."""
+        return {step.names["Q"] for step in self.program.steps if step.op.name in ("towards", "weigh")}
 
     def _letters(self) -> list[str]:
         """The letters of the auxiliary points."""
@@ -277,6 +295,8 @@ FORCE_READERS = {
     "slide moment": _read_moment,
     "balance": _read_force,
     "balance moment": _read_moment,
+    "balance with friction": _read_force,
+    "balance moment with friction": _read_moment,
     "lever": _read_force,
     "lever moment": _read_moment,
 }

@@ -65,9 +65,10 @@ def applied(board: Board, force: Acting) -> Shown:
 class Forces:
     """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows."""
 
-    def __init__(self) -> None:
+    def __init__(self, before: Forces | None = None) -> None:
         self.shown: list[Shown] = []
-        self.corners = 0
+        self.corners: int = before.corners if before else 0
+        self.suffix = " with friction" if before else ""
         self.joints: dict[tuple[str, str], Span] = {}
         self.slides: dict[Slide, Span] = {}
         self.pairs: dict[Slide, tuple[Acting, Acting] | None] = {}
@@ -81,7 +82,7 @@ class ForcePlan:
 
     def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = "force plan " + ", ".join(group.links)
+        self.panel = "force plan " + ", ".join(group.links) + forces.suffix
         self.known: dict[Site, Known] = {}
         self.ends: dict[Site, Span] = {}
         self.pairs: dict[Site, tuple[Acting, Acting] | None] = {}

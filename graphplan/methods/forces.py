@@ -16,13 +16,18 @@ from graphplan.methods.velocity import Velocity
 
 REACTION, SLIDE_REACTION, SLIDE_MOMENT = "reaction", "slide reaction", "slide moment"
 BALANCE, BALANCE_MOMENT = "balance", "balance moment"
+RUBBED, RUBBED_MOMENT = "balance with friction", "balance moment with friction"
 LEVER, LEVER_MOMENT = "lever", "lever moment"
 Result = tuple[str, str, tuple[Mark, ...]]
 
 
-def reactions(board: Board, pose: Pose, loading: Loading, order: str, pick: int) -> tuple[Forces, int]:
-    """All reactions, drawn; and at how many places a trial could begin, where one is needed."""
-    forces, done, options = Forces(), list[str](), 1
+def reactions(board: Board, pose: Pose, loading: Loading, order: str, pick: int,
+              before: Forces | None = None) -> tuple[Forces, int]:
+    """All reactions, drawn; and at how many places a trial could begin, where one is needed.
+
+    `before` are those without friction, where friction is now among the loads.
+    """
+    forces, done, options = Forces(before), list[str](), 1
     for links in groups(loading.scene):
         group = Group(loading.scene, links, done)
         plan = ForcePlan(board, pose, group, loading, forces)
@@ -48,6 +53,16 @@ def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:
 def pair_name(point: str, link: str) -> str:
     """How the reaction on a link at a joint is named among the readings."""
     return f"{link} at {point}"
+
+
+def rubbed(loading: Loading, forces: Forces) -> Iterator[Result]:
+    """The balances with friction, by kind and name."""
+    for number, balance in enumerate(loading.loads.balances, 1):
+        if balance.at:
+            yield RUBBED, str(number), forces.balances[balance]
+        else:
+            pair = forces.moments[balance]
+            yield RUBBED_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:

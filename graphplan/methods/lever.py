@@ -54,7 +54,7 @@ class Lever:
     def end(self, link: str, point: str) -> Mark:
         """The end of the orthogonal velocity of a link's point, from the pole."""
         scene, point = self.velocity.net.scene, self.renamed.get((link, point), point)
-        if FRAME in scene.links_of[point] and point in scene.links[link]:
+        if FRAME in scene.links_of.get(point, ()) and point in scene.links[link]:
             return self.pole
         name = f"{self.velocity.pose.spoken(point).lower()}_o"
         if isinstance(self.velocity, Polar):

@@ -15,7 +15,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.network import Network
-from graphplan.methods.poses import Pose
+from graphplan.methods.poses import MECHANISM, Pose
 from graphplan.methods.tempo import extent, round_number, tempo
 
 
@@ -44,15 +44,26 @@ class Motion(Protocol):
     def end_in(self, link: str, point: str) -> Mark: ...
 
 
+class Rubbing(Protocol):
+    """Friction as loads: the forces of slides and the couples of journals on a link."""
+
+    def drags(self, link: str) -> Iterator[tuple[str, Lay]]: ...
+    def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]: ...
+
+
 class Loading:
     """The loads of each link, laid off from any mark of a force plan.
 
     Reads the plan of accelerations where links have masses, and `phi` and `unit` (of angular velocity), by which forces
-    and rates are drawn.
+    and rates are drawn. `inertia` names the form of inertia forces: at the centre with a couple, shifted so that it
+    needs none, or as those of two points that replace the link.
     """
 
-    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Motion | None):
+    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Motion | None,
+                 inertia: str = "couple"):
         self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
+        self.inertia = inertia
+        self.rubbing: Rubbing | None = None
         self.scene: Scene = net.scene
         assert self.scene.loads is not None
         self.loads: Loads = self.scene.loads
@@ -77,22 +88,75 @@ class Loading:
             if any(heaviness):
                 why = f"G_{link}, the weight of link {link}, at {mass.centre}"
                 yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
-            if self._accelerated(link, mass.centre):
-                yield mass.centre, partial(self._inertia, link, mass)
+            yield from self._inertia_forces(link, mass)
+        if self.rubbing is not None:
+            yield from self.rubbing.drags(link)
+
+    def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
+        """The inertia force at the centre of mass, shifted aside, or at two points that replace the link."""
+        form = self._form(link, mass)
+        radius2 = mass.inertia / mass.mass * metre(self.scene.units) ** 2
+        if form == "shifted":
+            yield self._shifted(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+        elif form == "points":
+            pivot = self.arm_points(link)[0]
+            part = radius2 / self._square(pivot, mass.centre)
+            centre = self._beyond(link, pivot, mass.centre, part)
+            yield centre, partial(self._inertia, link, centre, mass.mass / (1 + part), f"J_{link}")
+            if self._accelerated(link, pivot):
+                yield pivot, partial(self._inertia, link, pivot, mass.mass * part / (1 + part), f"J_{link}'")
+        elif self._accelerated(link, mass.centre):
+            yield mass.centre, partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+
+    def _form(self, link: str, mass: Mass) -> str:
+        """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
+        if self.motion is None or not (mass.inertia and self.turns(link)):
+            return ""
+        able = {"shifted": self._accelerated(link, mass.centre),
+                "points": self._square(self.arm_points(link)[0], mass.centre)}
+        return self.inertia if mass.mass and able.get(self.inertia) else "couple"
+
+    def _square(self, P: str, R: str) -> Number:
+        one, two = self.scene.points[P], self.scene.points[R]
+        return (one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2
+
+    def _shifted(self, link: str, mass: Mass, radius2: Number) -> str:
+        """The point where the inertia force acts without a couple."""
+        assert self.motion is not None
+        name, (P, R) = f"K_{link}", self.arm_points(link)
+        if name not in self.pose.points:
+            ends = [self.motion.end_in(link, point) for point in (P, R)]
+            vector = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+            points = self.pose.points
+            with self.board.on(MECHANISM, (link,)):
+                points[name] = self.board.shifted(points[mass.centre], *vector, points[P], points[R], *ends,
+                                                  ratio=radius2, name=name)
+        return name
+
+    def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
+        """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
+        name, points = f"K_{link}", self.pose.points
+        if name not in points:
+            with self.board.on(MECHANISM, (link,)):
+                points[name] = self.board.step_off(
+                    points[pivot], points[centre], points[centre], ratio=part, name=name,
+                    why=f"the radius of gyration is the mean of the distances from {centre}")
+        return name
 
     def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
         x, y = value
         head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why)
         return Acting(self.pose.points[at], start, head, name)
 
-    def _inertia(self, link: str, mass: Mass, start: Mark) -> Acting:
-        """The inertia force, against the acceleration of the centre of mass."""
+    def _inertia(self, link: str, point: str, mass: Number, name: str, start: Mark) -> Acting:
+        """The inertia force of a mass that moves as a point of a link does, against its acceleration."""
         assert self.motion is not None
-        home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
-        ratio = -mass.mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
-        why = f"J_{link}, the inertia force of link {link}, against the acceleration of {mass.centre}"
+        shifted = self._form(link, self.loads.masses[link]) == "shifted"
+        home, end = self.motion.figure(link, point), self.motion.end_in(link, point)
+        ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
+        why = f"{name}, the inertia force of link {link}, against the acceleration of {self.pose.spoken(point)}"
         head = self.board.step_off(home, end, start, ratio=ratio, why=why)
-        return Acting(self.pose.points[mass.centre], start, head, f"J_{link}")
+        return Acting(self.pose.points[f"K_{link}" if shifted else point], start, head, name)
 
     def _accelerated(self, link: str, point: str) -> bool:
         return self.motion is not None and FRAME not in self.scene.links_of[point]
@@ -106,8 +170,10 @@ class Loading:
                 head = self.board.couple(P, R, start, moment=value, why=f"the given moment on link {link}")
                 yield Acting(R, start, head, f"M_{link}"), Acting(P, head, start, f"M_{link}")
         mass = self.loads.masses.get(link)
-        if mass and mass.inertia and self.motion is not None and self.turns(link):
+        if mass and self._form(link, mass) == "couple":
             yield self._inertia_pair(link, mass, start)
+        if self.rubbing is not None:
+            yield from self.rubbing.couples(link, start)
 
     def _inertia_pair(self, link: str, mass: Mass, start: Mark) -> tuple[Acting, Acting]:
         assert self.motion is not None

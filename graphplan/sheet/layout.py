@@ -30,7 +30,6 @@ SMALLEST = (115.0, 90.0), (85.0, 75.0)  # the mechanism's panel and any other
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
-CAPTIONS = {MECHANISM: "Mechanism plan", "N-plan": "N-plan: relative normal accelerations"}
 
 
 @dataclass(frozen=True)
@@ -63,8 +62,9 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     block = TitleBlock(drawing.scene.title, drawing.scene.source)
     composition = _composed(planes, cache(Words(planes, check or {}).rows), block.height, paper)
     arrangement, scales = composition.arrangement, composition.scales
-    items = [*_frame(arrangement), *_captions(composition, planes)]
+    items = list(_frame(arrangement))
     for panel, window in composition.views.items():
+        items += captions(arrangement.panels[panel], panel, planes, scales)
         items += _panel(planes, panel, window)
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
@@ -105,8 +105,9 @@ def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], planes: Pl
     for panel in planes.panels[1:]:
         multiples[panel], box = plan_multiple(figures[panel], inner[panel], k_s)
         views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
-    drawing = planes.drawing
-    return Composition(arrangement, Scales(k_s, drawing.kappa, drawing.scene.units.length, multiples), views)
+    drawing, units = planes.drawing, planes.drawing.scene.units
+    scales = Scales(k_s, drawing.kappa, units.length, multiples, float(drawing.phi), units.force)
+    return Composition(arrangement, scales, views)
 
 
 def _legible(planes: Planes, views: Mapping[str, View]) -> bool:
@@ -132,22 +133,6 @@ def _frame(arrangement: Arrangement) -> Iterator[Item]:
     for rect, pen in ((arrangement.frame, pens.FRAME), *((rect, pens.BORDER) for rect in arrangement.panels.values())):
         corners = (rect.left, rect.bottom), (rect.right, rect.bottom), (rect.right, rect.top), (rect.left, rect.top)
         yield Polygon(pen, "paper", None, corners)
-
-
-def _captions(composition: Composition, planes: Planes) -> Iterator[Item]:
-    """Over each plan what it is, and its scales."""
-    for panel, rect in composition.arrangement.panels.items():
-        multiple = composition.scales.multiples.get(panel)
-        name = CAPTIONS.get(panel, panel[0].upper() + panel[1:])
-        if panel == MECHANISM and "velocity" in planes.kinds(panel):
-            name += " with orthogonal velocities"
-        head = name + (f", {times(multiple)}" if multiple not in (None, 1) else "")
-        x, y = rect.left + 2.5, rect.top - 4.6
-        yield Text(pens.LETTERS, "text", None, (x, y), sentence_runs(head), 3.0, bold=True)
-        said = ",  ".join(composition.scales.said(panel, planes.kinds(panel)))
-        for i, runs in enumerate(wrap(sentence_runs(said), SIZE, rect.width - 5)):
-            if (below := 3.7 * (i + 1)) < CAPTION:
-                yield Text(pens.LETTERS, "text", None, (x, y - below), runs, SIZE)
 
 
 def _panel(planes: Planes, panel: str, window: View) -> list[Item]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 INK, GREY, BLUE, RED, GREEN, TINT = "#000000", "#555555", "#0b3c8c", "#a3151b", "#1c6b3a", "#e9eef2"
+BROWN, VIOLET = "#4a2c0a", "#6a1b8a"
 PAPER = "#ffffff"
 
 
@@ -60,6 +61,12 @@ VECTORS = {
     "acceleration": Pen(0.5, RED, fill=RED),
     "normal": Pen(0.35, INK, fill=INK),
     "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
+    "load": Pen(0.7, BROWN, fill=BROWN),
+    "reaction": Pen(0.35, VIOLET, fill=VIOLET),
+    "part": Pen(0.25, VIOLET, (2.0, 1.0), fill=VIOLET),
+    "balance": Pen(1.0, GREEN, fill=GREEN),
 }
+FORCES = frozenset({"load", "reaction", "part", "balance"})  # the kinds of vector that are forces
 GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED)}
-HEADS = {"velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4}
+HEADS = {"velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
+         "load": 4.0, "reaction": 4.0, "part": 2.4, "balance": 5.0}

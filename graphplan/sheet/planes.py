@@ -14,10 +14,10 @@ from typing import Any, Protocol
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Number, Scene, TurningDrive
 from graphplan.sheet.display import Rect, Spot
 
-MECHANISM = "mechanism"
+MECHANISM, LEVER = "mechanism", "lever"
 
 
 class Vector(Protocol):
@@ -48,6 +48,8 @@ class Drawing(Protocol):
     def arrows(self) -> Sequence[Vector]: ...
     @property
     def kappa(self) -> float: ...
+    @property
+    def phi(self) -> Number: ...
     @property
     def method(self) -> dict[str, list[str]]: ...
     @property
@@ -91,7 +93,8 @@ class Planes:
             return step.panel if number == 1 else f"{step.panel}, part {number}"
         steps = self.drawing.drawn.steps
         read = [homes[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [homes[step.args[0]]]
-        return next((home for home in reversed(read) if home.startswith(step.panel)), read[0])
+        own = (home for home in reversed(read) if home == step.panel or home.startswith(f"{step.panel}, part "))
+        return next(own, read[0])
 
     @cached_property
     def panels(self) -> list[str]:
@@ -136,8 +139,15 @@ class Planes:
         return [v for v in self.drawing.arrows if self.homes[v.start] == self.homes[v.end] == panel]
 
     def kinds(self, panel: str) -> set[str]:
-        """The kinds of vector drawn on a plan."""
-        return {vector.kind for vector in self.vectors(panel)}
+        """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
+        lever = {"velocity"} if panel == LEVER and self._moves else set()
+        return lever | {vector.kind for vector in self.vectors(panel)}
+
+    @property
+    def _moves(self) -> bool:
+        """Whether the scene has one drive, and it moves: else a lever has assumed velocities."""
+        rates = [d.omega if isinstance(d, TurningDrive) else d.speed for d in self.drawing.scene.drives]
+        return len(rates) == 1 and bool(rates[0])
 
     def diameter(self, step: Step) -> int | None:
         """One end of a half circle's diameter: of an arc struck about the middle of two points through one of them."""

@@ -1,8 +1,9 @@
 """Scales: how much of the scene one millimetre of paper stands for, in round values.
 
 The mechanism plan is drawn at k_s; the construction's kappa then ties the velocities to it, k_v = k_s/kappa, and the
-accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan. A plan that would be
-too small or too large is drawn at a round multiple of the scale, and says so.
+accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan; forces are phi lengths
+long for each unit, k_F = k_s/phi. A plan that would be too small or too large is drawn at a round multiple of the
+scale, and says so.
 """
 
 from __future__ import annotations
@@ -10,6 +11,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from fractions import Fraction
+
+from graphplan.sheet.pens import FORCES
 
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
 MULTIPLES = (1, 2, 3, 5)
@@ -52,12 +55,15 @@ def times(multiple: Fraction) -> str:
 
 @dataclass(frozen=True)
 class Scales:
-    """The scales of one sheet: `k_s` in lengths per mm, the construction's kappa, the multiples of the other plans."""
+    """The scales of one sheet: `k_s` in lengths per mm, the multiples of the other plans, the construction's kappa and
+    phi, and the units of length and force."""
 
     k_s: float
     kappa: float
     length: str
     multiples: dict[str, Fraction]
+    phi: float = 1.0
+    unit: str = "N"
 
     def of(self, panel: str) -> float:
         """Scene lengths for one mm on a panel."""
@@ -71,12 +77,18 @@ class Scales:
         """Acceleration for one mm of a vector on a panel."""
         return self.of(panel) / self.kappa**2
 
+    def force(self, panel: str) -> float:
+        """Force for one mm of a vector on a panel."""
+        return self.of(panel) / self.phi
+
     def said(self, panel: str, kinds: set[str]) -> list[str]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
-        unit = self.length
-        lines = [f"k_s = {digits(self.k_s)} {unit}/mm"] if panel not in self.multiples else []
+        length = self.length
+        lines = [f"k_s = {digits(self.k_s)} {length}/mm"] if panel not in self.multiples else []
         if kinds & {"velocity", "relative"}:
-            lines.append(f"k_v = {digits(self.speed(panel))} {unit}/s per mm")
+            lines.append(f"k_v = {digits(self.speed(panel))} {length}/s per mm")
         if kinds & {"acceleration", "normal"}:
-            lines.append(f"k_a = {digits(self.acceleration(panel))} {unit}/s² per mm")
+            lines.append(f"k_a = {digits(self.acceleration(panel))} {length}/s² per mm")
+        if kinds & FORCES:
+            lines.append(f"k_F = {digits(self.force(panel))} {self.unit}/mm")
         return lines

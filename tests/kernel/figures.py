@@ -44,7 +44,8 @@ def extremes(r: Random) -> tuple[float, float]:
 
 
 PARAMS: dict[str, Callable[[Random], Any]] = {
-    **dict.fromkeys(("x", "y", "dx", "dy", "length"), lambda r: Fraction(r.randint(-8, 8), 4)),
+    **dict.fromkeys(("x", "y", "dx", "dy", "length", "moment"), lambda r: Fraction(r.randint(-8, 8), 4)),
+    **dict.fromkeys(("radius", "coefficient"), lambda r: Fraction(r.randint(1, 8), 8)),
     "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
     "plan": lambda r: "N-plan",
     "number": lambda r: r.randint(1, 3),

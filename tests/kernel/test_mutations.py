@@ -102,6 +102,15 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("false_position", "errors added", lambda rule: lambda d, A1, A2, Z1, l1, Z2, l2: rule(
         d, A1, A2, Z1, l1, (2 * Z1[0] - Z2[0], 2 * Z1[1] - Z2[1]), l2)),
     ("false_position", "from the second trial", ordered(1, 0, 2, 3, 4, 5)),
+    ("balance", "sign of the moment", reflected(5)),
+    ("balance", "about the other point", ordered(1, 0, 2, 3, 4, 5)),
+    ("couple", "the wrong way round", reflected(2)),
+    ("inertia_pair", "with the turning", reflected(4)),
+    ("shifted", "to the other side", reflected(0)),
+    ("journal", "with the turning", reflected(5)),
+    ("drag", "with the sliding", reflected(4)),
+    ("towards", "parallel to the first line", lambda rule: lambda d, y, z, X: (y[0], y[1], -y[0] * X[0] - y[1] * X[1])),
+    ("weigh", "sign of the moment", reflected(6)),
 ]
 
 

@@ -1,0 +1,84 @@
+"""Friction on the drawing board: what the reactions of a plan without friction rub, as loads of a second plan.
+
+In a journal the reaction touches the friction circle, against the turning; in a slide it leans by the friction angle,
+against the sliding. Both follow from the reaction, so the plan is drawn without friction first, and then again (Ozols
+1974, 9-1 and 12-4). The balances of the two plans give the instantaneous efficiency.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import partial
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Friction, Slide
+from graphplan.methods.force_plan import Forces
+from graphplan.methods.loading import Acting, Lay, Loading
+from graphplan.methods.poses import MECHANISM
+from graphplan.methods.velocity import Velocity
+
+
+class Rubbed:
+    """The friction of a scene's pairs under known reactions."""
+
+    def __init__(self, board: Board, velocity: Velocity, loading: Loading, forces: Forces):
+        self.board, self.velocity, self.loading, self.forces = board, velocity, loading, forces
+        self.scene, self.points = loading.scene, loading.pose.points
+        self.slides = {(slide.link, slide.along): slide for slide in self.scene.slides}
+
+    def drags(self, link: str) -> Iterator[tuple[str, Lay]]:
+        """The friction forces of the slides of a link."""
+        for friction in self.loading.loads.frictions:
+            if friction.slide and link in friction.slide and friction.coefficient:
+                slide = self.slides[friction.slide]
+                yield slide.at, partial(self._drag, slide, friction, slide.link == link)
+
+    def _drag(self, slide: Slide, friction: Friction, same: bool, start: Mark) -> Acting:
+        """The friction force of a slide on the sliding link, or its answer on the guide's."""
+        with self.board.on(MECHANISM, (slide.link, slide.along)):
+            slip = self.velocity.slip(slide.along, slide.link, slide.at)
+        why = f"F_{slide.link}, the friction of the slide {slide.name}"
+        tip = self.board.drag(self.points[slide.at], slip, *self.forces.slides[slide], start,
+                              coefficient=friction.coefficient, why=why)
+        if not same:
+            tip = self.board.transfer(tip, start, start)
+        return Acting(self.points[slide.at], start, tip, f"F_{slide.link}")
+
+    def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]:
+        """The friction couples of the journals of a link, as pairs of forces; each pair's links have it opposite."""
+        for friction in self.loading.loads.frictions:
+            if not friction.at or not friction.radius * friction.coefficient:
+                continue
+            pin, *others = self.scene.links_of[friction.at]
+            for other in others:
+                if link == other:
+                    yield self._couple(friction, other, pin, start)
+                elif link == pin:
+                    force, answer = self._couple(friction, other, pin, start)
+                    yield force.reversed, answer.reversed
+
+    def _couple(self, friction: Friction, link: str, pin: str, start: Mark) -> tuple[Acting, Acting]:
+        name = self._arm(friction.at, link if link != FRAME else pin)
+        P, R = self.points[friction.at], self.points[name]
+        with self.board.on(MECHANISM, (link, pin)):
+            slip = self.velocity.slip(pin, link, name)
+        why = f"the friction of the journal {friction.at}, of link {link} in link {pin}"
+        radius = friction.radius * friction.coefficient
+        tip = self.board.journal(P, R, slip, *self._reaction(friction.at, link), start, radius=radius, why=why)
+        letter = f"M_{friction.at}"
+        return Acting(R, start, tip, letter), Acting(P, tip, start, letter)
+
+    def _arm(self, point: str, link: str) -> str:
+        """Another point of a link than the journal."""
+        one, two = self.loading.arm_points(link)
+        return two if one == point else one
+
+    def _reaction(self, point: str, link: str) -> tuple[Mark, Mark]:
+        """The reaction of a journal; the frame has that of the moving link there, the other way."""
+        if (point, link) in self.forces.joints:
+            return self.forces.joints[point, link]
+        spans = [self.forces.joints[point, other][::-1] for other in self.scene.links_of[point] if other != link]
+        first, mark = spans[0]
+        for tail, head in spans[1:]:
+            mark = self.board.transfer(tail, head, mark)
+        return first, mark

@@ -220,8 +220,9 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
            strict: bool = False, inertia: str = "couple") -> Report:
     """Construct, read, solve and compare.
 
-    Friction, which depends on the sizes of reactions, is left out of exact numbers. Fails with `SingularPose`, which names the links and the lines that should meet; with `Refused` where --exact meets
-    an irrational scene, or where no construction reaches what is asked.
+    Friction, which depends on the sizes of reactions, is left out of exact numbers. Fails with `SingularPose`, which
+    names the links and the lines that should meet; with `Refused` where --exact meets an irrational scene, or where no
+    construction reaches what is asked.
     """
     if exact and scene.irrational:
         raise Refused(f"{scene.name}: {', '.join(scene.irrational)}", "fractions cannot hold this", "leave out --exact")

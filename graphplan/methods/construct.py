@@ -12,7 +12,6 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.force_plan import Forces, Shown
 from graphplan.methods.forces import freed_reactions, levers, reactions, results, rubbed
 from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
@@ -21,6 +20,7 @@ from graphplan.methods.network import Network
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
+from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity

@@ -7,15 +7,16 @@ drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from collections.abc import Iterable
 from fractions import Fraction
 
-from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
-from graphplan.methods.loading import Acting, Loading
-from graphplan.methods.poses import MECHANISM, Pose
-from graphplan.methods.sites import Group, Joint, Site
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import Balance, Slide
+from graphplan.methods.loading import Acting
+from graphplan.methods.parts import Part, Parts
+from graphplan.methods.poses import MECHANISM
+from graphplan.methods.reactions import Known, Pair, Shown, Span, pair_letter, reaction_letter, signed
+from graphplan.methods.sites import Joint, Site
 from graphplan.methods.statics import (
     About,
     Along,
@@ -31,204 +32,11 @@ from graphplan.methods.statics import (
     Where,
 )
 
-Span = tuple[Mark, Mark]
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
 
 
-@dataclass
-class Known:
-    """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
-    action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
-
-    part: Span | None
-    line: Mark | None
-    at: Mark | None
-    pair: tuple[Acting, Acting] | None = None
-
-
-@dataclass(frozen=True)
-class Shown:
-    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter."""
-
-    kind: str
-    label: str
-    tail: Mark
-    head: Mark
-
-
-def applied(board: Board, force: Acting) -> Shown:
-    """A load drawn where it acts, on the mechanism plan."""
-    with board.on(MECHANISM):
-        return Shown("load", force.name, force.at, board.transfer(force.tail, force.head, force.at))
-
-
-class Forces:
-    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows."""
-
-    def __init__(self, before: Forces | None = None) -> None:
-        self.shown: list[Shown] = []
-        self.corners: int = before.corners if before else 0
-        self.suffix = " with friction" if before else ""
-        self.joints: dict[tuple[str, str], Span] = {}
-        self.slides: dict[Slide, Span] = {}
-        self.pairs: dict[Slide, tuple[Acting, Acting] | None] = {}
-        self.seats: dict[Slide, Mark] = {}
-        self.balances: dict[Balance, Span] = {}
-        self.moments: dict[Balance, tuple[Acting, Acting] | None] = {}
-
-
-class ForcePlan:
+class ForcePlan(Parts):
     """Draws the moves of one group on a panel of its own, and enters the reactions in `forces`."""
-
-    def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
-        self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = "force plan " + ", ".join(group.links) + forces.suffix
-        self.known: dict[Site, Known] = {}
-        self.ends: dict[Site, Span] = {}
-        self.pairs: dict[Site, tuple[Acting, Acting] | None] = {}
-        self.seats: dict[Site, Mark] = {}
-        self.chains: dict[str, list[Acting]] = {}
-        self.couples: dict[str, list[tuple[Acting, Acting]]] = {}
-        with board.on(self.panel, group.links):
-            self.origin = self._corner_named(board.begin(plan=self.panel, number=1))
-            self._chain()
-        for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
-            assert site.direction is not None
-            with board.on(MECHANISM, group.links):
-                at = pose.points[site.at]
-                line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
-            self.known[site] = Known(None, line, at)
-
-    def _corner_named(self, mark: Mark) -> Mark:
-        """A corner of the polygon, with the next number if it has none."""
-        if not mark.step.name:
-            self.forces.corners += 1
-            self.board.named(mark, str(self.forces.corners))
-        return mark
-
-    # ---- loads -------------------------------------------------------------------------------------------------
-
-    def _chain(self) -> None:
-        """The known forces, link after link, head to tail; couples beside them."""
-        corner = self.origin
-        for link in self.group.links:
-            own = list(self.loading.forces(link, corner))
-            for point in self.group.points:
-                if not self.group.rest(point) and self.group.members(point) == (link,):
-                    for force in self._from_done(point):
-                        tail = own[-1].head if own else corner
-                        head = self.board.transfer(force.tail, force.head, tail)
-                        own.append(Acting(force.at, tail, head, force.name))
-            for slide in self.group.scene.slides:
-                if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
-                    tail = own[-1].head if own else corner
-                    own += self._slid(slide, slide.link == link, tail)
-            self.chains[link] = own
-            for force in own:
-                self._corner_named(force.head)
-                kind = "load" if force.name[:1] in "PGJ" else "reaction"
-                self.forces.shown.append(Shown(kind, force.name, force.tail, force.head))
-                if kind == "load":
-                    self.forces.shown.append(applied(self.board, force))
-            corner = own[-1].head if own else corner
-            self.couples[link] = list(self.loading.couples(link, corner))
-            self.forces.shown += [applied(self.board, force) for pair in self.couples[link] for force in pair]
-            for slide in self.group.scene.slides:
-                if link in (slide.link, slide.along) and {slide.link, slide.along} & self.group.done:
-                    pair = self.forces.pairs[slide]
-                    if pair is not None:
-                        one, two = pair
-                        self.couples[link].append((one, two) if slide.link == link else (one.reversed, two.reversed))
-
-    def _from_done(self, point: str) -> Iterator[Acting]:
-        """What the links of solved groups pass on at a joint."""
-        for link in self.group.scene.links_of[point]:
-            if link in self.group.done:
-                tail, head = self.forces.joints[point, link]
-                name = reaction_letter(self.group.scene, point, self.group.members(point)[0])
-                yield Acting(self.pose.points[point], head, tail, name)
-
-    def _slid(self, slide: Slide, same: bool, tail: Mark) -> Iterator[Acting]:
-        """The known reaction of a slide."""
-        one, two = self.forces.slides[slide] if same else self.forces.slides[slide][::-1]
-        name = pair_letter(*((slide.along, slide.link) if same else (slide.link, slide.along)))
-        yield Acting(self.forces.seats[slide], tail, self.board.transfer(one, two, tail), name)
-
-    # ---- a part of the group -----------------------------------------------------------------------------------
-
-    def _solved(self, part: frozenset[str]) -> Iterator[tuple[Site, int]]:
-        """The sites of a part's boundary whose forces are found, with their signs."""
-        yield from ((site, sign) for site, sign in self.group.boundary(part) if site in self.ends or site in self.pairs)
-
-    def _vectors(self, part: frozenset[str], but: Iterable[Site] = ()) -> Iterator[Acting]:
-        """The known forces that act on a part beyond its links' chains."""
-        for point in self.group.passed_on(part):
-            if len(self.group.members(point)) > 1:
-                yield from self._from_done(point)
-        for site, sign in self._solved(part):
-            if site in self.ends and site not in but:
-                tail, head = self.ends[site]
-                yield Acting(self._seat(site), *((tail, head) if sign > 0 else (head, tail)))
-
-    def _seat(self, site: Site) -> Mark:
-        """Where a site's force acts."""
-        if site in self.seats:
-            return self.seats[site]
-        return self.pose.points[site.point if isinstance(site, Joint) else site.at]
-
-    def _polygon(self, part: frozenset[str], extra: Iterable[Acting] = (), but: Iterable[Site] = ()) -> Span:
-        """The open polygon of a part's known forces: where it starts and where it ends."""
-        spans: list[Span] = []
-        for link in self.group.links:
-            if link in part and self.chains[link]:
-                spans.append((self.chains[link][0].tail, self.chains[link][-1].head))
-        if not spans:
-            corner = self._corner(part)
-            spans = [(corner, corner)]
-        start, end = spans[0]
-        for tail, head in (*spans[1:], *((v.tail, v.head) for v in (*self._vectors(part, but), *extra))):
-            if tail is end:
-                end = head
-            elif head is start:
-                start = tail
-            else:
-                end = self.board.transfer(tail, head, end)
-        return start, end
-
-    def _corner(self, part: frozenset[str]) -> Mark:
-        """The corner of the chain at which the loads of an unloaded part would stand."""
-        corner = self.origin
-        for link in self.group.links:
-            if link in part:
-                break
-            corner = self.chains[link][-1].head if self.chains[link] else corner
-        return corner
-
-    def _acting(self, part: frozenset[str], facts: Iterable[tuple[Site, int]], but: Site) -> Iterator[Acting]:
-        """Every known force on a part, with couples as pairs, and the known parts of forces with known lines."""
-        for link in self.group.links:
-            if link in part:
-                yield from self.chains[link]
-                for pair in self.couples[link]:
-                    yield from pair
-        yield from self._vectors(part, (but,))
-        for site, sign in self._solved(part):
-            pair_of = self.pairs.get(site)
-            if pair_of is not None and site != but:
-                yield from pair_of if sign > 0 else (force.reversed for force in pair_of)
-        own = [(but, sign) for site, sign in self.group.boundary(part) if site == but and isinstance(but, Slide)]
-        for site, sign in (*facts, *own):
-            known = self.known.get(site)
-            if known is None or site in self.ends:
-                continue
-            if known.part is not None:
-                tail, head = known.part if sign > 0 else known.part[::-1]
-                yield Acting(self._at(site, known), tail, head)
-            if known.pair is not None:
-                yield from known.pair if sign > 0 else (force.reversed for force in known.pair)
-
-    def _at(self, site: Site, known: Known) -> Mark:
-        return known.at if known.at is not None else self._seat(site)
 
     # ---- moves -------------------------------------------------------------------------------------------------
 
@@ -253,20 +61,14 @@ class ForcePlan:
             case Assume():
                 self._trial(move)
 
-    def _sign(self, part: frozenset[str], site: Site) -> int:
-        return next(sign for other, sign in self.group.boundary(part) if other == site)
-
-    def _others(self, part: frozenset[str], site: Site) -> list[tuple[Site, int]]:
-        return [(other, sign) for other, sign in self.group.boundary(part) if other != site]
-
-    def _told(self, part: frozenset[str], site: Site, about: About) -> Known:
+    def _told(self, part: Part, site: Site, about: About) -> Known:
         """What a part's equilibrium about a point tells of a force."""
-        sign = self._sign(part, site)
+        sign = self.sign(part, site)
         if isinstance(about, Along | AlongLine):
             return self._across(part, site, about, sign)
         if isinstance(site, Slide):
             return self._slide_line(part, site, about, sign)
-        X = self._seat(site)
+        X = self.seat(site)
         line = self._line_to(about, X)
         load = self._moments(part, site, about, X, sign)
         return Known(load, line, X)
@@ -289,21 +91,21 @@ class ForcePlan:
         names = [site.link for site in (about.one, about.two) if isinstance(site, Joint | Slide | Balance)]
         return {"Q": self.pose.letter(" ".join(sorted(names)))}
 
-    def _moments(self, part: frozenset[str], site: Site, about: About, X: Mark, sign: int,
+    def _moments(self, part: Part, site: Site, about: About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
         """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
 
         Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
         """
         backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
-        start, end = self._polygon(part) if base is None else (base, base)
+        start, end = self.polygon(part) if base is None else (base, base)
         mark = first = start if backwards else end
         why = self._why(part, about)
-        for force in self._acting(part, self._others(part, site), site):
+        for force in self.acting(part, self.others(part, site), site):
             if force.at is self._about_mark(about):
                 continue
-            tail, head = (force.head, force.tail) if backwards != (sign < 0) else (force.tail, force.head)
-            mark = self._weighed(about, X, force.at, tail, head, mark, why)
+            span = signed((force.tail, force.head), -sign if backwards else sign)
+            mark = self._weighed(about, X, force.at, span, mark, why)
         if mark is first:
             return None
         return (mark, first) if backwards else (first, mark)
@@ -311,20 +113,20 @@ class ForcePlan:
     def _about_mark(self, about: About) -> Mark | None:
         return self.pose.points[about.point] if isinstance(about, AtPoint) else None
 
-    def _why(self, part: frozenset[str], about: About) -> str:
+    def _why(self, part: Part, about: About) -> str:
         """The law: of which links, and about what, the moments are taken."""
         links = [link for link in self.group.links if link in part]
         names = f"link {links[0]}" if len(links) == 1 else f"links {', '.join(links)}"
         where = about.point if isinstance(about, AtPoint) else "the auxiliary point"
         return f"moments of {names} about {where}"
 
-    def _weighed(self, about: About, X: Mark, C: Mark, tail: Mark, head: Mark, mark: Mark, why: str) -> Mark:
+    def _weighed(self, about: About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
         if isinstance(about, AtPoint):
-            return self.board.balance(self.pose.points[about.point], X, C, tail, head, mark, why=why)
+            return self.board.balance(self.pose.points[about.point], X, C, *force, mark, why=why)
         assert isinstance(about, Where)
-        return self.board.weigh(*self._lines(about), X, C, tail, head, mark, names=self._letters(about), why=why)
+        return self.board.weigh(*self._lines(about), X, C, *force, mark, names=self._letters(about), why=why)
 
-    def _slide_line(self, part: frozenset[str], slide: Slide, about: About, sign: int) -> Known:
+    def _slide_line(self, part: Part, slide: Slide, about: About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
         Y = self._mark_of(about)
         with self.board.on(MECHANISM):
@@ -339,16 +141,15 @@ class ForcePlan:
         with self.board.on(MECHANISM):
             return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
 
-    def _pair(self, part: frozenset[str], site: Site, Y: Mark, sign: int,
-              own: Iterable[Acting] = ()) -> tuple[Acting, Acting] | None:
+    def _pair(self, part: Part, site: Site, Y: Mark, sign: int,
+              own: Iterable[Acting] = ()) -> Pair | None:
         """The couple that balances all known forces on the part about a point, as a pair of forces there."""
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
-        mark = first = self._polygon(part)[1]
-        for force in (*self._acting(part, self._others(part, site), site), *own):
+        mark = first = self.polygon(part)[1]
+        for force in (*self.acting(part, self.others(part, site), site), *own):
             if force.at is not Y:
-                tail, head = (force.tail, force.head) if sign > 0 else (force.head, force.tail)
-                mark = self.board.balance(Y, R, force.at, tail, head, mark)
+                mark = self.board.balance(Y, R, force.at, *signed((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
 
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
@@ -356,9 +157,9 @@ class ForcePlan:
         one, two = self.loading.arm(site.link)
         return two if one is Y else one if two is Y else two
 
-    def _across(self, part: frozenset[str], site: Site, about: About, sign: int) -> Known:
+    def _across(self, part: Part, site: Site, about: About, sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
-        start, end = self._polygon(part, self._parts(self._others(part, site)), (site,))
+        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
         with self.board.on(MECHANISM):
             if isinstance(about, Along):
                 guide = self.pose.guide(about.slide)
@@ -370,30 +171,21 @@ class ForcePlan:
                 line = known_line
         if isinstance(site, Slide):
             return self._slide_size(site, line, start, end, sign)
-        X = self._seat(site)
+        X = self.seat(site)
         with self.board.on(MECHANISM):
             through = self.board.parallel(line, X)
-        span = (end, start) if sign > 0 else (start, end)
-        return Known(None if start is end else span, through, X)
-
-    def _parts(self, sites: Iterable[tuple[Site, int]]) -> Iterator[Acting]:
-        """The known parts of forces whose lines are known."""
-        for site, sign in sites:
-            known = self.known.get(site)
-            if known is not None and known.part is not None and site not in self.ends:
-                tail, head = known.part if sign > 0 else known.part[::-1]
-                yield Acting(self._at(site, known), tail, head)
+        return Known(None if start is end else signed((end, start), sign), through, X)
 
     def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> Known:
         """A slide's reaction closes the polygon with a force of known direction; where it acts is not told."""
         with self.board.on(MECHANISM):
             normal = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
         corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
-        return Known((end, corner) if sign > 0 else (corner, end), None, None)
+        return Known(signed((end, corner), sign), None, None)
 
-    def _found(self, part: frozenset[str], site: Site, about: About) -> None:
+    def _found(self, part: Part, site: Site, about: About) -> None:
         """A force of known line, from moments about a point that its line does not pass; or a couple."""
-        sign = self._sign(part, site)
+        sign = self.sign(part, site)
         known = self.known.get(site)
         if isinstance(site, Balance) and not site.at:
             self.pairs[site] = self._pair(part, site, self._mark_of(about), sign)
@@ -408,12 +200,12 @@ class ForcePlan:
                 assert told.part is not None
                 self._enter(site, told.part)
                 return
-            base = told.part[0] if told.part else self._polygon(part)[1]
+            base = told.part[0] if told.part else self.polygon(part)[1]
             second = told.line, told.part
         else:
-            base = known.part[0] if known.part else self._polygon(part)[1]
-            second = self._line_to(about, self._at(site, known)), self._moments(
-                part, site, about, self._at(site, known), sign, base)
+            base = known.part[0] if known.part else self.polygon(part)[1]
+            second = self._line_to(about, self.acts_at(site, known)), self._moments(
+                part, site, about, self.acts_at(site, known), sign, base)
         assert second[0] is not None
         corner = self.board.meet(self._locus(known.line, known.part, base), self._locus(second[0], second[1], base))
         self._enter(site, (base, corner))
@@ -432,7 +224,7 @@ class ForcePlan:
         """A force is found; a slide's acts where its line says, with the pair known besides."""
         self.ends[site] = span
         for mark in span:
-            self._corner_named(mark)
+            self.numbered(mark)
         known = self.known.get(site)
         if isinstance(site, Slide):
             if known is not None and known.at is not None:
@@ -441,22 +233,22 @@ class ForcePlan:
             else:
                 self.seats[site] = self.pose.points[site.at]
 
-    def _close_two(self, part: frozenset[str], one: Site, two: Site) -> None:
+    def _close_two(self, part: Part, one: Site, two: Site) -> None:
         """The corner between two forces of known lines."""
-        start, end = self._polygon(part)
+        start, end = self.polygon(part)
         first, last = self.known[one], self.known[two]
-        signs = self._sign(part, one), self._sign(part, two)
+        signs = self.sign(part, one), self.sign(part, two)
         assert first.line is not None
         assert last.line is not None
-        tails = first.part if signs[0] > 0 or first.part is None else first.part[::-1]
-        heads = last.part if signs[1] > 0 or last.part is None else last.part[::-1]
+        tails = first.part and signed(first.part, signs[0])
+        heads = last.part and signed(last.part, signs[1])
         corner = self.board.meet(self._tail_locus(first.line, tails, start), self._locus(last.line, heads, end))
-        self._enter(one, (corner, start) if signs[0] > 0 else (start, corner))
-        self._enter(two, (end, corner) if signs[1] > 0 else (corner, end))
+        self._enter(one, signed((corner, start), signs[0]))
+        self._enter(two, signed((end, corner), signs[1]))
 
-    def _close(self, part: frozenset[str], site: Site) -> None:
+    def _close(self, part: Part, site: Site) -> None:
         """The last force of a part closes its polygon; of a slide, and of a couple, the moment too."""
-        sign = self._sign(part, site)
+        sign = self.sign(part, site)
         known = self.known.get(site)
         if isinstance(site, Balance) and not site.at:
             one = self.loading.arm(site.link)[0]
@@ -466,19 +258,19 @@ class ForcePlan:
             assert isinstance(site, Slide)
             self._couple_found(part, site, known, self.pose.points[site.at])
             return
-        start, end = self._polygon(part, self._parts(self._others(part, site)), (site,))
-        self._enter(site, (end, start) if sign > 0 else (start, end))
+        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
+        self._enter(site, signed((end, start), sign))
         if isinstance(site, Slide) and site not in self.pairs:
             Y = self.pose.points[site.at]
             self.pairs[site] = self._pair(part, site, Y, sign)
 
-    def _couple_found(self, part: frozenset[str], site: Site, known: Known, Y: Mark) -> None:
+    def _couple_found(self, part: Part, site: Site, known: Known, Y: Mark) -> None:
         """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
         assert isinstance(site, Slide)
         assert known.part is not None
         at = self.pose.points[site.at]
-        sign = self._sign(part, site)
-        own = Acting(at, *(known.part if sign > 0 else known.part[::-1]))
+        sign = self.sign(part, site)
+        own = Acting(at, *signed(known.part, sign))
         self.pairs[site] = self._pair(part, site, Y, sign, () if Y is at else (own,))
         self.ends[site], self.seats[site] = known.part, at
 
@@ -498,7 +290,7 @@ class ForcePlan:
         """Two forces assumed on the known line, the false position, then the true force by the same moves."""
         known = self.known[move.site]
         assert known.line is not None
-        base = known.part[0] if known.part else self._polygon(move.part)[1]
+        base = known.part[0] if known.part else self.polygon(move.part)[1]
         locus = self._locus(known.line, known.part, base)
         size = self.board.transfer(*self.loading.arm(self.group.links[0]), base)
         before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
@@ -522,17 +314,6 @@ class ForcePlan:
         return head, self._locus(told.line, told.part, tail)
 
     # ---- what is found -----------------------------------------------------------------------------------------
-
-    def idle(self) -> bool:
-        """Whether nothing acts on the group, so that all its reactions are nothing."""
-        return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
-            balance.link in self.group.links for balance in self.loading.loads.balances) and not any(
-            self._passed(point) for point in self.group.points)
-
-    def _passed(self, point: str) -> bool:
-        """Whether solved groups pass anything on at a joint between links of this one."""
-        return not self.group.rest(point) and len(self.group.members(point)) > 1 and any(
-            force.tail is not force.head for force in self._from_done(point))
 
     def rest(self) -> None:
         """All reactions are nothing."""
@@ -574,21 +355,9 @@ class ForcePlan:
         """The force on a link at a joint, from the pin: found, or what is left by the others there."""
         if Joint(point, link) in self.ends:
             return self.ends[Joint(point, link)]
-        spans = [(force.tail, force.head) for force in self._from_done(point)]
+        spans = [(force.tail, force.head) for force in self.from_done(point)]
         spans += [self.ends[Joint(point, other)][::-1] for other in self.group.members(point) if other != link]
         mark = first = spans[0][0]
         for tail, head in spans:
             mark = head if tail is mark else self.board.transfer(tail, head, mark)
         return first, mark
-
-
-def pair_letter(one: str, other: str) -> str:
-    """The letter of the force of one link on another; the frame is 0."""
-    names = ["0" if name == FRAME else name for name in (one, other)]
-    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
-
-
-def reaction_letter(scene: Scene, point: str, link: str) -> str:
-    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
-    pin, *others = scene.links_of[point]
-    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)

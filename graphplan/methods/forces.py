@@ -6,10 +6,11 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
-from graphplan.methods.force_plan import ForcePlan, Forces, Shown
+from graphplan.methods.force_plan import ForcePlan
 from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import Pose
+from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.sites import Group, groups
 from graphplan.methods.statics import Equilibrium
 from graphplan.methods.velocity import Velocity

@@ -12,9 +12,9 @@ from functools import partial
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Friction, Slide
-from graphplan.methods.force_plan import Forces
 from graphplan.methods.loading import Acting, Lay, Loading
 from graphplan.methods.poses import MECHANISM
+from graphplan.methods.reactions import Forces
 from graphplan.methods.velocity import Velocity
 
 

@@ -26,11 +26,11 @@ from graphplan.mechanism.model import (
     SlidingDrive,
     TurningDrive,
 )
-from graphplan.methods.force_plan import Shown
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.reactions import Shown
 from graphplan.methods.tempo import Tempo, extent, round_number
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
 

@@ -5,18 +5,18 @@ The smallest sheet is taken on which the whole step list stands in legible lette
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
 
 from graphplan.errors import Refused
 from graphplan.sheet.display import Rect
+from graphplan.sheet.divisions import divisions
 from graphplan.sheet.rows import Row, fill
 
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 BINDING, EDGE, GUTTER, COLUMN = 20.0, 10.0, 5.0, 96.0
 CAPTION, MARGIN = 11.0, 9.0  # a panel's caption strip, and what is kept free for letters around its figure
-SHARES = (0.5, 0.55, 0.6, 0.66)
 
 T = TypeVar("T")
 Measure = Callable[[float], T]  # what something becomes for a width
@@ -51,13 +51,16 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 def arrangements(
-    paper: str, panels: Sequence[str], rows: Measure[Sequence[Row]], title: Measure[float]
+    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[Row]], title: Measure[float]
 ) -> Iterator[Arrangement]:
-    """The ways to divide one sheet that hold all the text; `title` gives the title block's height for its width."""
+    """The ways to divide one sheet that hold all the text.
+
+    `needs` says how much room each plan wants beside the others; `title` gives the title block's height for its width.
+    """
     wide, high = sheet_size(paper)
     frame = Rect(BINDING, EDGE, wide - EDGE, high - EDGE)
     for plans, columns, block in (*_beside(frame, rows, title), *_below(frame, rows, title)):
-        for division in _divisions(plans, panels):
+        for division in divisions(plans, needs):
             yield Arrangement(paper, wide, high, frame, division, columns, block, tuple(rows(columns[0].width)))
 
 
@@ -99,19 +102,3 @@ def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
     lefts, feet = [region.left + i * pitch for i in range(count)], [region.bottom] * (count - 1) + [block.top]
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
     return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2, 2.0) for slot in slots)
-
-
-def _divisions(plans: Rect, panels: Sequence[str]) -> Iterator[dict[str, Rect]]:
-    """The plans' region divided: the first panel has the larger part, the others share the rest."""
-    first, *rest = panels
-    if not rest:
-        yield {first: plans}
-        return
-    for share in SHARES:
-        left, low, right, top = plans.left, plans.bottom, plans.right, plans.top
-        x, y = left + share * plans.width, low + (1 - share) * plans.height
-        high, wide = plans.height / len(rest), plans.width / len(rest)
-        beside = {p: Rect(x, top - (i + 1) * high, right, top - i * high) for i, p in enumerate(rest)}
-        under = {p: Rect(left + i * wide, low, left + (i + 1) * wide, y) for i, p in enumerate(rest)}
-        yield {first: Rect(left, low, x, top), **beside}
-        yield {first: Rect(left, y, right, top), **under}

@@ -2,7 +2,8 @@
 
 Which way a force leans depends on the force itself. So each round takes the directions of the forces from the last and
 solves for all their sizes at once, which is Newton's method: it stands after a few rounds, or there is no equilibrium
-and the mechanism locks itself. In floats only.
+and the mechanism locks itself. Friction grows in a few steps: at its full size at once, where it is near to locking,
+the rounds may miss the equilibrium. In floats only.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ from graphplan.solver.plane import dot, plus, times, turned
 from graphplan.solver.reactions import Reactions, equilibrium, reactions
 from graphplan.solver.rubbing import Rubbing, rubbing
 
-ROUNDS = 50
+GROWING = (0.25, 0.5, 0.75, 1.0)
+ROUNDS = 20
 STANDS = 1e-14  # of the largest force, times the condition of the system
 IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 
@@ -58,15 +60,23 @@ def with_friction(scene: Scene) -> Frictional:
 
     Fails as `reactions` does, and with `SingularPose` where the mechanism locks itself.
     """
-    last = plain = reactions(scene)
+    plain = last = reactions(scene)
     against = rubbing(scene, plain.rates)
+    for share in GROWING:
+        last = settled(last, against.part(share))
+    return finished(plain, last, against)
+
+
+def settled(last: Reactions, against: Rubbing) -> Reactions:
+    """The reactions that lean as they themselves say, from reactions that do nearly so."""
+    scene = last.equations.scene
     for _ in range(ROUNDS):
         try:
-            now = equilibrium(Equations(scene, tuple(leaning(last, against))), plain.rates, exact=False)
+            now = equilibrium(Equations(scene, tuple(leaning(last, against))), last.rates, exact=False)
         except SingularPose:
             break
         if stands(now, last):
-            return finished(plain, now, against)
+            return now
         last = now
     raise locked(scene)
 

@@ -23,6 +23,11 @@ class Rubbing:
     journals: dict[tuple[str, str], float]
     guides: dict[str, float]
 
+    def part(self, share: float) -> Rubbing:
+        """The same with all coefficients smaller."""
+        journals = {name: share * circle for name, circle in self.journals.items()}
+        return Rubbing(journals, {name: share * coefficient for name, coefficient in self.guides.items()})
+
 
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
     """The frictions of the scene, with the senses of these rates; nothing where a pair does not move."""

@@ -1,0 +1,72 @@
+"""What force plans tell each other: the reactions found so far, the arrows that show them, and their letters."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
+from graphplan.methods.loading import Acting
+from graphplan.methods.poses import MECHANISM
+
+Span = tuple[Mark, Mark]
+Pair = tuple[Acting, Acting]
+
+
+def signed(span: Span, sign: int) -> Span:
+    """A force as (tail, head), or its answer."""
+    return span if sign > 0 else (span[1], span[0])
+
+
+@dataclass
+class Known:
+    """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
+    action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
+
+    part: Span | None
+    line: Mark | None
+    at: Mark | None
+    pair: Pair | None = None
+
+
+@dataclass(frozen=True)
+class Shown:
+    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter."""
+
+    kind: str
+    label: str
+    tail: Mark
+    head: Mark
+
+
+def applied(board: Board, force: Acting) -> Shown:
+    """A load drawn where it acts, on the mechanism plan."""
+    with board.on(MECHANISM):
+        return Shown("load", force.name, force.at, board.transfer(force.tail, force.head, force.at))
+
+
+class Forces:
+    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows."""
+
+    def __init__(self, before: Forces | None = None) -> None:
+        self.shown: list[Shown] = []
+        self.corners: int = before.corners if before else 0
+        self.suffix = " with friction" if before else ""
+        self.joints: dict[tuple[str, str], Span] = {}
+        self.slides: dict[Slide, Span] = {}
+        self.pairs: dict[Slide, Pair | None] = {}
+        self.seats: dict[Slide, Mark] = {}
+        self.balances: dict[Balance, Span] = {}
+        self.moments: dict[Balance, Pair | None] = {}
+
+
+def pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another; the frame is 0."""
+    names = ["0" if name == FRAME else name for name in (one, other)]
+    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def reaction_letter(scene: Scene, point: str, link: str) -> str:
+    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
+    pin, *others = scene.links_of[point]
+    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)

@@ -1,0 +1,102 @@
+"""The choice of paper: the smallest sheet, and the division of it, on which every plan is large enough to be read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.sheet.paper import MARGIN, SIZES, Arrangement, Measure, arrangements, room
+from graphplan.sheet.planes import MECHANISM, Figure, Planes, around
+from graphplan.sheet.rows import Row
+from graphplan.sheet.scales import Scales
+from graphplan.sheet.view import View, plan_multiple, plan_scale, view
+
+SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
+FEW = 3.0  # the need of a plan from which on it is not small
+SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
+LARGE = ("A2", "A1", "A0")  # from here on a sheet is large enough if it has room
+CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+
+
+@dataclass(frozen=True)
+class Composition:
+    """An arrangement with the scale and the window of each panel."""
+
+    arrangement: Arrangement
+    scales: Scales
+    views: dict[str, View]
+    needs: Mapping[str, float]
+
+    @property
+    def score(self) -> float:
+        """How large the plans are: the mechanism counts most, each other one half or, of many, its part of the need."""
+        others = {panel: need for panel, need in self.needs.items() if panel != MECHANISM}
+        total = sum(others.values())
+        weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
+        return sum(weight * math.log(self.views[panel].scale) for panel, weight in weights.items())
+
+    @property
+    def roomy(self) -> bool:
+        """Whether every panel has its least size."""
+        return all(rect.width >= wide and rect.height >= high
+                   for panel, rect in self.arrangement.panels.items() for wide, high in [self._least(panel)])
+
+    def _least(self, panel: str) -> tuple[float, float]:
+        return SMALLEST[0 if panel == MECHANISM else 1 if self.needs[panel] > FEW else 2]
+
+
+def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float], paper: str | None) -> Composition:
+    """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
+
+    Fails with `Refused` where the words do not fit the paper named.
+    """
+    figures = {panel: planes.figure(panel) for panel in planes.panels}
+    needs = {panel: math.sqrt(len(planes.points(panel))) for panel in planes.panels}
+    papers = [paper] if paper else ["A4", "A4 portrait", *list(SIZES)[1:]]
+    best: Composition | None = None
+    for name in papers:
+        found = [_windows(a, figures, needs, planes) for a in arrangements(name, needs, rows, title)]
+        good = [c for c in found if c.roomy] or (found if paper else [])
+        if good:
+            best = max(good, key=lambda c: c.score)
+            if name in LARGE or _legible(planes, best.views):
+                return best
+    if best is None:
+        raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
+    return best
+
+
+def _windows(
+    arrangement: Arrangement, figures: Mapping[str, Figure], needs: Mapping[str, float], planes: Planes
+) -> Composition:
+    """The round scales and the windows for one arrangement."""
+    rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
+    inner = {panel: rect.inset(MARGIN, MARGIN, MARGIN, MARGIN) for panel, rect in rooms.items()}
+    k_s, box = plan_scale(figures[MECHANISM], inner[MECHANISM])
+    views = {MECHANISM: view(box, rooms[MECHANISM], k_s)}
+    multiples: dict[str, Fraction] = {}
+    for panel in planes.panels[1:]:
+        multiples[panel], box = plan_multiple(figures[panel], inner[panel], k_s)
+        views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
+    drawing, units = planes.drawing, planes.drawing.scene.units
+    scales = Scales(k_s, drawing.kappa, units.length, multiples, float(drawing.phi), units.force)
+    return Composition(arrangement, scales, views, needs)
+
+
+def _legible(planes: Planes, views: Mapping[str, View]) -> bool:
+    """Whether the links are long enough for letters, and no plan is crowded."""
+    for panel, window in views.items():
+        spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
+        if spots and around(spots).area < CROWDED * len(spots):
+            return False
+    return _shortest(planes) * views[MECHANISM].scale >= SHORTEST
+
+
+def _shortest(planes: Planes) -> float:
+    """The shortest distance of two joints of a link."""
+    links = planes.drawing.scene.links.values()
+    apart = (math.dist(planes.place(p), planes.place(q)) for names in links for p in names for q in names)
+    return min((distance for distance in apart if distance > 0), default=math.inf)

@@ -1,0 +1,57 @@
+"""How the plans share their part of a sheet: the first has the larger share, the others stand beside or under it.
+
+Two others stand in a stack or in a row. More stand in a grid, in reading order, each with room for what it has to show.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+
+from graphplan.sheet.display import Rect
+
+SHARES = (0.5, 0.55, 0.6, 0.66)
+LESSER = (0.36, 0.43)  # the first plan's shares where there are more than two others
+
+
+def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rect]]:
+    """The ways to divide a region; `needs` says how much room each plan wants beside the others, in drawing order."""
+    first, *rest = needs
+    if not rest:
+        yield {first: plans}
+        return
+    many = range(1, len(rest) + 1) if len(rest) > 2 else ()
+    for share in (*SHARES, *(LESSER if many else ())):
+        x, y = plans.left + share * plans.width, plans.bottom + (1 - share) * plans.height
+        beside, under = Rect(x, plans.bottom, plans.right, plans.top), Rect(plans.left, plans.bottom, plans.right, y)
+        for rows in many or (len(rest),):
+            yield {first: Rect(plans.left, plans.bottom, x, plans.top), **_grid(beside, needs, _rows(rest, needs, rows))}
+        for rows in many or (1,):
+            yield {first: Rect(plans.left, y, plans.right, plans.top), **_grid(under, needs, _rows(rest, needs, rows))}
+
+
+def _rows(panels: Sequence[str], needs: Mapping[str, float], count: int) -> list[list[str]]:
+    """The plans in so many rows of about the same need, none of them empty."""
+    rows: list[list[str]] = [[]]
+    total, filled = sum(needs[panel] for panel in panels), 0.0
+    for i, panel in enumerate(panels):
+        middle = (filled + needs[panel] / 2) * count / total
+        due = len(panels) - i <= count - len(rows)  # each row left gets a plan of its own
+        if rows[-1] and len(rows) < count and (due or middle > len(rows)):
+            rows.append([])
+        rows[-1].append(panel)
+        filled += needs[panel]
+    return rows
+
+
+def _grid(region: Rect, needs: Mapping[str, float], rows: Sequence[Sequence[str]]) -> dict[str, Rect]:
+    """Rows from the top, plans from the left: areas are as the needs."""
+    total, found, top = sum(needs[panel] for row in rows for panel in row), {}, region.top
+    for row in rows:
+        need, left = sum(needs[panel] for panel in row), region.left
+        bottom = top - region.height * need / total
+        for panel in row:
+            right = left + region.width * needs[panel] / need
+            found[panel] = Rect(left, bottom, right, top)
+            left = right
+        top = bottom
+    return found

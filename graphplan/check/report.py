@@ -12,7 +12,7 @@ from graphplan.errors import ConstructionError, Refused, SingularPose
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.units import metre
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
@@ -72,13 +72,21 @@ class Report:
         """What the solver says of every force that the construction gives, by the same kinds and names."""
         if self.reactions is None:
             return {}
+        arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
         joints = {pair_name(p, link): self.reactions.joints[p, link] for p, link, _ in pairs(self.scene)}
         slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
         balances = {str(k): value for k, value in enumerate(self.reactions.balances, 1)}
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
         turned = {name: value for name, value in balances.items() if name not in held}
-        return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "balance": held, "lever": held,
-                "balance moment": turned, "lever moment": turned}
+        return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
+                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned}
+
+    def _arm(self, slide: Slide) -> Any:
+        """From a slide's point to where its reaction has no moment, square to it."""
+        assert self.reactions is not None
+        (x, y), moment = self.reactions.slides[slide.name]
+        reach = moment * metre(self.scene.units) / (x * x + y * y)
+        return y * reach, -x * reach
 
     @property
     def _metres(self) -> Any:
@@ -88,7 +96,7 @@ class Report:
     def _force_gap(self) -> Any:
         """The largest difference of forces and moments beside the largest force; lever and power balance among them."""
         gaps, sizes = [], []
-        for kind, truth in self.forces.items():
+        for kind, truth in ((kind, truth) for kind, truth in self.forces.items() if kind != "slide arm"):
             arm = self._metres if kind in MOMENTS else 1
             sizes += [_size(value) / arm for value in truth.values()]
             ours = self.results.get(kind, {})
@@ -163,11 +171,20 @@ class Report:
                 entries.append({"at": point, "on": link, "from": pin, "force": _number(force)})
         for slide in self.scene.slides:
             if slide.name in self.results.get("slide reaction", {}):
-                entries.append({"slide": slide.name, "on": slide.link, "from": slide.along,
-                                "force": _number(self.results["slide reaction"][slide.name]),
-                                "moment": _number(self.results["slide moment"][slide.name])})
+                entries.append(self._slide_data(slide))
         told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
         return {**told, "reactions": entries, **self._friction_data()}
+
+    def _slide_data(self, slide: Slide) -> dict[str, Any]:
+        """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
+        x, y = self.scene.points[slide.at]
+        arm = self.results.get("slide arm", {}).get(slide.name)
+        return {
+            "slide": slide.name, "on": slide.link, "from": slide.along,
+            "force": _number(self.results["slide reaction"][slide.name]),
+            "moment": _number(self.results["slide moment"][slide.name]),
+            **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
+        }
 
     def _friction_data(self) -> dict[str, Any]:
         """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""

@@ -275,6 +275,12 @@ def _carries_couple(d: Drawn, C: int, s: int, t: int, P: int, R: int, a: int, b:
     return (moment - couple) / abs(rate) / (d.size + abs(d[-1] - d[C]))
 
 
+def _takes_couple(d: Drawn, C: int, p: int, q: int, P: int, R: int, a: int, b: int) -> float:
+    """At the drawn point the force has the pair's moment about C."""
+    force, couple = d[q] - d[p], _cross(d[R] - d[P], d[b] - d[a])
+    return (_cross(d[-1] - d[C], force) - couple) / abs(force) / (d.size + abs(d[-1] - d[C]))
+
+
 def _rubs(d: Drawn, P: int, R: int, w: int, p: int, q: int, m: int) -> float:
     """The couple is the reaction at the radius of the friction circle, against the turning."""
     arm, turned = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P])
@@ -330,6 +336,7 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "turns": _turns,
     "resists": _resists,
     "carries couple": _carries_couple,
+    "takes couple": _takes_couple,
     "rubs": _rubs,
     "drags": _drags,
 }

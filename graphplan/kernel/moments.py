@@ -121,6 +121,18 @@ def drag(d: Any, B: Any, w: Any, p: Any, q: Any, m: Any, /, *, coefficient: Any)
     return _across(slip, size, m)
 
 
+@primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at {3}, "
+           "are one force, shifted by the couple over the force: mark {out}, a point of its line.",
+           claims=(("across", (0, -1), (1, 2)), ("takes couple", 0, 1, 2, 3, 4, 5, 6)), fails=("couple-alone",), where=0,
+           source="Ozols 1974, 10-2: arms of slider reactions")
+def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
+    """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
+    force = _vector(p, q)
+    d.nonzero(_size(force), _size(p) + _size(q), "couple-alone", "the force is nothing")
+    return _across(force, -_cross(_vector(P, R), _vector(a, b)) / _square(force), C)
+
+
 def _meeting(y: Any, z: Any) -> Any:
     """Where two lines meet, as (x, y, w): the point (x/w, y/w), far away where w is nothing."""
     return y[1] * z[2] - z[1] * y[2], y[2] * z[0] - z[2] * y[0], y[0] * z[1] - z[0] * y[1]

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from itertools import combinations
 
-from graphplan.errors import Refused
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Scene
+from graphplan.mechanism.units import metre
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
-from graphplan.methods.forces import freed_reactions, levers, reactions, results, rubbed
+from graphplan.methods.forces import arms, freed_reactions, levers, reactions, results, rubbed
 from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.moves import Move, Pole, Trial
@@ -22,7 +25,7 @@ from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
 from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.statics import PREFERENCES
-from graphplan.methods.tempo import tempo
+from graphplan.methods.tempo import extent, tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.ways import EQUAL, best_way, growth
 
@@ -30,8 +33,10 @@ from graphplan.methods.ways import EQUAL, best_way, growth
 class Draughtsman:
     """Draws one scene by one list of moves, and says what can be read from it."""
 
-    def __init__(self, scene: Scene, planner: Planner, style: Style, order: str = "polygons", pick: int = 0):
+    def __init__(self, scene: Scene, planner: Planner, style: Style, order: str = "polygons", pick: int = 0,
+                 arms: tuple[str, ...] = ()):
         self.scene, self.net, self.style, self.order, self.pick = scene, planner.net, style, order, pick
+        self.arms = arms
         self.polar = style.polar
         self.board = Board()
         self.pose = Pose(self.board, scene, {new: at for (at, _), new in self.net.coincident.items()})
@@ -101,6 +106,8 @@ class Draughtsman:
             self.shown += forces.shown
             for kind, of, marks in results(self.scene, loading, forces, self.board):
                 self._read(kind, of, *marks)
+            for kind, of, marks in arms(self.scene, forces, self.board, self.pose, self.arms):
+                self._read(kind, of, *marks)
             if loading.loads.frictions:
                 self._friction(velocity, loading, forces)
         if self.style.lever:
@@ -165,6 +172,8 @@ def _ways(moves: Iterable[Move]) -> str:
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 PLANS = ("orthogonal", "polar", "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")
+NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
+SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
 UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
 
@@ -213,10 +222,32 @@ def _steadiest(scene: Scene, planner: Planner, chosen: Style) -> Construction:
     """The construction by these moves; force plans in which errors grow are weighed against other ways to draw them."""
     draughtsman = Draughtsman(scene, planner, chosen)
     first = draughtsman.draw()
-    if scene.loads is None or not chosen.polygons or growth(first.program) < UNSTEADY:
+    if scene.loads is None or not chosen.polygons:
         return first
-    ways = [(order, pick) for order in PREFERENCES for pick in range(draughtsman.options)][1:]
-    found = [first, *(Draughtsman(scene, planner, chosen, *way).draw() for way in ways)]
-    grown = [growth(construction.program) for construction in found]
-    least = min(grown)
-    return min(zip(grown, found, strict=True), key=lambda pair: (max(pair[0], EQUAL * least), len(pair[1].program)))[1]
+    way, found = ("polygons", 0), first
+    if growth(first.program) >= UNSTEADY:
+        ways = [(order, pick) for order in PREFERENCES for pick in range(draughtsman.options)]
+        drawn = [first, *(Draughtsman(scene, planner, chosen, *way).draw() for way in ways[1:])]
+        grown = [growth(construction.program) for construction in drawn]
+        best = min(range(len(ways)), key=lambda k: (max(grown[k], EQUAL * min(grown)), len(drawn[k].program)))
+        way, found = ways[best], drawn[best]
+    return _with_arms(found, lambda names: Draughtsman(scene, planner, chosen, *way, names).draw())
+
+
+def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
+    """The construction with the points where slides' reactions act, as far as they lie near; the others are told."""
+    try:
+        values = found.read(Floats())
+    except ConstructionError:
+        return found
+    moments = values.get("slide moment", {})
+    sizes = {name: math.hypot(*force) for name, force in values.get("slide reaction", {}).items() if name in moments}
+    reach = NEAR * extent(found.scene) / float(metre(found.scene.units))
+    forces = [*values.get("reaction", {}).values(), *values.get("slide reaction", {}).values()]
+    least = SMALL * max((math.hypot(*force) for force in forces), default=0.0)
+    near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
+    with_arms = draw(near) if near else found
+    with_arms.notes += [
+        f"slide {name}: its reaction is small beside its moment; it is told as a force and a couple, not by its line"
+        for name in sizes if name not in near and abs(moments[name]) > least * reach]
+    return with_arms

@@ -289,10 +289,16 @@ def _read_moment(marks: list[Any], phi: Any, metre: Any) -> Any:
     return total / phi / metre
 
 
+def _read_arm(marks: list[Any], phi: Any, metre: Any) -> Any:
+    """From the slide's point to where its reaction acts, in the scene's lengths."""
+    return _difference(*marks)
+
+
 FORCE_READERS = {
     "reaction": _read_force,
     "slide reaction": _read_force,
     "slide moment": _read_moment,
+    "slide arm": _read_arm,
     "balance": _read_force,
     "balance moment": _read_moment,
     "balance with friction": _read_force,

@@ -9,13 +9,13 @@ from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.force_plan import ForcePlan
 from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
 from graphplan.methods.loading import Acting, Loading
-from graphplan.methods.poses import Pose
+from graphplan.methods.poses import MECHANISM, Pose
 from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.sites import Group, groups
 from graphplan.methods.statics import Equilibrium
 from graphplan.methods.velocity import Velocity
 
-REACTION, SLIDE_REACTION, SLIDE_MOMENT = "reaction", "slide reaction", "slide moment"
+REACTION, SLIDE_REACTION, SLIDE_MOMENT, SLIDE_ARM = "reaction", "slide reaction", "slide moment", "slide arm"
 BALANCE, BALANCE_MOMENT = "balance", "balance moment"
 RUBBED, RUBBED_MOMENT = "balance with friction", "balance moment with friction"
 LEVER, LEVER_MOMENT = "lever", "lever moment"
@@ -123,6 +123,20 @@ def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Sh
         with board.on(lever.panel):
             results.append((REACTION, pair_name(point, link), (tail, board.transfer(*other, corner))))
     return results, shown
+
+
+def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
+    """Where the reactions of these slides act: from the slide's point along the guide to their lines."""
+    for slide in (slide for slide in scene.slides if slide.name in named):
+        seat, pair = forces.seats[slide], forces.pairs[slide]
+        with board.on(MECHANISM, (slide.link, slide.along)):
+            H = seat if pair is None else board.resultant(
+                seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head,
+                why=f"the reaction of the slide {slide.name} acts here")
+            at, guide = pose.points[slide.at], pose.guide(slide)
+            if seat is not at:
+                H = board.foot(guide, H)
+        yield SLIDE_ARM, slide.name, (at, H)
 
 
 def _on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:

@@ -17,7 +17,7 @@ from graphplan.sheet.view import View, plan_multiple, plan_scale, view
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
-LARGE = ("A2", "A1", "A0")  # from here on a sheet is large enough if it has room
+LARGE = "A1"  # no larger sheet is taken for the sake of the plans alone
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 
 
@@ -62,7 +62,7 @@ def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float]
         good = [c for c in found if c.roomy] or (found if paper else [])
         if good:
             best = max(good, key=lambda c: c.score)
-            if name in LARGE or _legible(planes, best.views):
+            if name == LARGE or _legible(planes, best.views):
                 return best
     if best is None:
         raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
@@ -90,7 +90,8 @@ def _legible(planes: Planes, views: Mapping[str, View]) -> bool:
     """Whether the links are long enough for letters, and no plan is crowded."""
     for panel, window in views.items():
         spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
-        if spots and around(spots).area < CROWDED * len(spots):
+        box = around(spots or [(0.0, 0.0)])
+        if max(box.area, (box.width**2 + box.height**2) / 4) < CROWDED * len(spots):
             return False
     return _shortest(planes) * views[MECHANISM].scale >= SHORTEST
 

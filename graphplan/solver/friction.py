@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Number, Pair, Scene, Slide
 from graphplan.mechanism.units import metre
+from graphplan.solver.efficiency import delivered, efficiency
 from graphplan.solver.equations import Equations
 from graphplan.solver.facts import Along, Fact, Rate, Turning, X, Y, held
 from graphplan.solver.loads import asked
@@ -25,7 +26,6 @@ from graphplan.solver.rubbing import Rubbing, rubbing
 GROWING = (0.25, 0.5, 0.75, 1.0)
 ROUNDS = 20
 STANDS = 1e-14  # of the largest force, times the condition of the system
-IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 
 
 @dataclass(frozen=True)
@@ -33,9 +33,7 @@ class Frictional(Reactions):
     """Reactions with friction; a slide's force has its friction in it.
 
     `couples`: by point and link, the friction's couple on that link, in force * m; the link that carries the pin has
-    its opposite. `drags`: by slide, the friction's force on the sliding link. `efficiency`: of the powers that the
-    balances give without friction and with it, the smaller by the larger where they drive; with friction by without
-    where they are driven, so that it is negative where the load alone does not keep the motion. None at rest.
+    its opposite. `drags`: by slide, the friction's force on the sliding link. `efficiency`: None at rest.
     """
 
     couples: dict[tuple[str, str], Number]
@@ -125,30 +123,10 @@ def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
         equations=last.equations,
         couples={name: couple / metre(scene.units) for name, couple in couples.items()},
         drags=drags,
-        efficiency=efficiency(float(delivered(plain)), float(delivered(last))),
+        efficiency=efficiency(delivered(plain), delivered(last)),
     )
 
 
 def drag(slide: Slide, normal: Pair, against: Rubbing) -> Pair:
     """The friction of a slide, along its guide."""
     return times(against.guides[slide.name] * math.hypot(*normal) / math.hypot(*slide.direction), slide.direction)
-
-
-def delivered(found: Reactions) -> float:
-    """The power that the balances give, in force * length/s."""
-    scene, rates, power = found.equations.scene, found.rates, 0.0
-    for balance, value in zip(asked(scene).balances, found.balances, strict=True):
-        if isinstance(value, tuple):
-            power += float(dot(value, rates.velocity[balance.at]))
-        else:
-            power += float(value * metre(scene.units) * rates.omega[balance.link])
-    return power
-
-
-def efficiency(without: float, rubbed: float) -> float | None:
-    """The efficiency from the powers of the balances without friction and with it."""
-    if not without and not rubbed:
-        return None
-    if abs(without) <= IDLE * abs(rubbed):
-        return 0.0
-    return without / rubbed if without > 0 else rubbed / without

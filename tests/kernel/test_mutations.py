@@ -107,6 +107,7 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("couple", "the wrong way round", reflected(2)),
     ("inertia_pair", "with the turning", reflected(4)),
     ("shifted", "to the other side", reflected(0)),
+    ("resultant", "to the other side", reflected(0)),
     ("journal", "with the turning", reflected(5)),
     ("drag", "with the sliding", reflected(4)),
     ("towards", "parallel to the first line", lambda rule: lambda d, y, z, X: (y[0], y[1], -y[0] * X[0] - y[1] * X[1])),

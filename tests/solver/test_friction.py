@@ -142,16 +142,16 @@ def losses(found: Frictional) -> Iterator[float]:
 
 
 def sizes(found: Frictional) -> Iterator[tuple[float, float]]:
-    """For each pair that moves how large its friction is and should be: coefficient * force, for a journal * radius."""
-    scene = found.equations.scene
+    """For each pair that rubs how large its friction is and should be: coefficient * force, for a journal * radius."""
+    frictions = found.equations.scene.loads.frictions
+    arms = {f.at: f.coefficient * f.radius / 1000 for f in frictions}
+    coefficients = {" along ".join(f.slide): f.coefficient for f in frictions if f.slide}
     for (point, link), couple in found.couples.items():
-        friction = next(f for f in scene.loads.frictions if f.at == point)
         if couple:
-            yield abs(couple), friction.radius / 1000 * friction.coefficient * math.hypot(*found.joints[point, link])
+            yield abs(couple), arms[point] * math.hypot(*found.joints[point, link])
     for name, drag in found.drags.items():
-        friction = next(f for f in scene.loads.frictions if f.slide and " along ".join(f.slide) == name)
         if drag != (0, 0):
-            yield math.hypot(*drag), friction.coefficient * math.dist(found.slides[name][0], drag)
+            yield math.hypot(*drag), coefficients[name] * math.dist(found.slides[name][0], drag)
 
 
 @pytest.mark.parametrize("seed", range(40))
@@ -179,3 +179,42 @@ def test_random_mechanisms(seed: int) -> None:
     assert max(losses(found), default=0) <= 0
     gained = (found.balances[0] - plain.balances[0]) * found.rates.omega["1"]
     assert gained == pytest.approx(-sum(losses(found)), abs=close)
+
+
+def test_a_slide_whose_normal_force_changes_sides() -> None:
+    """Dry friction in two slides presses one of them to the other side of its guide, and the equilibrium is found."""
+    scene = mechanism(
+        {"O": (0, 0), "A": (31, -20), "B": (11, -48)},
+        {"frame": "O", "1": "O A", "2": "A", "3": "B"},
+        [turn("1", 1)],
+        [slide("2", "3", "A", (9, 1)), slide("3", "frame", "B", (1, 9))],
+        loads=loads(
+            force("3", "B", (-8, 10)),
+            balances=[hold("1")],
+            frictions=[rough("2", "3", "0.9"), rough("3", "frame", "0.9")],
+        ),
+    )
+    found, smooth = with_friction(scene), reactions(scene)
+    normal = found.slides["3 along frame"][0][0] - found.drags["3 along frame"][0]
+    assert smooth.slides["3 along frame"][0][0] > 0 > normal
+    for link in scene.moving:
+        assert left_over(found, link) == pytest.approx((0, 0, 0), abs=1e-12)
+    for size, expected in sizes(found):
+        assert size == pytest.approx(expected)
+    assert sorted(losses(found))[1] < 0
+
+
+def test_a_joint_of_three_links() -> None:
+    """In a joint of several links each of them rubs on the one that carries the pin."""
+    points = {"O": (0, 0), "A": (30, 40), "B": (90, 30), "C": (80, -10), "D": (20, 90), "E": (-40, 60)}
+    links = {"frame": "O C E", "1": "O A", "2": "A B", "3": "B C", "4": "A D", "5": "D E"}
+    given = loads(
+        force("3", "B", (-9, 2)), force("5", "D", (4, -7)), balances=[hold("1")], frictions=[journal("A", 5, "0.3")]
+    )
+    found = with_friction(mechanism(points, links, [turn("1", 2)], loads=given))
+    omega = found.rates.omega
+    for link in "24":
+        couple = 5e-3 * 0.3 * math.hypot(*found.joints["A", link])
+        assert found.couples["A", link] == pytest.approx(math.copysign(couple, omega["1"] - omega[link]))
+    for link in links.keys() - {"frame"}:
+        assert left_over(found, link) == pytest.approx((0, 0, 0), abs=1e-12)

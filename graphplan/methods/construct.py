@@ -11,7 +11,7 @@ from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Number, Scene
+from graphplan.mechanism.model import FRAME, Number, Scene, TurningDrive
 from graphplan.mechanism.units import metre
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
@@ -28,6 +28,11 @@ from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.tempo import extent, tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.ways import EQUAL, best_way, growth
+
+
+def in_motion(scene: Scene) -> bool:
+    """Whether any drive moves: at rest friction has no sense."""
+    return any(d.omega if isinstance(d, TurningDrive) else d.speed for d in scene.drives)
 
 
 class Draughtsman:
@@ -108,7 +113,7 @@ class Draughtsman:
                 self._read(kind, of, *marks)
             for kind, of, marks in arms(self.scene, forces, self.board, self.pose, self.arms):
                 self._read(kind, of, *marks)
-            if loading.loads.frictions:
+            if loading.loads.frictions and in_motion(self.scene):
                 self._friction(velocity, loading, forces)
         if self.style.lever:
             found, shown = levers(self.pose, velocity, loading)

@@ -10,7 +10,6 @@ from collections.abc import Iterator, Mapping, Sequence
 from graphplan.sheet.display import Rect
 
 SHARES = (0.5, 0.55, 0.6, 0.66)
-LESSER = (0.36, 0.43)  # the first plan's shares where there are more than two others
 
 
 def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rect]]:
@@ -20,7 +19,7 @@ def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rec
         yield {first: plans}
         return
     many = range(1, len(rest) + 1) if len(rest) > 2 else ()
-    for share in (*SHARES, *(LESSER if many else ())):
+    for share in SHARES:
         x, y = plans.left + share * plans.width, plans.bottom + (1 - share) * plans.height
         beside, under = Rect(x, plans.bottom, plans.right, plans.top), Rect(plans.left, plans.bottom, plans.right, y)
         for rows in many or (len(rest),):

@@ -44,6 +44,7 @@ class Wish:
     pen: Pen = pens.LETTERS
     step: int | None = None
     label: str = ""
+    bold: bool = False
     balloon: bool = False
     free: bool = False
 
@@ -51,7 +52,7 @@ class Wish:
     def extent(self) -> tuple[float, float]:
         if self.balloon:
             return 2 * BALLOON, 2 * BALLOON
-        return width(self.runs, self.size), self.size * (CAPS + self.depth)
+        return width(self.runs, self.size, self.bold), self.size * (CAPS + self.depth)
 
     @property
     def depth(self) -> float:
@@ -199,4 +200,4 @@ def _items(wish: Wish, place: Place) -> Iterator[Item]:
         yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, "middle", label=wish.label)
     else:
         base = left, low + wish.size * wish.depth
-        yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, label=wish.label)
+        yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, bold=wish.bold, label=wish.label)

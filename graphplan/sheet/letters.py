@@ -14,7 +14,7 @@ from graphplan.sheet.display import Spot
 from graphplan.sheet.labels import Wish
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import MECHANISM, Vector
-from graphplan.sheet.strokes import Stretch, Strokes, towards
+from graphplan.sheet.strokes import SHORT, Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
 
 SMALL = 2.0  # the figures of marks without a letter
@@ -38,8 +38,8 @@ class Letters:
         for step in self.strokes.steps:
             if step.index in self.strokes.stretches:
                 yield from self._line_letters(step, self.strokes.stretches[step.index])
-        for vector in self.strokes.planes.vectors(self.strokes.panel):
-            yield from self._vector_letter(vector)
+        for vectors in self._spans().values():
+            yield from self._vector_letter(vectors)
 
     def _point_letters(self) -> Iterator[Wish]:
         """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
@@ -48,7 +48,8 @@ class Letters:
             lettered = [step for step in steps if step.name]
             if lettered:
                 label = ",".join(step.name for step in lettered)
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label)
+                corner = all(step.name.isdigit() for step in lettered)  # not the number of a step
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=corner)
             numbered = [step for step in steps if not step.name]
             if numbered:
                 said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)
@@ -93,14 +94,26 @@ class Letters:
             runs = sentence_runs(f"to {name}", (name,))
             yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
 
-    def _vector_letter(self, vector: Vector) -> Iterator[Wish]:
-        """The vector's own letter at its middle, unless its end bears it."""
-        start, end = self.strokes.spots[vector.start], self.strokes.spots[vector.end]
-        borne = self.drawn.steps[vector.end].name
-        if vector.label and vector.label != borne and math.dist(start, end) >= 0.5:
+    def _spans(self) -> dict[tuple[Spot, Spot], list[Vector]]:
+        """The vectors by where they begin and end: some lie on each other."""
+        spans: dict[tuple[Spot, Spot], list[Vector]] = {}
+        for vector in self.strokes.planes.vectors(self.strokes.panel):
+            ends = self.strokes.spots[vector.start], self.strokes.spots[vector.end]
+            same = (span for span in spans if math.dist(span[0], ends[0]) < NEAR and math.dist(span[1], ends[1]) < NEAR)
+            spans.setdefault(next(same, ends), []).append(vector)
+        return spans
+
+    def _vector_letter(self, vectors: list[Vector]) -> Iterator[Wish]:
+        """The own letters of vectors that lie on each other, at their middle, unless their end bears them."""
+        first = vectors[0]
+        borne = self.drawn.steps[first.end].name
+        names = tuple(dict.fromkeys(v.label for v in vectors if v.label and v.label != borne))
+        if names and self.strokes.length(first) >= SHORT:
+            start, end = self.strokes.spots[first.start], self.strokes.spots[first.end]
             spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
-            pen = replace(pens.VECTORS[vector.kind], width=0.0)
-            yield Wish(name_runs(vector.label), spots, 0.7, pen=pen, step=vector.end, label=vector.label, free=True)
+            pen = replace(pens.VECTORS[first.kind], width=0.0)
+            runs = name_runs(names[0]) if len(names) == 1 else sentence_runs(", ".join(names), names)
+            yield Wish(runs, spots, 0.7, pen=pen, step=first.end, label=",".join(names), free=True)
 
 
 def _listed(steps: list[Step]) -> Runs:

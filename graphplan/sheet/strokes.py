@@ -20,8 +20,13 @@ from graphplan.sheet.view import View
 
 LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
+SHORT = 0.5  # mm: a vector shorter than this is not drawn
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
-LAID_OFF = {"foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0}
+LAID_OFF = {
+    "foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0,
+    "balance": 5, "couple": 2, "inertia_pair": 4, "journal": 5, "drag": 4, "shifted": 0, "resultant": 0,
+}  # fmt: skip
+MEASURED = ("balance", "couple", "inertia_pair", "journal", "drag")  # laid off by their size, not carried over
 GIVEN = ("lay_off", "lay_along", "step_off", "step_across")
 
 
@@ -82,12 +87,12 @@ class Strokes:
     # ---- points and vectors ----------------------------------------------------------------------------------------
 
     def _point(self, step: Step) -> Iterator[Item]:
-        """A dot, and the stroke along which it was laid off."""
+        """A dot, unless a force ends there, and the stroke along which it was laid off."""
         here = self.spots[step.index]
         root = step.args[LAID_OFF[step.op.name]] if step.op.name in LAID_OFF else None
         if root in self.spots and (root, step.index) not in self._vector_ends:
             yield self._laid_off(step, self.spots[root], here)
-        if self.shown(step.index):
+        if self.shown(step.index) and step.index not in self._force_heads:
             pen = pens.ORIGIN if step.op.name == "begin" else pens.DOT
             yield Circle(pen, LAYER, step.index, here, 0.5 if step.name else 0.4)
 
@@ -97,18 +102,26 @@ class Strokes:
         if step.op.name in GIVEN and source in ("given", "begin") and step.name and math.dist(root, here) > 0.5:
             kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
             return Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
-        brought = self.planes.homes[step.args[0]] != self.panel
+        brought = step.op.name not in MEASURED and self.planes.homes[step.args[0]] != self.panel
         return Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, (root, here))
 
     @cached_property
     def _vector_ends(self) -> set[tuple[int, int]]:
         return {(vector.start, vector.end) for vector in self.planes.vectors(self.panel)}
 
+    @cached_property
+    def _force_heads(self) -> set[int]:
+        vectors = self.planes.vectors(self.panel)
+        return {v.end for v in vectors if v.kind in pens.FORCES and self.length(v) >= SHORT}
+
+    def length(self, vector: Vector) -> float:
+        """How long a vector is on paper."""
+        return math.dist(self.spots[vector.start], self.spots[vector.end])
+
     def _arrow(self, vector: Vector) -> Iterator[Item]:
-        """A vector with its head; one shorter than half a millimetre is only its mark."""
-        start, end = self.spots[vector.start], self.spots[vector.end]
-        long = math.dist(start, end)
-        if long >= 0.5:
+        """A vector with its head; one that is very short is only its mark."""
+        start, end, long = self.spots[vector.start], self.spots[vector.end], self.length(vector)
+        if long >= SHORT:
             head = min(pens.HEADS[vector.kind], 0.6 * long)
             label = f"{vector.kind} {vector.point}"
             yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head, label)

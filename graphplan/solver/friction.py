@@ -25,7 +25,7 @@ from graphplan.solver.rubbing import Rubbing, rubbing
 
 GROWING = (0.25, 0.5, 0.75, 1.0)
 ROUNDS = 20
-STANDS = 1e-14  # of the largest force, times the condition of the system
+STANDS = 1e-14  # times the condition of the system: how close two rounds are at the end
 
 
 @dataclass(frozen=True)
@@ -33,7 +33,8 @@ class Frictional(Reactions):
     """Reactions with friction; a slide's force has its friction in it.
 
     `couples`: by point and link, the friction's couple on that link, in force * m; the link that carries the pin has
-    its opposite. `drags`: by slide, the friction's force on the sliding link. `efficiency`: None at rest.
+    its opposite. `drags`: by slide, the friction's force on the sliding link. `efficiency`: from the powers of the
+    balances; None at rest.
     """
 
     couples: dict[tuple[str, str], Number]
@@ -67,13 +68,13 @@ def with_friction(scene: Scene) -> Frictional:
 
 def settled(last: Reactions, against: Rubbing) -> Reactions:
     """The reactions that lean as they themselves say, from reactions that do nearly so."""
-    scene = last.equations.scene
+    scene, close = last.equations.scene, STANDS * last.condition
     for _ in range(ROUNDS):
         try:
             now = equilibrium(Equations(scene, tuple(leaning(last, against))), last.rates, exact=False)
         except SingularPose:
             break
-        if stands(now, last):
+        if stands(now, last, close):
             return now
         last = now
     raise locked(scene)
@@ -95,12 +96,12 @@ def leaning(last: Reactions, against: Rubbing) -> Iterator[Fact]:
     yield from map(held, asked(scene).balances)
 
 
-def stands(now: Reactions, last: Reactions) -> bool:
-    """Whether a round has left the forces as they were, but for rounding."""
+def stands(now: Reactions, last: Reactions, close: float) -> bool:
+    """Whether a round has left the forces as they were, as close as asked beside the largest."""
     forces = [*now.joints.values(), *(force for force, _ in now.slides.values())]
     before = [*last.joints.values(), *(force for force, _ in last.slides.values())]
     change = max((math.dist(a, b) for a, b in zip(forces, before, strict=True)), default=0.0)
-    return change <= STANDS * now.condition * max((math.hypot(*force) for force in forces), default=0.0)
+    return change <= close * max((math.hypot(*force) for force in forces), default=0.0)
 
 
 def locked(scene: Scene) -> SingularPose:

@@ -45,6 +45,26 @@ def test_efficiency_of_a_journal() -> None:
     assert with_friction(lever(0)).efficiency is None
 
 
+def test_efficiency_of_an_idle_run() -> None:
+    """Where the balance has nothing to do but to overcome friction the efficiency is 0, rounding or not."""
+    for above in 200, 200 + 1e-13:
+        points = {"O": (200, 0), "S": (above, 300)}
+        assert with_friction(replace(lever(3), points=mechanism(points, {}).points)).efficiency == 0
+
+
+def test_efficiency_of_several_balances() -> None:
+    """A moment and a force that drive together count with the sum of their powers."""
+    given = loads(
+        force("1", "S", (0, -50)), force("2", "P", (-40, -100)),
+        balances=[hold("1"), hold("2", "P", (1, 0))], frictions=[journal("O", 10, "0.2"), rough("2", "frame", "0.1")],
+    )  # fmt: skip
+    points = {"O": (0, 0), "S": (200, 30), "P": (500, 0)}
+    drives = [turn("1", 3), push("2", "frame", 700)]
+    guides = [slide("2", "frame", "P", (1, 0))]
+    scene = mechanism(points, {"frame": "O", "1": "O S", "2": "P"}, drives, guides, loads=given)
+    assert with_friction(scene).efficiency == pytest.approx((10 * 3 + 40 * 0.7) / (10.1 * 3 + 50 * 0.7))
+
+
 def incline(slope: float, pull: float, speed: int) -> Scene:
     """A load of 1000 on an incline, pulled at an angle to it, both in degrees."""
     along, pulled = (math.radians(angle) for angle in (slope, slope + pull))
@@ -101,6 +121,17 @@ def test_self_locking() -> None:
     with pytest.raises(SingularPose, match="self-locking") as caught:
         with_friction(incline(15, edge - 0.1, 1))
     assert caught.value.links == ("1",)
+
+
+def test_self_locking_to_the_last_digit() -> None:
+    """A push just along the edge of the friction cone is refused as well."""
+    given = loads(
+        force("1", "P", (-10, 0)), balances=[hold("1", "P", (1, -1))], frictions=[rough("1", "frame", 1)]
+    )  # fmt: skip
+    guides = [slide("1", "frame", "P", (1, 0))]
+    scene = mechanism({"P": (0, 0)}, {"1": "P", "frame": ""}, [push("1", "frame", 1)], guides, loads=given)
+    with pytest.raises(SingularPose, match="self-locking"):
+        with_friction(scene)
 
 
 def test_no_friction_is_no_change() -> None:
@@ -200,7 +231,7 @@ def test_a_slide_whose_normal_force_changes_sides() -> None:
     for link in scene.moving:
         assert left_over(found, link) == pytest.approx((0, 0, 0), abs=1e-12)
     for size, expected in sizes(found):
-        assert size == pytest.approx(expected)
+        assert size == pytest.approx(expected, rel=1e-13)
     assert sorted(losses(found))[1] < 0
 
 

@@ -249,6 +249,16 @@ def test_statically_indeterminate(exact: bool) -> None:
     assert caught.value.links == ("1", "2", "3", "4")
 
 
+@both
+@opinions
+def test_more_balances_than_drives(opinion: Callable[..., Any], exact: bool) -> None:
+    """Two balances for one drive share its work in ways that cannot be told."""
+    given = loads(balances=[hold("1"), hold("1", "S", (1, 0))])
+    with pytest.raises(SingularPose, match="statically indeterminate") as caught:
+        opinion(replace(HANGING, loads=given), exact)
+    assert caught.value.links == ("1",)
+
+
 @opinions
 def test_a_scene_without_loads(opinion: Callable[..., Any]) -> None:
     """Where a scene has no loads its reactions are refused."""

@@ -40,26 +40,25 @@ def along(name: str, one: str, other: str, scene: str = "ozols-10-1") -> tuple[f
 
 @dataclass(frozen=True)
 class Value:
-    """A value of Ozols' example 10-1 in kgf, m: printed analytically, printed from the drawing, recomputed."""
+    """A value of Ozols' example 10-1 in kgf, m: printed analytically, and recomputed."""
 
     what: str
     printed: float
-    drawn: float | None
     exact: float
     note: str = ""
 
 
 OSCILLATING = [
-    Value("T12", 273, 272, 270.79),
-    Value("N12", 59, 62, 60.22),
-    Value("T43", 161, 161, 161.09),
-    Value("N43", 12, 15, 16.86, "12 contradicts the book's own equation: 59 + 48 + 26 - 116"),
-    Value("R23", 27, 25, 21.57, "with N43"),
-    Value("h", 0.52, 0.54, 0.6693, "with N43"),
-    Value("T41", 259, 270, 256.92),
-    Value("N41", -11, None, -12.19),
-    Value("M1", -29.2, -28.5, -28.872),
-    Value("M1 by the lever", -29.1, -29.2, -28.872, "ex. 10-2"),
+    Value("T12", 273, 270.79),
+    Value("N12", 59, 60.22),
+    Value("T43", 161, 161.09),
+    Value("N43", 12, 16.86, "12 contradicts the book's own equation: 59 + 48 + 26 - 116"),
+    Value("R23", 27, 21.57, "with N43"),
+    Value("h", 0.52, 0.6693, "with N43"),
+    Value("T41", 259, 256.92),
+    Value("N41", -11, -12.19),
+    Value("M1", -29.2, -28.872),
+    Value("M1 by the lever", -29.1, -28.872, "ex. 10-2"),
 ]
 
 
@@ -85,11 +84,11 @@ def arm() -> float:
 
 @pytest.mark.parametrize("value", OSCILLATING, ids=lambda value: value.what)
 def test_oscillating_cylinder(value: Value) -> None:
-    """Ozols 10-1 and 10-2: recomputed values to their digits; printed ones to 5 % where the book does not err."""
+    """Ozols 10-1 and 10-2: recomputed values to their digits; the book's within 1 %, small parts 10 %, but for slips."""
     number = measured(value.what)
-    assert abs(number) == pytest.approx(abs(value.exact), rel=3e-4)
+    assert abs(number) == pytest.approx(abs(value.exact), abs=0.006 if abs(value.exact) > 1 else 5e-5)
     if not value.note.startswith(("12", "with")):
-        assert abs(number) == pytest.approx(abs(value.printed), rel=0.11)
+        assert abs(number) == pytest.approx(abs(value.printed), rel=0.1 if value.what.startswith("N") else 0.012)
 
 
 INERTIA = [

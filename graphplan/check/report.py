@@ -19,7 +19,8 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces import pair_name, pairs
 from graphplan.methods.ways import growth
 from graphplan.solver import Rates, solve
-from graphplan.solver.friction import efficiency, with_friction
+from graphplan.solver.efficiency import efficiency
+from graphplan.solver.friction import with_friction
 from graphplan.solver.power import power
 from graphplan.solver.reactions import Reactions, reactions
 

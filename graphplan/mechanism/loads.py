@@ -31,7 +31,7 @@ def read_loads(items: Mapping[str, Item], names: Names, slides: tuple[Slide, ...
         tuple(force for force in forces if force),
         tuple(moment for moment in moments if moment),
         _balances(items["balance"], names) if "balance" in items else (),
-        tuple(friction for friction in frictions if friction),
+        _once(frictions, items["friction"]) if frictions else (),
     )
 
 
@@ -58,7 +58,7 @@ def _amount(item: Item, what: str) -> Number | None:
     """A number that is not negative."""
     number = item.number()
     if number is not None and number < 0:
-        item.fault(f"the {what} {shown(number)} is negative", f"a {what} of 0 or more")
+        item.fault(f"the {what} {shown(number)} is negative", "a number of 0 or more")
         return None
     return number
 
@@ -156,11 +156,7 @@ def _friction(row: Item, names: Names, slides: tuple[Slide, ...]) -> Friction | 
         pair = read_pair(fields["slide"], names)
         if pair is None or coefficient is None:
             return None
-        if not any((slide.link, slide.along) == pair for slide in slides):
-            known = ", ".join(f'slide = ["{s.link}", "{s.along}"]' for s in slides) or "a joint and its radius"
-            fields["slide"].fault(f"no slide of link {pair[0]} along link {pair[1]}", known)
-            return None
-        return Friction("", pair, Fraction(0), coefficient)
+        return Friction("", pair, Fraction(0), coefficient) if _is_slide(fields["slide"], pair, slides) else None
     at, radius = fields["at"].name_of("point", names.points), _amount(fields["radius"], "radius")
     if at is not None and sum(at in points for points in names.links.values()) < 2 and row.faults.none_in("links"):
         fields["at"].fault(f"{at} is no joint of two links", "a joint")
@@ -168,8 +164,35 @@ def _friction(row: Item, names: Names, slides: tuple[Slide, ...]) -> Friction | 
     return None if at is None or radius is None or coefficient is None else Friction(at, None, radius, coefficient)
 
 
+def _is_slide(item: Item, pair: tuple[str, str], slides: tuple[Slide, ...]) -> bool:
+    """Whether the scene has this slide; a fault where it has not, unless the slides have faults of their own."""
+    found = any((slide.link, slide.along) == pair for slide in slides)
+    if not found and item.faults.none_in("slides", "links"):
+        known = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides]
+        meant = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides if (slide.along, slide.link) == pair]
+        instead = "perhaps " + meant[0] if meant else ", ".join(known) or "a joint and its radius"
+        item.fault(f"no slide of link {pair[0]} along link {pair[1]}", instead)
+    return found
+
+
+def _once(frictions: list[Friction | None], item: Item) -> tuple[Friction, ...]:
+    """The frictions, each pair's once."""
+    found: dict[object, Friction] = {}
+    for row, friction in enumerate(frictions, 1):
+        if friction is None:
+            continue
+        place = friction.at or friction.slide
+        if place in found:
+            told = f"joint {friction.at}" if friction.slide is None else "slide {} along {}".format(*friction.slide)
+            item.faults.add(f"{item.where}.{row}", f"a second friction of {told}", "one for each joint or slide")
+        found[place] = friction
+    return tuple(found.values())
+
+
 def read_reactions(item: Item, names: Names, slides: tuple[Slide, ...]) -> tuple[str, ...] | None:
     """The joints and slides whose reactions are asked for; None for "all"."""
+    if not item.faults.none_in("slides", "links", "points"):
+        return ()  # a joint or slide that is meant may be among those that have faults
     joints = [p for p in names.points if sum(p in points for points in names.links.values()) > 1]
     known = [*joints, *(slide.name for slide in slides)]
     if item.value == "all":

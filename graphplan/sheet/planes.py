@@ -6,7 +6,7 @@ All of it is read from the drawn program and its values; nothing here knows pape
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -15,7 +15,9 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Number, Scene, TurningDrive
+from graphplan.sheet import laid_off
 from graphplan.sheet.display import Rect, Spot
+from graphplan.sheet.pens import FORCES
 
 MECHANISM, LEVER = "mechanism", "lever"
 
@@ -168,12 +170,25 @@ class Planes:
 
     def figure(self, panel: str) -> Figure:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
-        ends = [self.spot(i) for vector in self.vectors(panel) for i in (vector.start, vector.end)]
+        ends = [self.spot(i) for i in self._ends(panel)]
         marks = [self.spot(i) for i in self.points(panel)]
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         return Figure(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
+
+
+    def _ends(self, panel: str) -> Iterator[int]:
+        """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
+        steps, forces = self.drawing.drawn.steps, self.kinds(panel) & FORCES
+        for vector in self.vectors(panel):
+            yield from (vector.start, vector.end)
+        for index in self.points(panel):
+            start = laid_off.root(steps[index])
+            if start is not None and self.homes[start] == panel and laid_off.given(steps, steps[index]):
+                yield from (start, index)
+            elif forces and panel != MECHANISM and steps[index].name:
+                yield index
 
 
 def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:

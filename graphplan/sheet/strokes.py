@@ -13,7 +13,7 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
-from graphplan.sheet import clip, pens
+from graphplan.sheet import clip, laid_off, pens
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polyline, Spot
 from graphplan.sheet.planes import MECHANISM, Planes, Vector
 from graphplan.sheet.view import View
@@ -22,12 +22,6 @@ LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
 SHORT = 0.5  # mm: a vector shorter than this is not drawn
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
-LAID_OFF = {
-    "foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0,
-    "balance": 5, "couple": 2, "inertia_pair": 4, "journal": 5, "drag": 4, "shifted": 0, "resultant": 0,
-}  # fmt: skip
-MEASURED = ("balance", "couple", "inertia_pair", "journal", "drag")  # laid off by their size, not carried over
-GIVEN = ("lay_off", "lay_along", "step_off", "step_across")
 
 
 @dataclass(frozen=True)
@@ -89,7 +83,7 @@ class Strokes:
     def _point(self, step: Step) -> Iterator[Item]:
         """A dot, unless a force ends there, and the stroke along which it was laid off."""
         here = self.spots[step.index]
-        root = step.args[LAID_OFF[step.op.name]] if step.op.name in LAID_OFF else None
+        root = laid_off.root(step)
         if root in self.spots and (root, step.index) not in self._vector_ends:
             yield self._laid_off(step, self.spots[root], here)
         if self.shown(step.index) and step.index not in self._force_heads:
@@ -98,11 +92,10 @@ class Strokes:
 
     def _laid_off(self, step: Step, root: Spot, here: Spot) -> Item:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
-        source = self.planes.drawing.drawn.steps[step.args[LAID_OFF[step.op.name]]].op.name
-        if step.op.name in GIVEN and source in ("given", "begin") and step.name and math.dist(root, here) > 0.5:
+        if laid_off.given(self.planes.drawing.drawn.steps, step) and math.dist(root, here) > SHORT:
             kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
             return Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
-        brought = step.op.name not in MEASURED and self.planes.homes[step.args[0]] != self.panel
+        brought = step.op.name not in laid_off.MEASURED and self.planes.homes[step.args[0]] != self.panel
         return Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, (root, here))
 
     @cached_property

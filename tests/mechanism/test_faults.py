@@ -296,7 +296,7 @@ FAULTS: list[tuple[str, str]] = [
     (changed(LOADED, ("[masses.2]", "[masses.frame]")), "masses.frame: the frame is given a mass; a moving link"),
     (
         changed(LOADED, ("mass = 2.5", "mass = -2.5")),
-        "masses.2.mass: the mass -2.5 is negative; a mass of 0 or more",
+        "masses.2.mass: the mass -2.5 is negative; a number of 0 or more",
     ),
     (
         changed(LOADED, ("mass = 2.5", 'mass = "2.5 kg"')),
@@ -409,7 +409,15 @@ FAULTS: list[tuple[str, str]] = [
         "motion: what moves these points is no link, so nothing is known of its force; "
         "drives, where forces are asked for",
     ),
+    (
+        changed(LOADED, ("inertia = ", "inertia = -")),
+        "masses.2.inertia: the inertia -0.01 is negative; a number of 0 or more",
+    ),
     # friction
+    (
+        LOADED.replace("[find]", '[[friction]]\nat = "A"\nradius = 6\ncoefficient = 0.1\n\n[find]'),
+        "friction.3: a second friction of joint A; one for each joint or slide",
+    ),
     (changed(LOADED, ("radius = 5\n", "")), "friction.1: radius is missing; the journal's radius"),
     (
         changed(LOADED, ('at = "A"\nradius = 5\n', "")),
@@ -424,11 +432,11 @@ FAULTS: list[tuple[str, str]] = [
     ],
     (
         changed(LOADED, ("radius = 5", "radius = -5")),
-        "friction.1.radius: the radius -5 is negative; a radius of 0 or more",
+        "friction.1.radius: the radius -5 is negative; a number of 0 or more",
     ),
     (
         changed(LOADED, ("coefficient = 0.1", "coefficient = -0.1")),
-        "friction.1.coefficient: the coefficient -0.1 is negative; a coefficient of 0 or more",
+        "friction.1.coefficient: the coefficient -0.1 is negative; a number of 0 or more",
     ),
     (
         changed(LOADED, ('at = "A"\nradius', 'at = "C"\nradius')),
@@ -452,7 +460,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ('slide = ["3", "frame"]', 'slide = ["frame", "3"]')),
-        'friction.2.slide: no slide of link frame along link 3; slide = ["3", "frame"]',
+        'friction.2.slide: no slide of link frame along link 3; perhaps slide = ["3", "frame"]',
     ),
     (
         FIVE_BAR + '[[friction]]\nslide = ["2", "1"]\ncoefficient = 0.1',

@@ -29,14 +29,29 @@ class Composition:
     scales: Scales
     views: dict[str, View]
     needs: Mapping[str, float]
+    figures: Mapping[str, Figure]
 
     @property
-    def score(self) -> float:
-        """How large the plans are: the mechanism counts most, each other one half or, of many, its part of the need."""
+    def score(self) -> tuple[float, float]:
+        """How large the plans are, and among equals how large the smallest is beside its need.
+
+        The mechanism counts most, each other plan one half or, of many, its part of the need.
+        """
         others = {panel: need for panel, need in self.needs.items() if panel != MECHANISM}
         total = sum(others.values())
         weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
-        return sum(weight * math.log(self.views[panel].scale) for panel, weight in weights.items())
+        large = sum(weight * math.log(self._shown(panel)**2 * self.views[panel].scale) for panel, weight in weights.items())
+        return round(large, 9), min(self._size(panel) / need for panel, need in self.needs.items())
+
+    def _shown(self, panel: str) -> float:
+        """How much of a plan's marks is on paper."""
+        window, extra = self.views[panel], self.figures[panel].extra
+        return 1 - sum(not window.rect.holds(window(spot)) for spot in extra) / self.needs[panel] ** 2
+
+    def _size(self, panel: str) -> float:
+        """The larger side of a plan on paper."""
+        core = self.figures[panel].core
+        return max(core.width, core.height) * self.views[panel].scale
 
     @property
     def roomy(self) -> bool:
@@ -83,7 +98,7 @@ def _windows(
         views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
     drawing, units = planes.drawing, planes.drawing.scene.units
     scales = Scales(k_s, drawing.kappa, units.length, multiples, float(drawing.phi), units.force)
-    return Composition(arrangement, scales, views, needs)
+    return Composition(arrangement, scales, views, needs, figures)
 
 
 def _legible(planes: Planes, views: Mapping[str, View]) -> bool:

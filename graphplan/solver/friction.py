@@ -23,8 +23,6 @@ from graphplan.solver.plane import dot, plus, times, turned
 from graphplan.solver.reactions import Reactions, equilibrium, reactions
 from graphplan.solver.rubbing import Rubbing, rubbing
 
-__all__ = ["Frictional", "efficiency", "with_friction"]
-
 GROWING = (0.25, 0.5, 0.75, 1.0)
 ROUNDS = 20
 STANDS = 1e-14  # times the condition of the system: how close two rounds are at the end

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -20,7 +19,7 @@ from graphplan.methods.forces import pair_name, pairs
 from graphplan.methods.ways import growth
 from graphplan.solver import Rates, solve
 from graphplan.solver.efficiency import efficiency
-from graphplan.solver.friction import with_friction
+from graphplan.solver.friction import Frictional, with_friction
 from graphplan.solver.power import power
 from graphplan.solver.reactions import Reactions, reactions
 
@@ -33,6 +32,7 @@ KINDS = {
     "acceleration": ("acceleration", "alpha", "slide acceleration"),
 }
 RATES = ("omega", "alpha")
+RUBBED = ("balance with friction", "balance moment with friction")
 MOMENTS = ("slide moment", "balance moment", "lever moment")
 
 
@@ -80,7 +80,14 @@ class Report:
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
         turned = {name: value for name, value in balances.items() if name not in held}
         return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
-                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned}
+                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._rubbed}
+
+    @property
+    def _rubbed(self) -> dict[str, dict[str, Any]]:
+        """The balances with friction as they stand in the end, where some are drawn: a round of their own."""
+        kinds = [kind for kind in RUBBED if kind in self.results]
+        return {kind: {str(k): value for k, value in enumerate(self.standing.balances, 1)
+                       if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in kinds}
 
     def _arm(self, slide: Slide) -> Any:
         """From a slide's point to where its reaction has no moment, square to it."""
@@ -97,7 +104,9 @@ class Report:
     def _force_gap(self) -> Any:
         """The largest difference of forces and moments beside the largest force; lever and power balance among them."""
         gaps, sizes = [], []
-        for kind, truth in ((kind, truth) for kind, truth in self.forces.items() if kind != "slide arm"):
+        for kind, truth in self.forces.items():
+            if kind in ("slide arm", *RUBBED):
+                continue
             arm = self._metres if kind in MOMENTS else 1
             sizes += [_size(value) / arm for value in truth.values()]
             ours = self.results.get(kind, {})
@@ -144,65 +153,16 @@ class Report:
             return worst <= self.tolerance
         return bool(worst <= SAFETY * EPSILON * growth(self.drawing.program))
 
-    def data(self) -> dict[str, Any]:
-        """What `graphplan solve` prints."""
-        scene = self.scene
-        return {
-            "title": scene.title,
-            "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
-            "points": self._merged(scene.points, velocity="velocity", acceleration="acceleration"),
-            "links": self._merged(scene.moving, omega="omega", alpha="alpha"),
-            "slides": self._merged((s.name for s in scene.slides), velocity="slide velocity",
-                                   acceleration="slide acceleration"),
-            **self._forces_data(),
-            "method": self.drawing.method,
-            "check": {kind: _number(value) if value else 0 for kind, value in self.check.items()},
-            "steps": len(self.drawing.drawn) - self.drawing.drawn.givens,
-        }
-
-    def _forces_data(self) -> dict[str, Any]:
-        """Balance and reactions as JSON takes them; nothing where there are no loads."""
-        if self.reactions is None:
-            return {}
-        balances = [self._balance(str(k)) for k in range(1, len(self.reactions.balances) + 1)]
-        entries: list[dict[str, Any]] = []
-        for point, link, pin in pairs(self.scene):
-            force = self.results.get("reaction", {}).get(pair_name(point, link))
-            if force is not None:
-                entries.append({"at": point, "on": link, "from": pin, "force": _number(force)})
-        for slide in self.scene.slides:
-            if slide.name in self.results.get("slide reaction", {}):
-                entries.append(self._slide_data(slide))
-        told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
-        return {**told, "reactions": entries, **self._friction_data()}
-
-    def _slide_data(self, slide: Slide) -> dict[str, Any]:
-        """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
-        x, y = self.scene.points[slide.at]
-        arm = self.results.get("slide arm", {}).get(slide.name)
-        return {
-            "slide": slide.name, "on": slide.link, "from": slide.along,
-            "force": _number(self.results["slide reaction"][slide.name]),
-            "moment": _number(self.results["slide moment"][slide.name]),
-            **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
-        }
-
-    def _friction_data(self) -> dict[str, Any]:
-        """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
-        kinds = ("balance with friction", "balance moment with friction")
-        rubbed = {name: value for kind in kinds for name, value in self.results.get(kind, {}).items()}
-        if not rubbed:
-            return {}
-        stands = with_friction(self.scene)
-        drawn = [rubbed[name] for name in sorted(rubbed)]
-        return {"friction": {
-            "balance": [_balance(value) for value in drawn], "efficiency": self.efficiency,
-            "stands": {"balance": [_balance(value) for value in stands.balances], "efficiency": stands.efficiency},
-        }}
+    @cached_property
+    def standing(self) -> Frictional:
+        """What the forces with friction come to, when round follows round."""
+        return with_friction(self.scene)
 
     @property
     def efficiency(self) -> float | None:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
+        if not self.results.keys() & set(RUBBED):
+            return None
         with_, without = (self._delivered(suffix) for suffix in (" with friction", ""))
         return efficiency(without, with_)
 
@@ -217,21 +177,6 @@ class Report:
                 moment = self.results["balance moment" + suffix][str(number)]
                 power += float(moment * metre(self.scene.units) * self.rates.omega[balance.link])
         return power
-
-    def _balance(self, name: str) -> dict[str, Any]:
-        """One balance, from the force plans, else from the lever."""
-        kinds = ("balance", "balance moment", "lever", "lever moment")
-        return next(_balance(self.results[kind][name]) for kind in kinds if name in self.results.get(kind, {}))
-
-    def _merged(self, names: Iterable[str], **kinds: str) -> dict[str, Any]:
-        """Readings of several kinds by name, as JSON takes them."""
-        table = {}
-        for name in names:
-            entry = {k: _number(self.results[kind][name]) for k, kind in kinds.items()
-                     if name in self.results.get(kind, {})}
-            if entry:
-                table[name] = entry
-        return table
 
 
 def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "orthogonal",
@@ -278,21 +223,9 @@ def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
     return float(abs(a * d - b * c) / ((a * a + b * b) * (c * c + d * d)) ** 0.5)
 
 
-def _balance(value: Any) -> dict[str, Any]:
-    """A balance as JSON takes it."""
-    return {"force" if isinstance(value, tuple) else "moment": _number(value)}
-
-
 def _less(one: Any, two: Any) -> Any:
     return (one[0] - two[0], one[1] - two[1]) if isinstance(one, tuple) else one - two
 
 
 def _size(value: Any) -> Any:
     return max(abs(value[0]), abs(value[1])) if isinstance(value, tuple) else abs(value)
-
-
-def _number(value: Any) -> Any:
-    """A number as JSON takes it: floats as they are, fractions as a string p/q."""
-    if isinstance(value, tuple):
-        return [_number(part) for part in value]
-    return str(value) if isinstance(value, Fraction) else value + 0.0

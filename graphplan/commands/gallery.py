@@ -52,6 +52,7 @@ def _pages() -> Iterator[tuple[str, str]]:
     """Every file of the gallery: a sheet and a protocol for each scene, and the index."""
     from graphplan import sheet
     from graphplan.backends.text import protocol
+    from graphplan.check.printed import data
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load, packaged
     from graphplan.mechanism.structure import structure
@@ -65,7 +66,7 @@ def _pages() -> Iterator[tuple[str, str]]:
         scene = found.scene
         yield f"{name}.svg", sheet.svg(found.drawing, check=found.check)
         yield f"{name}.txt", protocol(found.drawing, structure(scene).lines())
-        entries.append(_entry(name, scene.title, scene.source, found.data()["steps"]))
+        entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
     if sys.stderr.isatty():
         print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
     yield "index.html", INDEX.format(entries="\n".join(entries))

@@ -1,4 +1,4 @@
-"""Print the velocities and accelerations, as JSON.
+"""Print the velocities, accelerations and forces, as JSON.
 
 examples:
   graphplan solve alt-eight-link
@@ -20,10 +20,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.check.printed import data
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
     found = report(load(options.scene), exact=options.exact, method=options.method, plan=options.plan,
                    inertia=options.inertia)
-    write(json.dumps(found.data(), indent=2, ensure_ascii=False) + "\n", None)
+    write(json.dumps(data(found), indent=2, ensure_ascii=False) + "\n", None)
     return 0 if found.agrees else 1

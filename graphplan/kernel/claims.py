@@ -16,6 +16,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Claim
 from graphplan.kernel.program import Program, Step
 
 TOLERANCE = 1e-9
+STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
 Vector = tuple[int, int]
 
 
@@ -284,15 +285,17 @@ def _takes_couple(d: Drawn, C: int, p: int, q: int, P: int, R: int, a: int, b: i
 def _rubs(d: Drawn, P: int, R: int, w: int, p: int, q: int, m: int) -> float:
     """The couple is the reaction at the radius of the friction circle, against the turning."""
     arm, turned = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P])
-    couple = d.number("radius") * abs(d[q] - d[p]) * math.copysign(1.0, turned)
-    return (_cross(arm, d[-1] - d[m]) - couple) / abs(arm) / (d.size + abs(couple) / abs(arm))
+    full = math.copysign(d.number("radius") * abs(d[q] - d[p]), turned)
+    drawn, still = _cross(arm, d[-1] - d[m]), abs(turned) <= STILL * d.size
+    return min(abs(drawn - couple) for couple in (full, 0.0 if still else full)) / abs(arm) / (
+        d.size + abs(full) / abs(arm))
 
 
 def _drags(d: Drawn, B: int, w: int, p: int, q: int, m: int) -> float:
     """The friction is the reaction times its coefficient, against the sliding."""
-    sliding = _unit((d[w] - d[B]) / 1j)
-    friction = -d.number("coefficient") * abs(d[q] - d[p]) * sliding
-    return abs(d[-1] - d[m] - friction) / d.size
+    slip = (d[w] - d[B]) / 1j
+    full, still = -d.number("coefficient") * abs(d[q] - d[p]) * _unit(slip), abs(slip) <= STILL * d.size
+    return min(abs(d[-1] - d[m] - friction) for friction in (full, 0j if still else full)) / d.size
 
 
 RESIDUALS: dict[str, Callable[..., float]] = {

@@ -69,8 +69,9 @@ FAILURES: dict[str, tuple[str, str]] = {
     "locus-undetermined": (
         "the link's pole lies in the point, so its loci say nothing of it", "another pose: this one is singular",
     ),
-    "couple-alone": ("a force is nothing, so that it cannot take up a couple", "leave the couple beside it (--inertia couple)"),
-    "stands-still": ("two links do not move on each other, so friction has no sense", "leave out this friction"),
+    "couple-alone": (
+        "a force is nothing, so that it cannot take up a couple", "leave the couple beside it (--inertia couple)",
+    ),
     "trials-agree": ("both trial figures miss by the same amount", "another pose: this one is singular"),
     "not-rational": ("a root is irrational", "leave out --exact"),
 }

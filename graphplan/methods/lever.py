@@ -159,11 +159,15 @@ def _speed(scene: Scene) -> Number:
 
 
 def _holding(scene: Scene, balance: Balance, moves: bool = False) -> Drive:
-    """A drive in the place of a balance: it stands still, or moves at a unit rate."""
+    """A drive in the place of a balance, of a turning about the frame or a sliding on it: still, or at a unit rate."""
     if not balance.at:
         return TurningDrive(balance.link, FRAME, Fraction(moves), Fraction(0))
+    there = scene.links_of[balance.at]
+    for link in there:
+        if any(FRAME in scene.links_of[point] for point in scene.links[link]):
+            return TurningDrive(link, FRAME, Fraction(moves), Fraction(0))
     for slide in scene.slides:
-        if slide.link == balance.link and slide.along == FRAME and slide.at == balance.at:
+        if slide.link in there and slide.along == FRAME:
             return SlidingDrive(slide.link, FRAME, _speed(scene) if moves else Fraction(0), Fraction(0))
     raise Refused(f"the lever of the force at {balance.at}", "what it holds still is no turning and no sliding",
                   "--plan polygons")

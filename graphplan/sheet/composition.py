@@ -16,6 +16,7 @@ from graphplan.sheet.view import View, plan_multiple, plan_scale, view
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 FEW = 3.0  # the need of a plan from which on it is not small
+EASE = 30.0  # mm for a plan's need: larger it need not be
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 LARGE = "A1"  # no larger sheet is taken for the sake of the plans alone
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
@@ -40,18 +41,14 @@ class Composition:
         others = {panel: need for panel, need in self.needs.items() if panel != MECHANISM}
         total = sum(others.values())
         weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
-        large = sum(weight * math.log(self._shown(panel)**2 * self.views[panel].scale) for panel, weight in weights.items())
-        return round(large, 9), min(self._size(panel) / need for panel, need in self.needs.items())
-
-    def _shown(self, panel: str) -> float:
-        """How much of a plan's marks is on paper."""
-        window, extra = self.views[panel], self.figures[panel].extra
-        return 1 - sum(not window.rect.holds(window(spot)) for spot in extra) / self.needs[panel] ** 2
+        large = sum(weight * math.log(self._size(panel)) for panel, weight in weights.items())
+        return round(large, 9), min(self._size(panel) / self.needs[panel] for panel in weights)
 
     def _size(self, panel: str) -> float:
-        """The larger side of a plan on paper."""
+        """The larger side of a plan on paper, as far as it serves."""
         core = self.figures[panel].core
-        return max(core.width, core.height) * self.views[panel].scale
+        size = max(core.width, core.height, 1e-9) * self.views[panel].scale
+        return size if panel == MECHANISM else min(size, EASE * self.needs[panel])
 
     @property
     def roomy(self) -> bool:

@@ -10,7 +10,7 @@ from graphplan.sheet.display import Rect, Spot
 from graphplan.sheet.planes import Figure, grown
 from graphplan.sheet.scales import multiple_below, round_up
 
-COARSER = 2.05  # how much smaller a plan may be drawn so that auxiliary marks stay on the sheet
+COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and another plan, may be for auxiliary marks
 
 
 @dataclass(frozen=True)
@@ -52,7 +52,7 @@ def plan_multiple(figure: Figure, room: Rect, k_s: float) -> tuple[Fraction, Rec
     """The round multiple of the mechanism plan's scale for another plan, and the box that is then on paper."""
     fits = least(figure.core, room)
     core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _box(figure, room, float(k_s / core) * COARSER)
+    box = _box(figure, room, float(k_s / core) * MUCH_COARSER)
     wide = least(box, room)
     multiple = multiple_below(k_s / wide) if wide else Fraction(1)
     return multiple, _box(figure, room, k_s / float(multiple), nice=True)

@@ -10,6 +10,7 @@ import pytest
 from random_loads import loaded
 from random_mechanisms import mechanism
 
+from graphplan.check.printed import data
 from graphplan.check.report import report
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.bracing import bracing
@@ -70,7 +71,7 @@ def test_one_round_costs_what_the_reactions_rub(groups: list[str]) -> None:
 def test_kinytskyi(plan: str) -> None:
     """The lambda mechanism: Kinytskyi's power sum in one round; further rounds change a third of a percent."""
     found = report(load("kinytskyi"), plan=plan)
-    told = found.data()["friction"]
+    told = data(found)["friction"]
     assert found.results["balance moment with friction"]["1"] == pytest.approx(6.4012417, rel=1e-7)
     assert told["efficiency"] == pytest.approx(0.8950101, rel=1e-6)
     assert told["stands"]["efficiency"] == pytest.approx(0.8926637, rel=1e-6)
@@ -97,11 +98,11 @@ def test_at_rest_there_is_no_friction() -> None:
     scene = load("kinytskyi")
     drive = scene.drives[0]
     assert isinstance(drive, TurningDrive)
-    assert "friction" not in report(replace(scene, drives=(replace(drive, omega=Fraction(0)),))).data()
+    assert "friction" not in data(report(replace(scene, drives=(replace(drive, omega=Fraction(0)),))))
 
 
 def test_exact_leaves_friction_out() -> None:
     """Exact numbers leave friction out, as the size of a reaction is a root."""
     scene = rough(load("jaanimets-11"), Fraction(1, 10))
-    assert "friction" in report(scene).data()
-    assert "friction" not in report(scene, exact=True).data()
+    assert "friction" in data(report(scene))
+    assert "friction" not in data(report(scene, exact=True))

@@ -73,8 +73,9 @@ def test_lever_of_two_drives() -> None:
 def test_lever_needs_something_to_hold() -> None:
     """With two drives, a balance that no drive could stand for is refused by the lever, with the way out."""
     scene = load("five-bar")
-    point = next(p for p in scene.links[scene.drives[0].link] if p in scene.joints and p not in scene.links["frame"])
-    first = Balance(scene.drives[0].link, point, (Fraction(3), Fraction(1)))
+    hinged = {link for link, points in scene.links.items() if set(points) & set(scene.links["frame"])}
+    point = next(p for p in scene.joints if not set(scene.links_of[p]) & hinged)
+    first = Balance(scene.links_of[point][0], point, (Fraction(3), Fraction(1)))
     forced = loaded(scene, 5)
     assert forced.loads is not None
     forced = replace(forced, loads=replace(forced.loads, balances=(first, Balance(scene.drives[1].link))))

@@ -10,7 +10,7 @@ from typing import Any, Protocol
 
 
 class Domain(Protocol):
-    """The three questions a rule may ask, and one that is asked of its answer."""
+    """The four questions a rule may ask, and one that is asked of its answer."""
 
     name: str
 
@@ -24,6 +24,10 @@ class Domain(Protocol):
 
     def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
         """`value`, or the failure `code` where it is zero beside `scale`, the size of what it was made from."""
+        ...
+
+    def sign(self, value: Any, scale: Any) -> Any:
+        """1, -1, or 0 where `value` is zero beside `scale`: the sense of a motion, and whether there is one."""
         ...
 
     def whole(self, value: Any) -> Any:

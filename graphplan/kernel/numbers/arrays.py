@@ -34,6 +34,9 @@ class Arrays:
         self._bad = bad if self._bad is None else self._bad | bad
         return np.where(bad, np.nan, value)
 
+    def sign(self, value: Any, scale: Any) -> Any:
+        return np.where(np.abs(value) <= ZERO * scale, 0.0, np.sign(value))
+
     def whole(self, value: Any) -> Any:
         bad, self._bad = self._bad, None
         return value if bad is None else tuple(np.where(bad, np.nan, number) for number in value)

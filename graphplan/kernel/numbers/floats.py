@@ -29,5 +29,8 @@ class Floats:
             raise Undrawable(code, why)
         return value
 
+    def sign(self, value: float, scale: float) -> float:
+        return 0.0 if abs(value) <= ZERO * scale else math.copysign(1.0, value)
+
     def whole(self, value: Any) -> Any:
         return value

@@ -32,5 +32,8 @@ class Fractions:
             raise Undrawable(code, why)
         return value
 
+    def sign(self, value: Fraction, scale: Fraction) -> int:
+        return (value > 0) - (value < 0)
+
     def whole(self, value: Any) -> Any:
         return value

@@ -1,0 +1,98 @@
+"""What `graphplan solve` prints: the results of a report as plain data, after the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+from graphplan.check.report import RUBBED, Report
+from graphplan.mechanism.model import Slide
+from graphplan.methods.forces import pair_name, pairs
+
+
+def data(found: Report) -> dict[str, Any]:
+    """What `graphplan solve` prints."""
+    scene = found.scene
+    return {
+        "title": scene.title,
+        "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
+        "points": _merged(found, scene.points, velocity="velocity", acceleration="acceleration"),
+        "links": _merged(found, scene.moving, omega="omega", alpha="alpha"),
+        "slides": _merged(found, (s.name for s in scene.slides), velocity="slide velocity",
+                               acceleration="slide acceleration"),
+        **_forces(found),
+        "method": found.drawing.method,
+        "check": {kind: _number(value) if value else 0 for kind, value in found.check.items()},
+        "steps": len(found.drawing.drawn) - found.drawing.drawn.givens,
+    }
+
+
+def _forces(found: Report) -> dict[str, Any]:
+    """Balance and reactions; nothing where there are no loads."""
+    if found.reactions is None:
+        return {}
+    balances = [_kept(found, str(k)) for k in range(1, len(found.reactions.balances) + 1)]
+    entries: list[dict[str, Any]] = []
+    for point, link, pin in pairs(found.scene):
+        force = found.results.get("reaction", {}).get(pair_name(point, link))
+        if force is not None:
+            entries.append({"at": point, "on": link, "from": pin, "force": _number(force)})
+    for slide in found.scene.slides:
+        if slide.name in found.results.get("slide reaction", {}):
+            entries.append(_slide(found, slide))
+    told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
+    return {**told, "reactions": entries, **_friction(found)}
+
+
+def _slide(found: Report, slide: Slide) -> dict[str, Any]:
+    """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
+    x, y = found.scene.points[slide.at]
+    arm = found.results.get("slide arm", {}).get(slide.name)
+    return {
+        "slide": slide.name, "on": slide.link, "from": slide.along,
+        "force": _number(found.results["slide reaction"][slide.name]),
+        "moment": _number(found.results["slide moment"][slide.name]),
+        **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
+    }
+
+
+def _friction(found: Report) -> dict[str, Any]:
+    """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
+    rubbed = {name: value for kind in RUBBED for name, value in found.results.get(kind, {}).items()}
+    if not rubbed:
+        return {}
+    drawn = [rubbed[name] for name in sorted(rubbed)]
+    stands = {"balance": [_balance(value) for value in found.standing.balances],
+              "efficiency": found.standing.efficiency}
+    return {"friction": {"balance": [_balance(value) for value in drawn], "efficiency": found.efficiency,
+                         "stands": stands}}
+
+
+def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+    """Readings of several kinds by name, as JSON takes them."""
+    table = {}
+    for name in names:
+        entry = {k: _number(found.results[kind][name]) for k, kind in kinds.items()
+                 if name in found.results.get(kind, {})}
+        if entry:
+            table[name] = entry
+    return table
+
+
+def _kept(found: Report, name: str) -> dict[str, Any]:
+    """One balance, from the force plans, else from the lever."""
+    kinds = ("balance", "balance moment", "lever", "lever moment")
+    return next(_balance(found.results[kind][name]) for kind in kinds if name in found.results.get(kind, {}))
+
+
+def _balance(value: Any) -> dict[str, Any]:
+    """A balance as JSON takes it."""
+    return {"force" if isinstance(value, tuple) else "moment": _number(value)}
+
+
+def _number(value: Any) -> Any:
+    """A number as JSON takes it: floats as they are, fractions as a string p/q."""
+    if isinstance(value, tuple):
+        return [_number(part) for part in value]
+    return str(value) if isinstance(value, Fraction) else value + 0.0

@@ -1,0 +1,205 @@
+"""The command line where forces are asked for: JSON as in the contract, words of the protocol, faults, exit statuses."""
+
+from __future__ import annotations
+
+import io
+import json
+from fractions import Fraction
+from typing import Any
+
+import pytest
+
+from graphplan.commands import main
+
+PRESS = """
+title = "Press"
+gravity = [0, -9.81]
+[units]
+length = "m"
+[points]
+O = [0, 0]
+A = [3, 4]
+B = [15, -1]
+C = [21, 7]
+D = [27, -1]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O D"
+4 = "B"
+5 = "C D"
+[[slides]]
+link = "4"
+along = "frame"
+at = "B"
+direction = [1, 0]
+[[drive]]
+link = "1"
+omega = 2
+[masses.2]
+mass = 2
+inertia = 1.5
+centre = "B"
+[[forces]]
+on = "4"
+at = "B"
+value = [-12, 5]
+[[moments]]
+on = "5"
+value = 7
+[balance]
+link = "1"
+"""
+
+REST = """
+title = "Press"
+[points]
+O = [0, 0]
+A = [30, 40]
+B = [130, 90]
+C = [150, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C"
+[[drive]]
+link = "1"
+omega = 0
+[[forces]]
+on = "3"
+at = "B"
+value = [-12, 5]
+[balance]
+at = "A"
+on = "2"
+direction = [-4, 3]
+"""
+
+
+def ran(arguments: list[str], text: str, monkeypatch: pytest.MonkeyPatch) -> int:
+    """The exit status of a command that reads this scene."""
+    monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(text.encode())))
+    return main([arguments[0], "-", *arguments[1:]])
+
+
+def solved(text: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], *options: str) -> Any:
+    """What `graphplan solve` prints for a scene."""
+    assert ran(["solve", *options], text, monkeypatch) == 0
+    return json.loads(capsys.readouterr().out)
+
+
+def exactly(pair: list[str]) -> list[Fraction]:
+    return [Fraction(number) for number in pair]
+
+
+def test_reactions_of_a_joint_add_up(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """At a joint of three links the one named first carries the pin; slider, load and reactions are in balance."""
+    slide = '[[slides]]\nlink = "3"\nalong = "5"\nat = "C"\ndirection = "D C"\n[[drive]]'
+    scene = PRESS.replace("[[drive]]", slide).replace('5 = "C D"', '5 = "D"')
+    told = solved(scene, monkeypatch, capsys, "--exact")
+    at_pin = [entry for entry in told["reactions"] if entry.get("at") == "B"]
+    assert [(entry["on"], entry["from"]) for entry in at_pin] == [("3", "2"), ("4", "2")]
+    guide = next(entry for entry in told["reactions"] if entry.get("slide") == "4 along frame")
+    slider = next(entry for entry in at_pin if entry["on"] == "4")
+    total = [a + b + c for a, b, c in zip(exactly(guide["force"]), exactly(slider["force"]), (-12, 5), strict=True)]
+    assert total == [0, 0]
+    assert Fraction(guide["moment"]) == 0
+    assert told["check"]["force"] == 0
+
+
+def test_balance_as_a_force_at_rest(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """A mechanism at rest is balanced by a force along its direction, the same by polygons and by the lever."""
+    told = [solved(REST, monkeypatch, capsys, "--exact", "--plan", plan)["balance"] for plan in ("polygons", "lever")]
+    assert told[0] == told[1]
+    x, y = exactly(told[0]["force"])
+    assert 3 * x == -4 * y
+
+
+def test_lever_alone_tells_the_balance_alone(monkeypatch: pytest.MonkeyPatch,
+                                             capsys: pytest.CaptureFixture[str]) -> None:
+    """With --plan lever no reaction is found unless it is asked for by name; then its pair is freed."""
+    assert solved(REST, monkeypatch, capsys, "--plan", "lever")["reactions"] == []
+    asked = solved(REST + '[find]\nreactions = ["C"]', monkeypatch, capsys, "--plan", "lever", "--exact")["reactions"]
+    by_plans = solved(REST, monkeypatch, capsys, "--exact")["reactions"]
+    assert [entry["at"] for entry in asked] == ["C"]
+    assert asked[0] in by_plans
+
+
+def test_several_balances_are_a_list(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Two drives need two balances, which are printed as a list."""
+    text = """
+[points]
+O = [0, 0]
+A = [30, 40]
+B = [90, 100]
+C = [140, 60]
+D = [150, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+4 = "C D"
+frame = "O D"
+[[drive]]
+link = "1"
+omega = 1
+[[drive]]
+link = "4"
+omega = -2
+[[forces]]
+on = "2"
+at = "B"
+value = [3, -8]
+[[balance]]
+link = "1"
+[[balance]]
+link = "4"
+"""
+    told = solved(text, monkeypatch, capsys)
+    assert [list(balance) for balance in told["balance"]] == [["moment"], ["moment"]]
+    assert told["check"]["force"] < 1e-12
+
+
+def test_steps_speak_of_forces(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """The protocol has a part for each force plan and for the lever, and says what every load is."""
+    assert ran(["steps"], PRESS.replace('3 = "B C"\n', "").replace('5 = "C D"', "").replace("C = [21, 7]", "")
+               .replace('"O D"', '"O"').replace("D = [27, -1]", "").replace('on = "5"', 'on = "2"'), monkeypatch) == 0
+    words = " ".join(capsys.readouterr().out.split())
+    for said in ("On the force plan 2, 4:", "On the force plan 1:", "On the lever:",
+                 "P_4, the given force on link 4 at B", "G_2, the weight of link 2", "J_2, the inertia force of link 2", "Moments of link 2 about B",
+                 "The inertia couple of link 2"):
+        assert said in words
+
+
+def test_unbalanced_scene_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """Loads without a balance are a fault of the scene: one line, exit status 2, nothing printed."""
+    assert ran(["solve"], REST.split("[balance]")[0], monkeypatch) == 2
+    out, err = capsys.readouterr()
+    assert not out
+    assert err.splitlines() == [
+        '-: balance: no balances for 1 drive: nothing keeps the prescribed motion; [balance] with link = "1" for a '
+        "moment, or with at, on and direction for a force"]
+
+
+def test_balance_without_work_is_singular(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """A balance along the crank does no work in this pose: exit status 3, with the links that it does not hold."""
+    assert ran(["solve"], REST.replace("[-4, 3]", "[3, 4]"), monkeypatch) == 3
+    err = capsys.readouterr().err
+    assert "singular pose of links 1, 2, 3" in err
+    assert "the balance cannot hold the motion in this pose" in err
+
+
+def test_unknown_plan_is_refused(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """A plan that does not exist is refused with exit status 2."""
+    assert ran(["solve", "--plan", "levers"], REST, monkeypatch) == 2
+    assert "there is no such plan; one of orthogonal, polar, lever, polygons, both" in capsys.readouterr().err
+
+
+def test_check_shows_three_opinions(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """`check` puts force plans and lever beside the solver, and the power balance below."""
+    assert ran(["check"], REST, monkeypatch) == 0
+    out = capsys.readouterr().out
+    for row in ("reaction 2 at A", "balance 1", "lever 1", "power balance 1", "largest difference in force"):
+        assert row in out

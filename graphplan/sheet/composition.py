@@ -8,15 +8,14 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.sheet.paper import MARGIN, SIZES, Arrangement, Measure, arrangements, room
+from graphplan.sheet.paper import SIZES, Arrangement, Measure, arrangements, inside, room
 from graphplan.sheet.planes import MECHANISM, Figure, Planes, around
 from graphplan.sheet.rows import Row
 from graphplan.sheet.scales import Scales
-from graphplan.sheet.view import View, plan_multiple, plan_scale, view
+from graphplan.sheet.view import View, plan_multiple, plan_scale, view, whole
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 FEW = 3.0  # the need of a plan from which on it is not small
-EASE = 30.0  # mm for a plan's need: larger it need not be
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 LARGE = "A1"  # no larger sheet is taken for the sake of the plans alone
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
@@ -41,14 +40,18 @@ class Composition:
         others = {panel: need for panel, need in self.needs.items() if panel != MECHANISM}
         total = sum(others.values())
         weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
-        large = sum(weight * math.log(self._size(panel)) for panel, weight in weights.items())
-        return round(large, 9), min(self._size(panel) / self.needs[panel] for panel in weights)
+        large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
+        return round(large, 9), min(self._size(panel) / need for panel, need in self.needs.items())
+
+    def _scale(self, panel: str) -> float:
+        """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
+        view = self.views[panel]
+        return view.scale if panel == MECHANISM else min(view.scale, whole(self.figures[panel], inside(view.rect)))
 
     def _size(self, panel: str) -> float:
-        """The larger side of a plan on paper, as far as it serves."""
+        """The larger side of a plan on paper."""
         core = self.figures[panel].core
-        size = max(core.width, core.height, 1e-9) * self.views[panel].scale
-        return size if panel == MECHANISM else min(size, EASE * self.needs[panel])
+        return max(core.width, core.height) * self.views[panel].scale
 
     @property
     def roomy(self) -> bool:
@@ -86,12 +89,11 @@ def _windows(
 ) -> Composition:
     """The round scales and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    inner = {panel: rect.inset(MARGIN, MARGIN, MARGIN, MARGIN) for panel, rect in rooms.items()}
-    k_s, box = plan_scale(figures[MECHANISM], inner[MECHANISM])
+    k_s, box = plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))
     views = {MECHANISM: view(box, rooms[MECHANISM], k_s)}
     multiples: dict[str, Fraction] = {}
     for panel in planes.panels[1:]:
-        multiples[panel], box = plan_multiple(figures[panel], inner[panel], k_s)
+        multiples[panel], box = plan_multiple(figures[panel], inside(rooms[panel]), k_s)
         views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
     drawing, units = planes.drawing, planes.drawing.scene.units
     scales = Scales(k_s, drawing.kappa, units.length, multiples, float(drawing.phi), units.force)

@@ -41,6 +41,11 @@ def room(panel: Rect) -> Rect:
     return panel.inset(0.5, 0.5, 0.5, CAPTION)
 
 
+def inside(room: Rect) -> Rect:
+    """Where the figure's own marks may lie: there is room for letters around them."""
+    return room.inset(MARGIN, MARGIN, MARGIN, MARGIN)
+
+
 def sheet_size(paper: str) -> tuple[float, float]:
     """Width and height of a sheet such as `A3` or `A4 portrait`."""
     name, _, way = paper.partition(" ")

@@ -10,7 +10,7 @@ from graphplan.sheet.display import Rect, Spot
 from graphplan.sheet.planes import Figure, grown
 from graphplan.sheet.scales import multiple_below, round_up
 
-COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and another plan, may be for auxiliary marks
+COARSER = 2.05  # how much smaller a plan may be drawn so that auxiliary marks stay on the sheet
 
 
 @dataclass(frozen=True)
@@ -40,6 +40,14 @@ def _box(figure: Figure, room: Rect, most: float, nice: bool = False) -> Rect:
     return box
 
 
+def whole(figure: Figure, room: Rect) -> float:
+    """The mm per unit at which all the marks of a plan just fit."""
+    box = figure.core
+    for spot in figure.extra:
+        box = grown(box, spot)
+    return 1 / (least(box, room) or 1e-9)
+
+
 def plan_scale(figure: Figure, room: Rect) -> tuple[float, Rect]:
     """The round k_s of the mechanism plan in this room, and the box that is then on paper."""
     core = round_up(least(figure.core, room))
@@ -52,7 +60,7 @@ def plan_multiple(figure: Figure, room: Rect, k_s: float) -> tuple[Fraction, Rec
     """The round multiple of the mechanism plan's scale for another plan, and the box that is then on paper."""
     fits = least(figure.core, room)
     core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _box(figure, room, float(k_s / core) * MUCH_COARSER)
+    box = _box(figure, room, float(k_s / core) * COARSER)
     wide = least(box, room)
     multiple = multiple_below(k_s / wide) if wide else Fraction(1)
     return multiple, _box(figure, room, k_s / float(multiple), nice=True)

@@ -1,4 +1,4 @@
-"""The command line where forces are asked for: JSON as in the contract, words of the protocol, faults, exit statuses."""
+"""The command line where forces are asked for: JSON as in the contract, the protocol, faults, exit statuses."""
 
 from __future__ import annotations
 
@@ -167,9 +167,11 @@ def test_steps_speak_of_forces(monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
     assert ran(["steps"], PRESS.replace('3 = "B C"\n', "").replace('5 = "C D"', "").replace("C = [21, 7]", "")
                .replace('"O D"', '"O"').replace("D = [27, -1]", "").replace('on = "5"', 'on = "2"'), monkeypatch) == 0
     words = " ".join(capsys.readouterr().out.split())
-    for said in ("On the force plan 2, 4:", "On the force plan 1:", "On the lever:",
-                 "P_4, the given force on link 4 at B", "G_2, the weight of link 2", "J_2, the inertia force of link 2", "Moments of link 2 about B",
-                 "The inertia couple of link 2"):
+    for said in (
+        "On the force plan 2, 4:", "On the force plan 1:", "On the lever:", "Moments of link 2 about B",
+        "P_4, the given force on link 4 at B", "G_2, the weight of link 2", "J_2, the inertia force of link 2",
+        "The inertia couple of link 2",
+    ):
         assert said in words
 
 

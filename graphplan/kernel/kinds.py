@@ -30,7 +30,8 @@ class Primitive:
     `reads` and `gives` are kinds; `rule(domain, *values, **params)` gives the value; `sentence` is spoken with the
     names of what it reads as {0}, {1}, ... and of what it makes as {out}; `claims` are what the drawn thing must
     satisfy; `fails` are the failure codes with what each means and what to do; `forms` are the ways to draw a
-    compound from earlier primitives, by name. `where` is the operand on whose plan it is drawn (-1: the last).
+    compound from earlier primitives, by name. `where` is the operand on whose plan it is drawn (-1: the last). Where
+    it is `symmetric` the order of its operands does not matter.
     """
 
     name: str
@@ -44,6 +45,7 @@ class Primitive:
     params: tuple[str, ...] = ()
     source: str = ""
     where: int = -1
+    symmetric: bool = False
     forms: dict[str, Callable[..., Any]] = field(default_factory=dict, repr=False)
 
     @property
@@ -88,6 +90,7 @@ def primitive(
     params: tuple[str, ...] = (),
     source: str = "",
     where: int = -1,
+    symmetric: bool = False,
 ) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
     """Enter the decorated rule in the table under its own name."""
 
@@ -95,7 +98,8 @@ def primitive(
         name = rule.__name__
         if name in TABLE:
             raise ValueError(f"the table already has {name}")
-        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, claims, fails, params, source, where)
+        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, claims, fails, params, source, where,
+                                symmetric)
         return rule
 
     return enter

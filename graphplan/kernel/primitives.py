@@ -69,7 +69,7 @@ def perpendicular(d: Any, l: Any, P: Any) -> Any:
 
 
 @primitive((LINE, LINE), POINT, PENCIL, "Mark {out} where {0} meets {1}.",
-           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",))
+           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",), symmetric=True)
 def meet(d: Any, k: Any, l: Any) -> Any:
     """The intersection of two lines."""
     one, two = k[0] * l[1], l[0] * k[1]

@@ -38,7 +38,8 @@ class Step:
     @property
     def key(self) -> tuple[Any, ...]:
         """What makes two steps the same drawing."""
-        return self.op.name, self.args, tuple(sorted(self.params.items()))
+        args = tuple(sorted(self.args)) if self.op.symmetric else self.args
+        return self.op.name, args, tuple(sorted(self.params.items()))
 
 
 class Mark:

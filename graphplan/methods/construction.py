@@ -139,21 +139,12 @@ class Construction:
 
     def _force_method(self) -> dict[str, list[str]]:
         """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
-        names = ["force polygons"] if self._force_steps else []
-        letters = sorted({step.name for step in self.drawn.steps} & self._moment_points)
-        names += ["auxiliary points " + ", ".join(letters)] if letters else []
-        names += ["false position"] if any(step.op.name == "false_position" for step in self._force_steps) else []
+        steps = [step for step in self.program.steps if step.panel.startswith("force plan")]
+        names = ["force polygons"] if steps else []
+        names += ["auxiliary points"] if any(step.op.name in ("towards", "weigh") for step in self.program.steps) else []
+        names += ["false position"] if any(step.op.name == "false_position" for step in steps) else []
         names += ["Zhukovsky's lever"] if any(step.panel.startswith("lever") for step in self.drawn.steps) else []
         return {"force": names} if names else {}
-
-    @property
-    def _force_steps(self) -> list[Step]:
-        return [step for step in self.program.steps if step.panel.startswith("force plan")]
-
-    @property
-    def _moment_points(self) -> set[str]:
-        """The letters of the points that moments are taken about where two lines of action meet."""
-        return {step.names["Q"] for step in self.program.steps if step.op.name in ("towards", "weigh")}
 
     def _letters(self) -> list[str]:
         """The letters of the auxiliary points."""
@@ -220,6 +211,19 @@ class Construction:
     def velocity(self) -> dict[str, complex]:
         """The velocities asked for, in length units of the scene per second."""
         return {name: complex(*pair) for name, pair in self._floats.get(VELOCITY, {}).items()}
+
+    @property
+    def reactions(self) -> dict[str, complex]:
+        """The reactions asked for, in the scene's forces: on links at joints, such as `2 at B`, and of slides."""
+        forces = {**self._floats.get("reaction", {}), **self._floats.get("slide reaction", {})}
+        return {name: complex(*pair) for name, pair in forces.items()}
+
+    @property
+    def balances(self) -> list[complex | float]:
+        """The balances, by force plans or else by the lever: moments in force * m, forces as complex numbers."""
+        kinds = ("lever", "lever moment", "balance", "balance moment")
+        found = {name: value for kind in kinds for name, value in self._floats.get(kind, {}).items()}
+        return [complex(*value) if isinstance(value, tuple) else float(value) for _, value in sorted(found.items())]
 
     @property
     def acceleration(self) -> dict[str, complex]:

@@ -212,14 +212,6 @@ class Loading:
         one, two = self.arm_points(link)
         return self.pose.points[one], self.pose.points[two]
 
-    def loaded(self, link: str) -> bool:
-        """Whether anything acts on a link besides its neighbours."""
-        mass = self.loads.masses.get(link)
-        moved = any(self.loads.gravity) or self.motion is not None
-        weighs = mass is not None and (mass.mass or mass.inertia) and moved
-        given = any(f.on == link for f in self.loads.forces) or any(m.on == link for m in self.loads.moments)
-        return bool(given or weighs or any(b.link == link for b in self.loads.balances))
-
 
 def force_scale(scene: Scene) -> Number:
     """How long a unit of force is drawn: the largest load about a third of the mechanism, in a round number."""

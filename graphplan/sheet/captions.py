@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from fractions import Fraction
 
 from graphplan.mechanism.model import FRAME
 from graphplan.sheet import pens
 from graphplan.sheet.display import Rect, Text
 from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
-from graphplan.sheet.planes import LEVER, MECHANISM, Planes
+from graphplan.sheet.planes import FRICTION, LEVER, MECHANISM, Planes
 from graphplan.sheet.scales import Scales, times
 
 HEAD, LINE = 3.0, 3.7  # mm: the size of a plan's name, from base line to base line
@@ -18,7 +19,7 @@ ORTHOGONAL, LOADS = "velocity", "load"  # the kinds of vector that the mechanism
 
 def captions(rect: Rect, panel: str, planes: Planes, scales: Scales) -> Iterator[Text]:
     """Over a plan what it is, and its scales."""
-    kinds, multiple = planes.kinds(panel), scales.multiples.get(panel, 1)
+    kinds, multiple = planes.kinds(panel), scales.multiples.get(panel, Fraction(1))
     head = caption(panel, kinds) + (f", {times(multiple)}" if multiple != 1 else "")
     heads = wrap(sentence_runs(head), HEAD, rect.width - 5, bold=True)
     lines: list[Runs] = [*heads, *wrap(sentence_runs(",  ".join(scales.said(panel, kinds))), SIZE, rect.width - 5)]
@@ -36,7 +37,8 @@ def caption(panel: str, kinds: set[str]) -> str:
     if panel == "N-plan":
         return "N-plan: relative normal accelerations"
     if panel.startswith(FORCE_PLAN):
-        return f"Force plan: {listed(panel.removeprefix(FORCE_PLAN).split(', '))}"
+        links = listed(panel.removeprefix(FORCE_PLAN).removesuffix(FRICTION).split(", "))
+        return f"Force plan{FRICTION if panel.endswith(FRICTION) else ''}: {links}"
     if panel == LEVER or panel.startswith(f"{LEVER} "):
         return "Zhukovsky's lever" + _served(panel.removeprefix(LEVER).strip())
     return panel[0].upper() + panel[1:]

@@ -9,10 +9,10 @@ from fractions import Fraction
 
 from graphplan.errors import Refused
 from graphplan.sheet.paper import SIZES, Arrangement, Measure, arrangements, inside, room
-from graphplan.sheet.planes import MECHANISM, Figure, Planes, around
+from graphplan.sheet.planes import FRICTION, MECHANISM, Figure, Planes, around
 from graphplan.sheet.rows import Row
 from graphplan.sheet.scales import Scales
-from graphplan.sheet.view import View, plan_multiple, plan_scale, view, whole
+from graphplan.sheet.view import View, plan_box, plan_multiple, plan_scale, view, whole
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 FEW = 3.0  # the need of a plan from which on it is not small
@@ -91,13 +91,23 @@ def _windows(
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     k_s, box = plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))
     views = {MECHANISM: view(box, rooms[MECHANISM], k_s)}
-    multiples: dict[str, Fraction] = {}
-    for panel in planes.panels[1:]:
-        multiples[panel], box = plan_multiple(figures[panel], inside(rooms[panel]), k_s)
-        views[panel] = view(box, rooms[panel], k_s / float(multiples[panel]))
-    drawing, units = planes.drawing, planes.drawing.scene.units
-    scales = Scales(k_s, drawing.kappa, units.length, multiples, float(drawing.phi), units.force)
+    multiples = _alike({p: plan_multiple(figures[p], inside(rooms[p]), k_s) for p in planes.panels[1:]})
+    for panel, multiple in multiples.items():
+        units = k_s / float(multiple)
+        views[panel] = view(plan_box(figures[panel], inside(rooms[panel]), units), rooms[panel], units)
+    drawing, names = planes.drawing, planes.drawing.scene.units
+    scales = Scales(k_s, drawing.kappa, names.length, multiples, float(drawing.phi), names.force)
     return Composition(arrangement, scales, views, needs, figures)
+
+
+def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """The plan of a group with friction and that without it are compared, so they have one scale: the smaller."""
+    found = dict(multiples)
+    for panel in multiples:
+        twin = panel.removesuffix(FRICTION)
+        if twin != panel and twin in multiples:
+            found[panel] = found[twin] = min(multiples[panel], multiples[twin])
+    return found
 
 
 def _legible(planes: Planes, views: Mapping[str, View]) -> bool:

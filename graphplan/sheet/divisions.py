@@ -18,14 +18,15 @@ def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rec
     if not rest:
         yield {first: plans}
         return
+    left, bottom, right, top = plans.left, plans.bottom, plans.right, plans.top
     many = range(1, len(rest) + 1) if len(rest) > 2 else ()
+    grids = {count: _rows(rest, needs, count) for count in range(1, len(rest) + 1)}
     for share in SHARES:
-        x, y = plans.left + share * plans.width, plans.bottom + (1 - share) * plans.height
-        beside, under = Rect(x, plans.bottom, plans.right, plans.top), Rect(plans.left, plans.bottom, plans.right, y)
-        for rows in many or (len(rest),):
-            yield {first: Rect(plans.left, plans.bottom, x, plans.top), **_grid(beside, needs, _rows(rest, needs, rows))}
-        for rows in many or (1,):
-            yield {first: Rect(plans.left, y, plans.right, plans.top), **_grid(under, needs, _rows(rest, needs, rows))}
+        x, y = left + share * plans.width, bottom + (1 - share) * plans.height
+        for count in many or (len(rest),):
+            yield {first: Rect(left, bottom, x, top), **_grid(Rect(x, bottom, right, top), needs, grids[count])}
+        for count in many or (1,):
+            yield {first: Rect(left, y, right, top), **_grid(Rect(left, bottom, right, y), needs, grids[count])}
 
 
 def _rows(panels: Sequence[str], needs: Mapping[str, float], count: int) -> list[list[str]]:

@@ -14,12 +14,15 @@ from graphplan.sheet.display import Spot
 from graphplan.sheet.labels import Wish
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import MECHANISM, Vector
-from graphplan.sheet.strokes import SHORT, Stretch, Strokes, towards
+from graphplan.sheet.strokes import Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
 
 SMALL = 2.0  # the figures of marks without a letter
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
+MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
 NEAR = 0.25
+
+Span = tuple[Spot, Spot]
 
 
 @dataclass(frozen=True)
@@ -38,8 +41,9 @@ class Letters:
         for step in self.strokes.steps:
             if step.index in self.strokes.stretches:
                 yield from self._line_letters(step, self.strokes.stretches[step.index])
-        for vectors in self._spans().values():
-            yield from self._vector_letter(vectors)
+        spans = self._spans()
+        for (start, end), vectors in spans.items():
+            yield from self._vector_letter(vectors, any(_same(span, (end, start)) for span in spans))
 
     def _point_letters(self) -> Iterator[Wish]:
         """The letters, and apart from them the numbers, of each place: marks that coincide stand together."""
@@ -94,23 +98,25 @@ class Letters:
             runs = sentence_runs(f"to {name}", (name,))
             yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
 
-    def _spans(self) -> dict[tuple[Spot, Spot], list[Vector]]:
+    def _spans(self) -> dict[Span, list[Vector]]:
         """The vectors by where they begin and end: some lie on each other."""
-        spans: dict[tuple[Spot, Spot], list[Vector]] = {}
-        for vector in self.strokes.planes.vectors(self.strokes.panel):
+        spans: dict[Span, list[Vector]] = {}
+        for vector in self.strokes.vectors:
             ends = self.strokes.spots[vector.start], self.strokes.spots[vector.end]
-            same = (span for span in spans if math.dist(span[0], ends[0]) < NEAR and math.dist(span[1], ends[1]) < NEAR)
-            spans.setdefault(next(same, ends), []).append(vector)
+            spans.setdefault(next((span for span in spans if _same(span, ends)), ends), []).append(vector)
         return spans
 
-    def _vector_letter(self, vectors: list[Vector]) -> Iterator[Wish]:
-        """The own letters of vectors that lie on each other, at their middle, unless their end bears them."""
+    def _vector_letter(self, vectors: list[Vector], answered: bool) -> Iterator[Wish]:
+        """The own letters of vectors that lie on each other, at their middle, unless their end bears them.
+
+        Where others run the opposite way the letters stand nearer to their heads.
+        """
         first = vectors[0]
         borne = self.drawn.steps[first.end].name
         names = tuple(dict.fromkeys(v.label for v in vectors if v.label and v.label != borne))
-        if names and self.strokes.length(first) >= SHORT:
+        if names:
             start, end = self.strokes.spots[first.start], self.strokes.spots[first.end]
-            spots = tuple(clip.between(start, end, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+            spots = tuple(clip.between(start, end, t) for t in (NEAR_HEAD if answered else MIDDLE))
             pen = replace(pens.VECTORS[first.kind], width=0.0)
             runs = name_runs(names[0]) if len(names) == 1 else sentence_runs(", ".join(names), names)
             yield Wish(runs, spots, 0.7, pen=pen, step=first.end, label=",".join(names), free=True)
@@ -120,3 +126,8 @@ def _listed(steps: list[Step]) -> Runs:
     """Several names side by side."""
     names = tuple(step.name for step in steps)
     return sentence_runs(", ".join(names), names)
+
+
+def _same(one: Span, other: Span) -> bool:
+    """Whether two spans are one on paper."""
+    return all(math.dist(p, q) < NEAR for p, q in zip(one, other, strict=True))

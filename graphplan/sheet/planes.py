@@ -19,7 +19,7 @@ from graphplan.sheet import laid_off
 from graphplan.sheet.display import Rect, Spot
 from graphplan.sheet.pens import FORCES
 
-MECHANISM, LEVER = "mechanism", "lever"
+MECHANISM, LEVER, FRICTION = "mechanism", "lever", " with friction"  # plans by name; what a name may end in
 
 
 class Vector(Protocol):

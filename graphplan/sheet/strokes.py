@@ -20,7 +20,7 @@ from graphplan.sheet.view import View
 
 LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
-SHORT = 0.5  # mm: a vector shorter than this is not drawn
+SHORT, HIDDEN = 0.5, 2.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 
 
@@ -67,8 +67,7 @@ class Strokes:
         for step in self.steps:
             for item in self._drawn(step):
                 yield from clip.clipped(item, self.view.rect)
-        for vector in self.planes.vectors(self.panel):
-            yield from self._arrow(vector)
+        yield from map(self._arrow, self.vectors)
 
     def _drawn(self, step: Step) -> Iterator[Item]:
         if step.op.gives == LINE:
@@ -104,20 +103,24 @@ class Strokes:
 
     @cached_property
     def _force_heads(self) -> set[int]:
-        vectors = self.planes.vectors(self.panel)
-        return {v.end for v in vectors if v.kind in pens.FORCES and self.length(v) >= SHORT}
+        return {vector.end for vector in self.planes.vectors(self.panel) if vector.kind in pens.FORCES}
+
+    @cached_property
+    def vectors(self) -> list[Vector]:
+        """The vectors that are long enough to be drawn."""
+        least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
+        return [v for v in self.planes.vectors(self.panel) if self.length(v) >= least.get(v.kind, SHORT)]
 
     def length(self, vector: Vector) -> float:
         """How long a vector is on paper."""
         return math.dist(self.spots[vector.start], self.spots[vector.end])
 
-    def _arrow(self, vector: Vector) -> Iterator[Item]:
-        """A vector with its head; one that is very short is only its mark."""
-        start, end, long = self.spots[vector.start], self.spots[vector.end], self.length(vector)
-        if long >= SHORT:
-            head = min(pens.HEADS[vector.kind], 0.6 * long)
-            label = f"{vector.kind} {vector.point}"
-            yield Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head, label)
+    def _arrow(self, vector: Vector) -> Item:
+        """A vector with its head."""
+        start, end = self.spots[vector.start], self.spots[vector.end]
+        head = min(pens.HEADS[vector.kind], 0.6 * self.length(vector))
+        label = f"{vector.kind} {vector.point}"
+        return Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head, label)
 
     # ---- lines -----------------------------------------------------------------------------------------------------
 

@@ -10,7 +10,7 @@ from graphplan.sheet.display import Rect, Spot
 from graphplan.sheet.planes import Figure, grown
 from graphplan.sheet.scales import multiple_below, round_up
 
-COARSER = 2.05  # how much smaller a plan may be drawn so that auxiliary marks stay on the sheet
+COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and any other plan, may be for auxiliary marks
 
 
 @dataclass(frozen=True)
@@ -53,17 +53,21 @@ def plan_scale(figure: Figure, room: Rect) -> tuple[float, Rect]:
     core = round_up(least(figure.core, room))
     box = _box(figure, room, core * COARSER if figure.core.width or figure.core.height else math.inf)
     k_s = round_up(least(box, room))
-    return k_s, _box(figure, room, k_s, nice=True)
+    return k_s, plan_box(figure, room, k_s)
 
 
-def plan_multiple(figure: Figure, room: Rect, k_s: float) -> tuple[Fraction, Rect]:
-    """The round multiple of the mechanism plan's scale for another plan, and the box that is then on paper."""
+def plan_multiple(figure: Figure, room: Rect, k_s: float) -> Fraction:
+    """The round multiple of the mechanism plan's scale for another plan."""
     fits = least(figure.core, room)
     core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _box(figure, room, float(k_s / core) * COARSER)
+    box = _box(figure, room, float(k_s / core) * MUCH_COARSER)
     wide = least(box, room)
-    multiple = multiple_below(k_s / wide) if wide else Fraction(1)
-    return multiple, _box(figure, room, k_s / float(multiple), nice=True)
+    return multiple_below(k_s / wide) if wide else Fraction(1)
+
+
+def plan_box(figure: Figure, room: Rect, units_per_mm: float) -> Rect:
+    """What of a plan is on paper at a scale."""
+    return _box(figure, room, units_per_mm, nice=True)
 
 
 def view(box: Rect, room: Rect, units_per_mm: float) -> View:

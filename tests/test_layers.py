@@ -116,3 +116,17 @@ def test_solving_needs_no_drawing_packages() -> None:
             "print({'shapely', 'svgwrite', 'matplotlib'} & set(sys.modules), file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.strip().endswith("set()"), done.stderr
+
+
+FORCES = ("methods.loaded", "methods.forces", "methods.statics", "methods.lever", "methods.friction", "check.held",
+          "solver.statics", "solver.virtual_power", "solver.friction")
+
+
+@pytest.mark.parametrize(("scene", "touched"), [("four-bar", False), ("jaanimets-10", True)])
+def test_scenes_without_loads_touch_no_force_code(scene: str, touched: bool) -> None:
+    """What forces need is imported where there are loads, and nowhere else."""
+    code = ("import sys; from graphplan.commands import main; "
+            f"assert main(['solve', {scene!r}]) == 0; assert main(['draw', {scene!r}]) == 0; "
+            f"print([m for m in {FORCES!r} if 'graphplan.' + m in sys.modules], file=sys.stderr)")
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stderr.strip() == str(list(FORCES) if touched else []), done.stderr

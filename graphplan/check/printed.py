@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from graphplan.check.report import RUBBED, Report
+from graphplan.check.report import Report
 from graphplan.mechanism.model import Slide
-from graphplan.methods.forces import pair_name, pairs
+
+if TYPE_CHECKING:
+    from graphplan.check.held import Held
 
 
 def data(found: Report) -> dict[str, Any]:
@@ -30,19 +32,18 @@ def data(found: Report) -> dict[str, Any]:
 
 def _forces(found: Report) -> dict[str, Any]:
     """Balance and reactions; nothing where there are no loads."""
-    if found.reactions is None:
+    if found.held is None:
         return {}
-    balances = [_kept(found, str(k)) for k in range(1, len(found.reactions.balances) + 1)]
+    balances = [_kept(found, str(k)) for k in range(1, len(found.held.power) + 1)]
     entries: list[dict[str, Any]] = []
-    for point, link, pin in pairs(found.scene):
-        force = found.results.get("reaction", {}).get(pair_name(point, link))
-        if force is not None:
-            entries.append({"at": point, "on": link, "from": pin, "force": _number(force)})
+    for point, link, pin in found.held.asked:
+        force = _number(found.results["reaction"][f"{link} at {point}"])
+        entries.append({"at": point, "on": link, "from": pin, "force": force})
     for slide in found.scene.slides:
         if slide.name in found.results.get("slide reaction", {}):
             entries.append(_slide(found, slide))
     told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
-    return {**told, "reactions": entries, **_friction(found)}
+    return {**told, "reactions": entries, **_friction(found.held)}
 
 
 def _slide(found: Report, slide: Slide) -> dict[str, Any]:
@@ -57,15 +58,14 @@ def _slide(found: Report, slide: Slide) -> dict[str, Any]:
     }
 
 
-def _friction(found: Report) -> dict[str, Any]:
+def _friction(held: Held) -> dict[str, Any]:
     """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
-    rubbed = {name: value for kind in RUBBED for name, value in found.results.get(kind, {}).items()}
-    if not rubbed:
+    if not held.rubbed:
         return {}
-    drawn = [rubbed[name] for name in sorted(rubbed)]
-    stands = {"balance": [_balance(value) for value in found.standing.balances],
-              "efficiency": found.standing.efficiency}
-    return {"friction": {"balance": [_balance(value) for value in drawn], "efficiency": found.efficiency,
+    drawn = [held.rubbed[name] for name in sorted(held.rubbed)]
+    stands = {"balance": [_balance(value) for value in held.standing.balances],
+              "efficiency": held.standing.efficiency}
+    return {"friction": {"balance": [_balance(value) for value in drawn], "efficiency": held.efficiency,
                          "stands": stands}}
 
 

@@ -33,14 +33,15 @@ def run(options: argparse.Namespace) -> int:
     for part, ours in found.results.items():
         truth = found.truth(part)
         lines += [f"{part + ' ' + name:<24}{_text(ours[name]):>32}{_text(truth[name]):>32}" for name in ours]
-    lines += [f"{f'power balance {number}':<24}{_text(value):>32}" for number, value in enumerate(found.power, 1)]
+    powers = found.held.power if found.held else ()
+    lines += [f"{f'power balance {number}':<24}{_text(value):>32}" for number, value in enumerate(powers, 1)]
     lines.append("")
     for kind, difference in found.check.items():
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")
     lines += map(str, (*shortcuts(found.drawing), *replacements(scene)))
-    if found.efficiency is not None:
-        lines.append(f"instantaneous efficiency: {found.efficiency:.4g} as drawn, "
-                     f"{found.standing.efficiency:.4g} in further rounds")
+    if found.held and found.held.efficiency is not None:
+        lines.append(f"instantaneous efficiency: {found.held.efficiency:.4g} as drawn, "
+                     f"{found.held.standing.efficiency:.4g} in further rounds")
     if not found.exact:
         lines.append(f"condition of the mechanism: {found.condition:.3g}; allowed: {found.tolerance:.2g}")
     write("\n".join(lines) + "\n", None)

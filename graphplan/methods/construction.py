@@ -139,9 +139,10 @@ class Construction:
 
     def _force_method(self) -> dict[str, list[str]]:
         """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
-        steps = [step for step in self.program.steps if step.panel.startswith("force plan")]
-        names = ["force polygons"] if steps else []
-        names += ["auxiliary points"] if any(step.op.name in ("towards", "weigh") for step in self.program.steps) else []
+        plans = {step.panel for step in self.drawn.steps if step.panel.startswith("force plan")}
+        steps = [step for step in self.program.steps if step.panel in plans or step.op.name == "towards"]
+        names = ["force polygons"] if plans else []
+        names += ["auxiliary points"] if any(step.op.name in ("towards", "weigh") for step in steps) else []
         names += ["false position"] if any(step.op.name == "false_position" for step in steps) else []
         names += ["Zhukovsky's lever"] if any(step.panel.startswith("lever") for step in self.drawn.steps) else []
         return {"force": names} if names else {}

@@ -135,6 +135,7 @@ def virtual(scene: Scene, drives: tuple[Drive, ...], pose: Pose, extra: dict[str
     """Orthogonal velocities of a scene as these drives would move it; `extra` are new points at old ones' places."""
     assumed = replace(scene, drives=drives)
     net, own = Network(assumed), copy(pose)
+    net.coincident |= {(new, link): old for new, old in extra.items() for link in net.links if new not in net.links[link]}
     own.scene = assumed
     own.points = pose.points | {new: pose.points[old] for new, old in extra.items()}
     velocity = Orthogonal(pose.board, net, own, Tempo(Fraction(1)))

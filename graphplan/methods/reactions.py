@@ -31,18 +31,24 @@ class Known:
 
 @dataclass(frozen=True)
 class Shown:
-    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter."""
+    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter.
+
+    It is drawn where its head is needed; or, if it only repeats another force, where the head `of` that one is.
+    """
 
     kind: str
     label: str
     tail: Mark
     head: Mark
+    of: Mark | None = None
 
 
 def applied(board: Board, force: Acting) -> Shown:
     """A load drawn where it acts, on the mechanism plan."""
     with board.on(MECHANISM):
-        return Shown("load", force.name, force.at, board.transfer(force.tail, force.head, force.at))
+        why = f"{force.name}, where it acts"
+        head = board.transfer(force.tail, force.head, force.at, why=why)
+        return Shown("load", force.name, force.at, head, force.head)
 
 
 class Forces:

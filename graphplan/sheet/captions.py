@@ -44,6 +44,15 @@ def caption(panel: str, kinds: set[str]) -> str:
     return panel[0].upper() + panel[1:]
 
 
+def spoken(panel: str) -> str:
+    """How a plan is spoken of among the steps."""
+    if panel == MECHANISM:
+        return "mechanism plan"
+    if panel.startswith(FORCE_PLAN):
+        return caption(panel, set()).replace(": ", " of ").replace("Force", "force")
+    return panel
+
+
 def _served(what: str) -> str:
     """Which lever of several: that of a balance, by number, or of a reaction, such as `2 at B, x`."""
     if " at " not in what:

@@ -37,7 +37,7 @@ class Composition:
 
         The mechanism counts most, each other plan one half or, of many, its part of the need.
         """
-        others = {panel: need for panel, need in self.needs.items() if panel != MECHANISM}
+        others = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
         total = sum(others.values())
         weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())

@@ -6,6 +6,7 @@ Two others stand in a stack or in a row. More stand in a grid, in reading order,
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from itertools import product
 
 from graphplan.sheet.display import Rect
 
@@ -23,10 +24,10 @@ def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rec
     grids = {count: _rows(rest, needs, count) for count in range(1, len(rest) + 1)}
     for share in SHARES:
         x, y = left + share * plans.width, bottom + (1 - share) * plans.height
-        for count in many or (len(rest),):
-            yield {first: Rect(left, bottom, x, top), **_grid(Rect(x, bottom, right, top), needs, grids[count])}
-        for count in many or (1,):
-            yield {first: Rect(left, y, right, top), **_grid(Rect(left, bottom, right, y), needs, grids[count])}
+        for even, count in product((False, True), many or (len(rest),)):
+            yield {first: Rect(left, bottom, x, top), **_grid(Rect(x, bottom, right, top), needs, grids[count], even)}
+        for even, count in product((False, True), many or (1,)):
+            yield {first: Rect(left, y, right, top), **_grid(Rect(left, bottom, right, y), needs, grids[count], even)}
 
 
 def _rows(panels: Sequence[str], needs: Mapping[str, float], count: int) -> list[list[str]]:
@@ -43,12 +44,14 @@ def _rows(panels: Sequence[str], needs: Mapping[str, float], count: int) -> list
     return rows
 
 
-def _grid(region: Rect, needs: Mapping[str, float], rows: Sequence[Sequence[str]]) -> dict[str, Rect]:
-    """Rows from the top, plans from the left: areas are as the needs."""
+def _grid(
+    region: Rect, needs: Mapping[str, float], rows: Sequence[Sequence[str]], even: bool
+) -> dict[str, Rect]:
+    """Rows from the top, plans from the left: areas are as the needs, or the rows are of even height."""
     total, found, top = sum(needs[panel] for row in rows for panel in row), {}, region.top
     for row in rows:
         need, left = sum(needs[panel] for panel in row), region.left
-        bottom = top - region.height * need / total
+        bottom = top - region.height * (1 / len(rows) if even else need / total)
         for panel in row:
             right = left + region.width * needs[panel] / need
             found[panel] = Rect(left, bottom, right, top)

@@ -13,7 +13,7 @@ from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Spot
 from graphplan.sheet.labels import Wish
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
-from graphplan.sheet.planes import MECHANISM, Vector
+from graphplan.sheet.planes import MECHANISM, Vector, corner
 from graphplan.sheet.strokes import Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
 
@@ -52,8 +52,7 @@ class Letters:
             lettered = [step for step in steps if step.name]
             if lettered:
                 label = ",".join(step.name for step in lettered)
-                corner = all(step.name.isdigit() for step in lettered)  # not the number of a step
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=corner)
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=all(map(corner, lettered)))
             numbered = [step for step in steps if not step.name]
             if numbered:
                 said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)

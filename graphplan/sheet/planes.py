@@ -60,6 +60,11 @@ class Drawing(Protocol):
     def read(self, domain: Domain) -> dict[str, dict[str, Any]]: ...
 
 
+def corner(step: Step) -> bool:
+    """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
+    return step.name.isdigit()
+
+
 @dataclass(frozen=True)
 class Figure:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.

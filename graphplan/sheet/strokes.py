@@ -15,12 +15,12 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.sheet import clip, laid_off, pens
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polyline, Spot
-from graphplan.sheet.planes import MECHANISM, Planes, Vector
+from graphplan.sheet.planes import MECHANISM, Planes, Vector, corner
 from graphplan.sheet.view import View
 
 LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
-SHORT, HIDDEN = 0.5, 2.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
+SHORT, HIDDEN = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 
 
@@ -80,12 +80,12 @@ class Strokes:
     # ---- points and vectors ----------------------------------------------------------------------------------------
 
     def _point(self, step: Step) -> Iterator[Item]:
-        """A dot, unless a force ends there, and the stroke along which it was laid off."""
+        """A dot, unless forces meet there, and the stroke along which it was laid off."""
         here = self.spots[step.index]
         root = laid_off.root(step)
-        if root in self.spots and (root, step.index) not in self._vector_ends:
+        if root in self.spots and not self._vector_between(self.spots[root], here):
             yield self._laid_off(step, self.spots[root], here)
-        if self.shown(step.index) and step.index not in self._force_heads:
+        if self.shown(step.index) and not corner(step) and step.index not in self._force_heads:
             pen = pens.ORIGIN if step.op.name == "begin" else pens.DOT
             yield Circle(pen, LAYER, step.index, here, 0.5 if step.name else 0.4)
 
@@ -97,9 +97,11 @@ class Strokes:
         brought = step.op.name not in laid_off.MEASURED and self.planes.homes[step.args[0]] != self.panel
         return Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, (root, here))
 
-    @cached_property
-    def _vector_ends(self) -> set[tuple[int, int]]:
-        return {(vector.start, vector.end) for vector in self.planes.vectors(self.panel)}
+    def _vector_between(self, one: Spot, other: Spot) -> bool:
+        """Whether a vector takes the place of a stroke."""
+        ends = ((self.spots[v.start], self.spots[v.end]) for v in self.planes.vectors(self.panel))
+        return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
+                   for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
 
     @cached_property
     def _force_heads(self) -> set[int]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from graphplan.mechanism.units import metre
 from graphplan.solver.loads import asked
 from graphplan.solver.plane import dot
-from graphplan.solver.reactions import Reactions
+from graphplan.solver.statics import Reactions
 
 IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 

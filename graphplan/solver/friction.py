@@ -20,8 +20,8 @@ from graphplan.solver.equations import Equations
 from graphplan.solver.facts import Along, Fact, Rate, Turning, X, Y, held
 from graphplan.solver.loads import asked
 from graphplan.solver.plane import dot, plus, times, turned
-from graphplan.solver.reactions import Reactions, equilibrium, reactions
 from graphplan.solver.rubbing import Rubbing, rubbing
+from graphplan.solver.statics import Reactions, equilibrium, reactions
 
 GROWING = (0.25, 0.5, 0.75, 1.0)
 ROUNDS = 20

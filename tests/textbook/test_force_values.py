@@ -177,7 +177,7 @@ def test_efficiency_over_a_cycle(angle: int) -> None:
     """
     text = (files("graphplan") / "scenes" / "kinytskyi.toml").read_text(encoding="utf-8")
     turned = report(parse(text.replace("angle = -60", f"angle = {angle}"), "kinytskyi"))
-    told, stands = turned.efficiency, turned.standing.efficiency
+    told, stands = turned.held.efficiency, turned.held.standing.efficiency
     assert turned.agrees
     assert told is not None
     assert stands is not None

@@ -18,7 +18,7 @@ from graphplan.solver.linear import for_rates, require_fractions
 from graphplan.solver.loads import Load, acting, asked
 from graphplan.solver.plane import dot, times
 from graphplan.solver.rates import Rates, solve, solved
-from graphplan.solver.reactions import not_held
+from graphplan.solver.statics import not_held
 
 
 def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:

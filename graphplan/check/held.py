@@ -1,0 +1,121 @@
+"""Forces beside the second opinion and the third: the solver's reactions and the power balance. For loads alone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphplan.check.measures import difference, extent, size
+from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.units import metre
+from graphplan.methods.forces import pair_name, pairs
+from graphplan.solver.efficiency import efficiency
+from graphplan.solver.friction import Frictional, with_friction
+from graphplan.solver.statics import Reactions, reactions
+from graphplan.solver.virtual_power import power
+
+RUBBED = ("balance with friction", "balance moment with friction")
+MOMENTS = ("slide moment", "balance moment", "lever moment")
+
+
+@dataclass(frozen=True)
+class Held:
+    """The forces that a construction gives, by kind and name, what the solver says of them, and the power balance."""
+
+    scene: Scene
+    results: dict[str, dict[str, Any]]
+    reactions: Reactions
+    power: tuple[Any, ...]
+
+    @cached_property
+    def truth(self) -> dict[str, dict[str, Any]]:
+        """What the solver says of every force that the construction gives, by the same kinds and names."""
+        arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
+        joints = {pair_name(p, link): self.reactions.joints[p, link] for p, link, _ in pairs(self.scene)}
+        slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
+        balances = {str(k): value for k, value in enumerate(self.reactions.balances, 1)}
+        held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
+        turned = {name: value for name, value in balances.items() if name not in held}
+        return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
+                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._standing}
+
+    @property
+    def asked(self) -> list[tuple[str, str, str]]:
+        """The pairs whose reactions are found: joint, link, and the link that carries the pin."""
+        found = self.results.get("reaction", {})
+        return [pair for pair in pairs(self.scene) if pair_name(*pair[:2]) in found]
+
+    @property
+    def rubbed(self) -> dict[str, Any]:
+        """The balances with friction that are drawn, in one round."""
+        return {name: value for kind in RUBBED for name, value in self.results.get(kind, {}).items()}
+
+    @property
+    def _standing(self) -> dict[str, dict[str, Any]]:
+        """The balances with friction as they stand in the end, where some are drawn: a round of their own."""
+        kinds = [kind for kind in RUBBED if kind in self.results]
+        return {kind: {str(k): value for k, value in enumerate(self.standing.balances, 1)
+                       if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in kinds}
+
+    def _arm(self, slide: Slide) -> Any:
+        """From a slide's point to where its reaction has no moment, square to it."""
+        (x, y), moment = self.reactions.slides[slide.name]
+        reach = moment * metre(self.scene.units) / (x * x + y * y)
+        return y * reach, -x * reach
+
+    @property
+    def _metres(self) -> Any:
+        """The mechanism's extent in metres: a moment counts as the force that it is at that arm."""
+        return extent(self.scene) / metre(self.scene.units)
+
+    @cached_property
+    def gap(self) -> Any:
+        """The largest difference of forces and moments beside the largest force; lever and power balance among them."""
+        gaps, sizes = [], []
+        for kind, truth in self.truth.items():
+            if kind in ("slide arm", *RUBBED):
+                continue
+            arm = self._metres if kind in MOMENTS else 1
+            sizes += [size(value) / arm for value in truth.values()]
+            ours = self.results.get(kind, {})
+            gaps += [size(difference(ours[name], truth[name])) / arm for name in ours]
+        for value, other in zip(self.power, self.reactions.balances, strict=True):
+            gaps.append(size(difference(value, other)) / (1 if isinstance(value, tuple) else self._metres))
+        largest = max(sizes, default=0)
+        return max(gaps, default=0) / largest if largest else max(gaps, default=0)
+
+    @cached_property
+    def standing(self) -> Frictional:
+        """What the forces with friction come to, when round follows round."""
+        return with_friction(self.scene)
+
+    @property
+    def efficiency(self) -> float | None:
+        """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
+        if not self.rubbed:
+            return None
+        with_, without = (self._delivered(suffix) for suffix in (" with friction", ""))
+        return efficiency(without, with_)
+
+    def _delivered(self, suffix: str) -> float:
+        """The power that the balances of the construction give, in force * length/s."""
+        loads, rates, delivered = self.scene.loads, self.reactions.rates, 0.0
+        for number, balance in enumerate(loads.balances if loads else (), 1):
+            if balance.at:
+                force, velocity = self.results["balance" + suffix][str(number)], rates.velocity[balance.at]
+                delivered += float(force[0] * velocity[0] + force[1] * velocity[1])
+            else:
+                moment = self.results["balance moment" + suffix][str(number)]
+                delivered += float(moment * metre(self.scene.units) * rates.omega[balance.link])
+        return delivered
+
+
+def held(scene: Scene, exact: bool, read: Callable[[], dict[str, dict[str, Any]]]) -> Held:
+    """The second and the third opinion on the forces of a scene with loads; then `read` gives the construction's.
+
+    Fails with `SingularPose`, which names the links, where nothing can hold the motion in this pose.
+    """
+    opinions = reactions(scene, exact), power(scene, exact)
+    return Held(scene, read(), *opinions)

@@ -1,0 +1,136 @@
+"""The construction of a scene with loads: after the motion its forces, by polygons, by the lever, or by both.
+
+Force plans in which errors grow are drawn in other ways, too, and the steadiest is kept; where a slide's reaction acts
+is drawn if it lies near. Imported for scenes with loads alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable
+
+from graphplan.errors import ConstructionError
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import needed_steps
+from graphplan.mechanism.model import Loads, Scene, TurningDrive
+from graphplan.mechanism.units import metre
+from graphplan.methods.acceleration import Normal
+from graphplan.methods.construct import Draughtsman
+from graphplan.methods.construction import Construction, Reading
+from graphplan.methods.forces import Result, arms, freed_reactions, levers, reactions, results, rubbed
+from graphplan.methods.friction import Rubbed
+from graphplan.methods.loading import Loading, force_scale
+from graphplan.methods.planner import Planner
+from graphplan.methods.reactions import Shown
+from graphplan.methods.statics import PREFERENCES
+from graphplan.methods.styles import Style
+from graphplan.methods.tempo import extent
+from graphplan.methods.velocity import Velocity
+from graphplan.methods.ways import EQUAL, growth
+
+NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
+SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
+UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
+
+
+class Loaded(Draughtsman):
+    """Draws one scene with its forces. `order` and `pick` say in which way, `arms` which slides' lines are drawn."""
+
+    def __init__(self, scene: Scene, planner: Planner, style: Style, order: str = "polygons", pick: int = 0,
+                 arms: tuple[str, ...] = ()):
+        super().__init__(scene, planner, style)
+        assert scene.loads is not None
+        self.loads: Loads = scene.loads
+        self.style, self.order, self.pick, self.arms = style, order, pick, arms
+        self.phi = force_scale(scene)
+        self.options = 1
+        self.shown: list[Shown] = []
+
+    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+        """Motion and forces; the accelerations are drawn for inertia forces, too."""
+        if plan is None and self.loads.masses:
+            plan = self.accelerations(velocity)
+        self._forces(velocity, plan)
+        shown = self._arrows()
+        drawn = super().finished(velocity, plan)
+        drawn.phi, drawn.shown = self.phi, shown
+        return drawn
+
+    def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
+        """Force plans and lever, as the style says."""
+        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
+        if self.style.polygons:
+            self._polygons(velocity, loading)
+        if self.style.lever:
+            self._note(*levers(self.pose, velocity, loading))
+            if not self.style.polygons:
+                self._note(*freed_reactions(self.pose, loading))
+
+    def _polygons(self, velocity: Velocity, loading: Loading) -> None:
+        """The reactions and the balances, group by group against the motion's order; and once more with friction."""
+        forces, self.options = reactions(self.board, self.pose, loading, self.order, self.pick)
+        self._note(results(self.scene, loading, forces, self.board), forces.shown)
+        self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
+        if self.loads.frictions and self._in_motion:
+            loading.rubbing = Rubbed(self.board, velocity, loading, forces)
+            second, _ = reactions(self.board, self.pose, loading, self.order, self.pick, forces)
+            self._note(rubbed(loading, second), second.shown)
+            loading.rubbing = None
+
+    @property
+    def _in_motion(self) -> bool:
+        """Whether any drive moves: at rest friction has no sense."""
+        return any(d.omega if isinstance(d, TurningDrive) else d.speed for d in self.scene.drives)
+
+    def _note(self, found: Iterable[Result], shown: Iterable[Shown]) -> None:
+        """Keep results, and the arrows that show them."""
+        self.shown += shown
+        for kind, of, marks in found:
+            self.read(kind, of, *marks)
+
+    def _arrows(self) -> tuple[Reading, ...]:
+        """The forces drawn as arrows: of those that what is asked for needs."""
+        needed = needed_steps(self.board, self.marks)
+        found = []
+        for force in dict.fromkeys(self.shown):
+            head = force.head if force.of is None else force.of
+            if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
+                start = len(self.marks)
+                self.marks += [force.tail, force.head]
+                found.append(Reading(force.kind, force.label, (start, start + 1)))
+        return tuple(found)
+
+
+def steadiest(scene: Scene, planner: Planner, style: Style) -> Construction:
+    """The construction by these moves; force plans in which errors grow are weighed against other ways to draw them."""
+    draughtsman = Loaded(scene, planner, style)
+    found = draughtsman.draw()
+    if not style.polygons:
+        return found
+    way = "polygons", 0
+    if growth(found.program) >= UNSTEADY:
+        ways = [(order, pick) for order in PREFERENCES for pick in range(draughtsman.options)]
+        drawn = [found, *(Loaded(scene, planner, style, *way).draw() for way in ways[1:])]
+        grown = [growth(construction.program) for construction in drawn]
+        best = min(range(len(ways)), key=lambda k: (max(grown[k], EQUAL * min(grown)), len(drawn[k].program)))
+        way, found = ways[best], drawn[best]
+    return _with_arms(found, lambda names: Loaded(scene, planner, style, *way, names).draw())
+
+
+def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
+    """The construction with the points where slides' reactions act, as far as they lie near; the others are told."""
+    try:
+        values = found.read(Floats())
+    except ConstructionError:
+        return found
+    slides, moments = values.get("slide reaction", {}), values.get("slide moment", {})
+    sizes = {name: math.hypot(*force) for name, force in slides.items()}
+    least = SMALL * max((math.hypot(*force) for force in (*values.get("reaction", {}).values(), *slides.values())),
+                        default=0.0)
+    reach = NEAR * extent(found.scene) / float(metre(found.scene.units))
+    near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
+    drawn = draw(near) if near else found
+    drawn.notes += [
+        f"slide {name}: its reaction is small beside its moment; it is told as a force and a couple, not by its line"
+        for name in sizes if name not in near and abs(moments[name]) > least * reach]
+    return drawn

@@ -1,0 +1,33 @@
+"""Styles: which plans of motion and of forces are drawn, and in which form the inertia forces."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from graphplan.errors import Refused
+
+PLANS = ("orthogonal", "polar", "lever", "polygons", "both")
+INERTIA = ("couple", "shifted", "points")
+
+
+@dataclass(frozen=True)
+class Style:
+    """Which plans are drawn: orthogonal or polar ones of the motion; the lever, force polygons, or both."""
+
+    polar: bool = False
+    lever: bool = True
+    polygons: bool = True
+    inertia: str = "couple"
+
+
+def style(plan: str, inertia: str) -> Style:
+    """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
+    if inertia not in INERTIA:
+        raise Refused(f"inertia {inertia}", "there is no such form", f"one of {', '.join(INERTIA)}")
+    words = plan.split(",")
+    for word in words:
+        if word not in PLANS:
+            raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
+    lever, polygons = "lever" in words, "polygons" in words
+    both = "both" in words or not (lever or polygons)
+    return Style("polar" in words, lever or both, polygons or both, inertia)

@@ -1,0 +1,104 @@
+"""Tables of forces: the reactions by the letters of the force plans, and the balance by every way that gives it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from graphplan.mechanism.model import FRAME, Balance
+from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.planes import Drawing
+from graphplan.sheet.scales import digits
+from graphplan.sheet.tables import Table, figure, largest_size
+
+Pair = tuple[float, float]
+WAYS = {"by force plans": "balance{}", "with friction": "balance{} with friction", "by the lever": "lever{}"}
+
+
+@dataclass(frozen=True)
+class ForceTables:
+    """What a construction says of forces; `values` are its readings by kind and name."""
+
+    drawing: Drawing
+    values: Mapping[str, Mapping[str, Any]]
+
+    @property
+    def unit(self) -> str:
+        return self.drawing.scene.units.force
+
+    # ---- reactions -------------------------------------------------------------------------------------------------
+
+    def reactions(self) -> Table:
+        """Every reaction with its components and size, those of slides with their moments about the slide's point."""
+        joints, slides = (self.values.get(kind, {}) for kind in ("reaction", "slide reaction"))
+        largest = max(largest_size(joints), largest_size(slides))
+        table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
+        for name, force in slides.items():
+            row = self._row(*self._of_slide(name), force, largest)
+            moment = self._of_slide(name)[1] * self.values["slide moment"][name]
+            table.append([*row, figure(moment, largest)])
+        words = ["reaction", "R_x", "R_y", f"|R| {self.unit}", *([f"M {self.unit}·m"] if slides else [])]
+        head = [sentence_runs(word) for word in words]
+        return [head, *([*row, *[()] * (len(head) - len(row))] for row in table)] if table else []
+
+    def _row(self, name: Runs, sign: int, force: Pair, largest: float) -> list[Runs]:
+        x, y = sign * force[0], sign * force[1]
+        return [name, *(figure(value, largest) for value in (x, y, math.hypot(x, y)))]
+
+    def _of_joint(self, name: str) -> tuple[Runs, int]:
+        """The letter of the reaction `LINK at POINT`, and its sign."""
+        link, _, point = name.rpartition(" at ")
+        return self._lettered(self.drawing.scene.links_of[point][0], link, point)
+
+    def _of_slide(self, name: str) -> tuple[Runs, int]:
+        slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
+        return self._lettered(slide.along, slide.link, slide.at)
+
+    def _lettered(self, one: str, other: str, point: str) -> tuple[Runs, int]:
+        """The letter of the force of one link on another at a point; its answer, with the sign -1, if that is drawn."""
+        drawn = {vector.label for vector in self.drawing.arrows}
+        letter, answer = _pair_letter(one, other), _pair_letter(other, one)
+        sign = -1 if answer in drawn and letter not in drawn else 1
+        return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" at {point}", (point,))), sign
+
+    def seats(self) -> Iterator[str]:
+        """Where the reactions of slides act, in words."""
+        for name, (x, y) in self.values.get("slide arm", {}).items():
+            slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
+            at = [float(part) for part in self.drawing.scene.points[slide.at]]
+            yield f"The reaction of the slide {name} acts in ({digits(at[0] + x)}, {digits(at[1] + y)})."
+
+    # ---- balance ---------------------------------------------------------------------------------------------------
+
+    def balance(self) -> Table:
+        """Each balance by force plans and by the lever, side by side."""
+        loads = self.drawing.scene.loads
+        table: Table = []
+        for number, balance in enumerate(loads.balances if loads else (), 1):
+            moment = "" if balance.at else " moment"
+            found = {way: self.values.get(kind.format(moment), {}).get(str(number)) for way, kind in WAYS.items()}
+            ways = {way: value for way, value in found.items() if value is not None}
+            table = table or [[sentence_runs(word) for word in ("balance", *ways)]]
+            table += self._force(balance, ways) if balance.at else self._moment(balance, ways)
+        return table if table and len(table[0]) > 1 else []
+
+    def _moment(self, balance: Balance, ways: Mapping[str, float]) -> Table:
+        name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.unit}·m"))
+        return [[name, *(sentence_runs(digits(value)) for value in ways.values())]]
+
+    def _force(self, balance: Balance, ways: Mapping[str, Pair]) -> Table:
+        largest = largest_size(ways)
+        letter = f"F_{balance.link}"
+        rows = {f"{letter}x": 0, f"{letter}y": 1}
+        parts = [[(*name_runs(name), *sentence_runs(f" {self.unit}")), *(figure(v[i], largest) for v in ways.values())]
+                 for name, i in rows.items()]  # fmt: skip
+        sizes = [figure(math.hypot(*value), largest) for value in ways.values()]
+        return [*parts, [(*sentence_runs(f"|{letter}|"), *sentence_runs(f" {self.unit}")), *sizes]]
+
+
+def _pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another, as on the force plans; the frame is 0."""
+    names = ["0" if name == FRAME else name for name in (one, other)]
+    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)

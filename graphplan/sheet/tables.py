@@ -1,0 +1,67 @@
+"""Tables of a column: names to the left, numbers in columns, two tables side by side where there is room."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from graphplan.sheet.lettering import SIZE, Runs, name_runs, sentence_runs, width
+from graphplan.sheet.rows import Cell, Row
+from graphplan.sheet.scales import digits
+
+APART = 3.0  # mm between two columns
+ROUNDING = 1e-12  # beside the largest number of its kind
+Table = list[list[Runs]]
+
+
+def vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point",
+             beside: float = 0.0) -> Table:
+    """Components and magnitudes, each row with its name first; nothing if there are none."""
+    head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
+    largest = max(largest_size(values), beside)
+    rows = [[name_runs(n), *(figure(x, largest) for x in (*values[n], math.hypot(*values[n])))]
+            for n in order if n in values]  # fmt: skip
+    return [head, *rows] if rows else []
+
+
+def largest_size(values: Mapping[str, Any]) -> float:
+    """The size of the largest vector."""
+    return max((math.hypot(*value) for value in values.values()), default=0.0)
+
+
+def scalars(name: str, unit: str, values: Mapping[str, Any], order: Any) -> Table:
+    head = [sentence_runs("link"), (*name_runs(name), *sentence_runs(f" {unit}"))]
+    largest = max((abs(value) for value in values.values()), default=0.0)
+    rows = [[name_runs(n), figure(values[n], largest)] for n in order if n in values]
+    return [head, *rows] if rows else []
+
+
+def figure(value: float, largest: float) -> Runs:
+    """A number of a table; what is only rounding beside its largest is zero."""
+    return sentence_runs(digits(value if abs(value) > ROUNDING * largest else 0.0))
+
+
+def joined_tables(one: Table, two: Table, wide: float) -> Iterator[Row]:
+    """Two tables side by side where the names are the same and there is room, else one under the other."""
+    if one and two and [row[0] for row in one] == [row[0] for row in two]:
+        both = [[*left, *right[1:]] for left, right in zip(one, two, strict=True)]
+        if sum(_widths(both)) <= wide:
+            one, two = both, []
+    for table in filter(None, (one, two)):
+        yield from rows(table)
+
+
+def _widths(table: Table) -> list[float]:
+    return [max(width(row[i], SIZE) for row in table) + APART for i in range(len(table[0]))]
+
+
+def rows(table: Table) -> Iterator[Row]:
+    """Names to the left, numbers to the right of their columns."""
+    edges = [0.0]
+    for wide in _widths(table) if table else ():
+        edges.append(edges[-1] + wide)
+    for i, row in enumerate(table):
+        numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
+        gap, keep = (1.0, min(15, len(table) - 1)) if i == 0 else (0.0, 0)
+        yield Row((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)

@@ -135,7 +135,9 @@ def virtual(scene: Scene, drives: tuple[Drive, ...], pose: Pose, extra: dict[str
     """Orthogonal velocities of a scene as these drives would move it; `extra` are new points at old ones' places."""
     assumed = replace(scene, drives=drives)
     net, own = Network(assumed), copy(pose)
-    net.coincident |= {(new, link): old for new, old in extra.items() for link in net.links if new not in net.links[link]}
+    for new, old in extra.items():  # where one of the two is a link's own point, the other is it, too
+        net.coincident |= {((old, k) if new in own_points else (new, k)): (new if new in own_points else old)
+                           for k, own_points in net.links.items()}
     own.scene = assumed
     own.points = pose.points | {new: pose.points[old] for new, old in extra.items()}
     velocity = Orthogonal(pose.board, net, own, Tempo(Fraction(1)))
@@ -183,9 +185,9 @@ def freed(scene: Scene, point: str, link: str, pin: str, axis: Pair) -> tuple[Sc
     new, block = f"{point}*", f"pin {point}"
     links = {name: tuple(new if name == link and p == point else p for p in points)
              for name, points in scene.links.items()}
-    slide = Slide(block, pin, new, axis)
+    slides = [replace(s, at=new) if (s.link, s.at) == (link, point) else s for s in scene.slides]
     drive = SlidingDrive(block, pin, _speed(scene), Fraction(0))
     changed = replace(scene, points=scene.points | {new: scene.points[point]}, links=links | {block: (new,)},
-                      slides=(*scene.slides, slide))
+                      slides=(*slides, Slide(block, pin, new, axis)))
     held = tuple(_holding(scene, balance) for balance in scene.loads.balances)
     return changed, (*held, drive), new

@@ -163,7 +163,8 @@ class Plan:
         """Enter an end; the bodies there may be drawn from it."""
         if place not in self.ends and (place[1] in self.net.body or not place[1]):
             for body in self.net.bodies_at(place):
-                self.known[body].append(place)
+                if all(self.point(other) is not self.point(place) for other in self.known[body]):
+                    self.known[body].append(place)  # a figure needs points that lie apart
         self.ends[place] = mark
 
     def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:

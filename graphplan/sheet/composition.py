@@ -53,15 +53,6 @@ class Composition:
         core = self.figures[panel].core
         return max(core.width, core.height) * self.views[panel].scale
 
-    @property
-    def roomy(self) -> bool:
-        """Whether every panel has its least size."""
-        return all(rect.width >= wide and rect.height >= high
-                   for panel, rect in self.arrangement.panels.items() for wide, high in [self._least(panel)])
-
-    def _least(self, panel: str) -> tuple[float, float]:
-        return SMALLEST[0 if panel == MECHANISM else 1 if self.needs[panel] > FEW else 2]
-
 
 def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float], paper: str | None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
@@ -73,15 +64,21 @@ def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float]
     papers = [paper] if paper else ["A4", "A4 portrait", *list(SIZES)[1:]]
     best: Composition | None = None
     for name in papers:
-        found = [_windows(a, figures, needs, planes) for a in arrangements(name, needs, rows, title)]
-        good = [c for c in found if c.roomy] or (found if paper else [])
+        found = list(arrangements(name, needs, rows, title))
+        good = [arrangement for arrangement in found if _roomy(arrangement, needs)] or (found if paper else [])
         if good:
-            best = max(good, key=lambda c: c.score)
+            best = max((_windows(a, figures, needs, planes) for a in good), key=lambda c: c.score)
             if name == LARGE or _legible(planes, best.views):
                 return best
     if best is None:
         raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
     return best
+
+
+def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
+    """Whether every panel has its least size."""
+    least = {panel: SMALLEST[0 if panel == MECHANISM else 1 if need > FEW else 2] for panel, need in needs.items()}
+    return all(rect.width >= least[p][0] and rect.height >= least[p][1] for p, rect in arrangement.panels.items())
 
 
 def _windows(

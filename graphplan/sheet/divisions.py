@@ -1,12 +1,12 @@
 """How the plans share their part of a sheet: the first has the larger share, the others stand beside or under it.
 
-Two others stand in a stack or in a row. More stand in a grid, in reading order, each with room for what it has to show.
+Two others stand in a stack or in a row. More stand in rows or in columns, in reading order, each with room for what it
+has to show.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from itertools import product
 
 from graphplan.sheet.display import Rect
 
@@ -20,41 +20,53 @@ def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rec
         yield {first: plans}
         return
     left, bottom, right, top = plans.left, plans.bottom, plans.right, plans.top
-    many = range(1, len(rest) + 1) if len(rest) > 2 else ()
-    grids = {count: _rows(rest, needs, count) for count in range(1, len(rest) + 1)}
+    others = {panel: needs[panel] for panel in rest}
     for share in SHARES:
         x, y = left + share * plans.width, bottom + (1 - share) * plans.height
-        for even, count in product((False, True), many or (len(rest),)):
-            yield {first: Rect(left, bottom, x, top), **_grid(Rect(x, bottom, right, top), needs, grids[count], even)}
-        for even, count in product((False, True), many or (1,)):
-            yield {first: Rect(left, y, right, top), **_grid(Rect(left, bottom, right, y), needs, grids[count], even)}
+        for division in _shared(Rect(x, bottom, right, top), others, len(rest)):
+            yield {first: Rect(left, bottom, x, top), **division}
+        for division in _shared(Rect(left, bottom, right, y), others, 1):
+            yield {first: Rect(left, y, right, top), **division}
 
 
-def _rows(panels: Sequence[str], needs: Mapping[str, float], count: int) -> list[list[str]]:
-    """The plans in so many rows of about the same need, none of them empty."""
-    rows: list[list[str]] = [[]]
-    total, filled = sum(needs[panel] for panel in panels), 0.0
-    for i, panel in enumerate(panels):
-        middle = (filled + needs[panel] / 2) * count / total
-        due = len(panels) - i <= count - len(rows)  # each row left gets a plan of its own
-        if rows[-1] and len(rows) < count and (due or middle > len(rows)):
-            rows.append([])
-        rows[-1].append(panel)
-        filled += needs[panel]
-    return rows
+def _shared(region: Rect, needs: Mapping[str, float], few: int) -> Iterator[dict[str, Rect]]:
+    """The ways in which plans share a region: one or two in `few` rows, more in any number of rows or columns."""
+    if len(needs) < 3:
+        yield _grid(region, needs, few)
+        return
+    for count in range(1, len(needs) + 1):
+        yield _grid(region, needs, count)
+        yield _grid(region, needs, count, even=True)
+        yield {panel: _turned(rect) for panel, rect in _grid(_turned(region), needs, count).items()}
 
 
-def _grid(
-    region: Rect, needs: Mapping[str, float], rows: Sequence[Sequence[str]], even: bool
-) -> dict[str, Rect]:
+def _grid(region: Rect, needs: Mapping[str, float], count: int, even: bool = False) -> dict[str, Rect]:
     """Rows from the top, plans from the left: areas are as the needs, or the rows are of even height."""
-    total, found, top = sum(needs[panel] for row in rows for panel in row), {}, region.top
-    for row in rows:
+    total, found, top = sum(needs.values()), dict[str, Rect](), region.top
+    for row in _rows(needs, count):
         need, left = sum(needs[panel] for panel in row), region.left
-        bottom = top - region.height * (1 / len(rows) if even else need / total)
+        bottom = top - region.height * (1 / count if even else need / total)
         for panel in row:
             right = left + region.width * needs[panel] / need
             found[panel] = Rect(left, bottom, right, top)
             left = right
         top = bottom
     return found
+
+
+def _rows(needs: Mapping[str, float], count: int) -> Sequence[Sequence[str]]:
+    """The plans in so many rows of about the same need, none of them empty."""
+    rows: list[list[str]] = [[]]
+    total, filled = sum(needs.values()), 0.0
+    for i, (panel, need) in enumerate(needs.items()):
+        due = len(needs) - i <= count - len(rows)  # each row left gets a plan of its own
+        if rows[-1] and len(rows) < count and (due or (filled + need / 2) * count / total > len(rows)):
+            rows.append([])
+        rows[-1].append(panel)
+        filled += need
+    return rows
+
+
+def _turned(rect: Rect) -> Rect:
+    """Right and down exchanged: what were rows are columns. Turned twice, a rectangle is as before."""
+    return Rect(-rect.top, -rect.right, -rect.bottom, -rect.left)

@@ -51,8 +51,8 @@ class Letters:
             clear = RADIUS + 0.4 if self.strokes.panel == MECHANISM and self._at_joint(spot) else 0.6
             lettered = [step for step in steps if step.name]
             if lettered:
-                label = ",".join(step.name for step in lettered)
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=all(map(corner, lettered)))
+                label, bold = ",".join(step.name for step in lettered), all(map(corner, lettered))
+                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=bold)
             numbered = [step for step in steps if not step.name]
             if numbered:
                 said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)

@@ -15,7 +15,8 @@ from fractions import Fraction
 from graphplan.sheet.pens import FORCES
 
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
-MULTIPLES = (1, 2, 3, 5)
+WHOLE = tuple(m * 10**n for n in range(12) for m in (1, 2, 3, 5))
+MULTIPLES = (*(Fraction(1, m) for m in reversed(WHOLE)), *map(Fraction, WHOLE[1:]))
 
 
 def round_up(least: float) -> float:
@@ -29,9 +30,7 @@ def round_up(least: float) -> float:
 
 def multiple_below(most: float) -> Fraction:
     """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
-    whole = [m * 10**n for n in range(12) for m in MULTIPLES]
-    series = [*(Fraction(1, m) for m in reversed(whole)), *map(Fraction, whole[1:])]
-    return max((m for m in series if m <= most * (1 + 1e-9)), default=series[0])
+    return max((m for m in MULTIPLES if float(m) <= most * (1 + 1e-9)), default=MULTIPLES[0])
 
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

@@ -124,16 +124,15 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
     """
     if method not in ("", *METHODS):
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
-    chosen = style(plan, inertia)
-    best = best_way(Network(scene), method, lambda planner: _drawn(scene, planner, chosen))
+    best = _best(scene, method, style(plan, inertia))
     best.prefer, best.strict = METHODS.get(method, ""), strict
     return best
 
 
-def _drawn(scene: Scene, planner: Planner, chosen: Style) -> Construction:
-    """The construction by these moves; what forces need is not even imported where there are no loads."""
+def _best(scene: Scene, method: str, chosen: Style) -> Construction:
+    """The construction by the best way; what forces need is not even imported where there are no loads."""
     if scene.loads is None:
-        return Draughtsman(scene, planner, chosen).draw()
-    from graphplan.methods.loaded import steadiest
+        return best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
+    from graphplan.methods.loaded import best_loaded
 
-    return steadiest(scene, planner, chosen)
+    return best_loaded(scene, method, chosen)

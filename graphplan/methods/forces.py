@@ -12,7 +12,7 @@ from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import MECHANISM, Pose
 from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.sites import Group, groups
-from graphplan.methods.statics import Equilibrium
+from graphplan.methods.statics import Equilibrium, StaticMove
 from graphplan.methods.velocity import Velocity
 
 REACTION, SLIDE_REACTION, SLIDE_MOMENT, SLIDE_ARM = "reaction", "slide reaction", "slide moment", "slide arm"
@@ -20,27 +20,46 @@ BALANCE, BALANCE_MOMENT = "balance", "balance moment"
 RUBBED, RUBBED_MOMENT = "balance with friction", "balance moment with friction"
 LEVER, LEVER_MOMENT = "lever", "lever moment"
 Result = tuple[str, str, tuple[Mark, ...]]
+Way = tuple[str, int]
 
 
-def reactions(board: Board, pose: Pose, loading: Loading, order: str, pick: int,
-              before: Forces | None = None) -> tuple[Forces, int]:
-    """All reactions, drawn; and at how many places a trial could begin, where one is needed.
+class Plans:
+    """The groups of a scene in the order of force transfer, and the moves of each, planned once for every way.
 
-    `before` are those without friction, where friction is now among the loads.
+    A way is a preference of moves, and where a trial begins, counted from the first choice; `options` tells how many
+    choices there are.
     """
-    forces, done, options = Forces(before), list[str](), 1
-    for links in groups(loading.scene):
-        group = Group(loading.scene, links, done)
+
+    def __init__(self, scene: Scene):
+        self.groups: list[Group] = []
+        self.options = 1
+        self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove]] = {}
+        done: list[str] = []
+        for links in groups(scene):
+            self.groups.append(Group(scene, links, done))
+            done += links
+
+    def moves(self, group: Group, way: Way) -> list[StaticMove]:
+        """The moves of a group."""
+        if (group.links, way) not in self._moves:
+            equilibrium = Equilibrium(group, *way)
+            self._moves[group.links, way] = equilibrium.plan()
+            self.options = max(self.options, equilibrium.options)
+        return self._moves[group.links, way]
+
+
+def reactions(board: Board, pose: Pose, loading: Loading, plans: Plans, way: Way,
+              before: Forces | None = None) -> Forces:
+    """All reactions, drawn; `before` are those without friction, where friction is now among the loads."""
+    forces = Forces(before)
+    for group in plans.groups:
         plan = ForcePlan(board, pose, group, loading, forces)
         if plan.idle():
             plan.rest()
         else:
-            equilibrium = Equilibrium(group, order, pick)
-            plan.draw(equilibrium.plan())
-            options = max(options, equilibrium.options)
+            plan.draw(plans.moves(group, way))
         plan.enter()
-        done += links
-    return forces, options
+    return forces
 
 
 def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:

@@ -17,33 +17,35 @@ from graphplan.mechanism.units import metre
 from graphplan.methods.acceleration import Normal
 from graphplan.methods.construct import Draughtsman
 from graphplan.methods.construction import Construction, Reading
-from graphplan.methods.forces import Result, arms, freed_reactions, levers, reactions, results, rubbed
+from graphplan.methods.forces import Plans, Result, Way, arms, freed_reactions, levers, reactions, results, rubbed
 from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
+from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
 from graphplan.methods.reactions import Shown
 from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.styles import Style
 from graphplan.methods.tempo import extent
 from graphplan.methods.velocity import Velocity
-from graphplan.methods.ways import EQUAL, growth
+from graphplan.methods.ways import EQUAL, best_way, growth
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
 SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
+MOST_PICKS = 4  # at how many places a trial of forces may begin
+TEXTBOOK = "polygons", 0
 UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
 
 class Loaded(Draughtsman):
-    """Draws one scene with its forces. `order` and `pick` say in which way, `arms` which slides' lines are drawn."""
+    """Draws one scene with its forces, its groups planned in one way; `arms` are the slides whose lines are drawn."""
 
-    def __init__(self, scene: Scene, planner: Planner, style: Style, order: str = "polygons", pick: int = 0,
+    def __init__(self, scene: Scene, planner: Planner, style: Style, plans: Plans, way: Way = TEXTBOOK,
                  arms: tuple[str, ...] = ()):
         super().__init__(scene, planner, style)
         assert scene.loads is not None
         self.loads: Loads = scene.loads
-        self.style, self.order, self.pick, self.arms = style, order, pick, arms
+        self.style, self.plans, self.way, self.arms = style, plans, way, arms
         self.phi = force_scale(scene)
-        self.options = 1
         self.shown: list[Shown] = []
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
@@ -68,12 +70,12 @@ class Loaded(Draughtsman):
 
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
-        forces, self.options = reactions(self.board, self.pose, loading, self.order, self.pick)
+        forces = reactions(self.board, self.pose, loading, self.plans, self.way)
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
         if self.loads.frictions and self._in_motion:
             loading.rubbing = Rubbed(self.board, velocity, loading, forces)
-            second, _ = reactions(self.board, self.pose, loading, self.order, self.pick, forces)
+            second = reactions(self.board, self.pose, loading, self.plans, self.way, forces)
             self._note(rubbed(loading, second), second.shown)
             loading.rubbing = None
 
@@ -101,20 +103,32 @@ class Loaded(Draughtsman):
         return tuple(found)
 
 
-def steadiest(scene: Scene, planner: Planner, style: Style) -> Construction:
-    """The construction by these moves; force plans in which errors grow are weighed against other ways to draw them."""
-    draughtsman = Loaded(scene, planner, style)
-    found = draughtsman.draw()
-    if not style.polygons:
-        return found
-    way = "polygons", 0
+def best_loaded(scene: Scene, method: str, style: Style) -> Construction:
+    """The construction of a scene with loads, by the best way through its motion and through its forces."""
+    plans, planners = Plans(scene), dict[int, Planner]()
+
+    def draw(planner: Planner) -> Construction:
+        drawn = Loaded(scene, planner, style, plans).draw()
+        planners[id(drawn)] = planner
+        return drawn
+
+    best = best_way(Network(scene), method, draw)
+    return _steadiest(best, planners[id(best)], style, plans) if style.polygons else best
+
+
+def _steadiest(found: Construction, planner: Planner, style: Style, plans: Plans) -> Construction:
+    """The construction with its forces drawn well: if errors grow in their plans, other ways are weighed against it."""
+    scene, way = found.scene, TEXTBOOK
     if growth(found.program) >= UNSTEADY:
-        ways = [(order, pick) for order in PREFERENCES for pick in range(draughtsman.options)]
-        drawn = [found, *(Loaded(scene, planner, style, *way).draw() for way in ways[1:])]
-        grown = [growth(construction.program) for construction in drawn]
-        best = min(range(len(ways)), key=lambda k: (max(grown[k], EQUAL * min(grown)), len(drawn[k].program)))
-        way, found = ways[best], drawn[best]
-    return _with_arms(found, lambda names: Loaded(scene, planner, style, *way, names).draw())
+        drawn = {TEXTBOOK: found}
+        for other in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
+            if other not in drawn and other[1] < plans.options:
+                drawn[other] = Loaded(scene, planner, style, plans, other).draw()
+        grown = {other: growth(construction.program) for other, construction in drawn.items()}
+        least = EQUAL * min(grown.values())
+        way = min(drawn, key=lambda other: (max(grown[other], least), len(drawn[other].program)))
+        drawn[way].notes, found = found.notes, drawn[way]
+    return _with_arms(found, lambda names: Loaded(scene, planner, style, plans, way, names).draw())
 
 
 def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
@@ -130,7 +144,7 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     reach = NEAR * extent(found.scene) / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
-    drawn.notes += [
+    drawn.notes = found.notes + [
         f"slide {name}: its reaction is small beside its moment; it is told as a force and a couple, not by its line"
         for name in sizes if name not in near and abs(moments[name]) > least * reach]
     return drawn

@@ -228,8 +228,9 @@ def force_scale(scene: Scene) -> Number:
 
 
 def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:
-    """About how large inertia forces are: as if every mass ran round a quarter of the mechanism."""
+    """About how large inertia forces are: as if every moving mass ran round a quarter of the mechanism."""
     assert scene.loads is not None
     rate = float(tempo(scene).unit) ** 2 if scene.drives else 0.0
     for mass in scene.loads.masses.values():
-        yield float(mass.mass * inertia(scene.units)) * rate * size / 4
+        if FRAME not in scene.links_of[mass.centre]:
+            yield float(mass.mass * inertia(scene.units)) * rate * size / 4

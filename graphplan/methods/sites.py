@@ -55,6 +55,7 @@ class Group:
 
     def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
         self.scene, self.links, self.done = scene, links, frozenset(done)
+        self._boundaries: dict[frozenset[str], list[tuple[Site, int]]] = {}
         chance = Random(1952)
         self._points = {p: (chance.randrange(1, PRIME), chance.randrange(1, PRIME), 1) for p in scene.points}
         self._ways = {s: (chance.randrange(1, PRIME), chance.randrange(1, PRIME), 0) for s in scene.slides}
@@ -88,6 +89,11 @@ class Group:
 
         At a joint within the group the force on the part may be told by that on the other links, reversed.
         """
+        if part not in self._boundaries:
+            self._boundaries[part] = self._boundary(part)
+        return self._boundaries[part]
+
+    def _boundary(self, part: frozenset[str]) -> list[tuple[Site, int]]:
         found: list[tuple[Site, int]] = []
         for point in self.points:
             here = [link for link in self.members(point) if link in part]

@@ -18,6 +18,7 @@ from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.sites import FAR, Group, Joint, Site, Span, Triple, cross, dot, equation
 
 DEEPEST = 3  # trials within trials
+MOST_FREE = 3  # forces of unknown lines on a part that tells anything
 FORCES = (1, 0, 0), (0, 1, 0)
 TURN = (0, 0, 1)
 Part = frozenset[str]
@@ -165,8 +166,8 @@ class Equilibrium:
         yield from (("pin", Pin(site)) for site in self._last_at_pins())
         for part in self.group.parts:
             unknown = self._unknown(part)
-            if len(unknown) > 5:
-                continue
+            if sum(not self.rank[site] for site in unknown) > MOST_FREE:
+                continue  # no point is passed by so many forces of unknown lines
             for site in unknown:
                 others = [other for other in unknown if other != site]
                 if all(self.lines.get(other) == FAR for other in others) and not self._twofold(site, others):
@@ -244,7 +245,7 @@ class Equilibrium:
     def _tells(self, site: Site, about: About) -> bool:
         """Whether moments about a point tell anything of a site's force."""
         Y = self.point(about)
-        if self.rank[site]:
+        if self.rank[site] == 1:
             return bool(dot(self.lines[site], Y))
         pencil = self.group.pencil(site)
         return pencil is not None and any(cross(pencil, Y))

@@ -17,8 +17,8 @@ from graphplan.sheet.view import View, plan_box, plan_multiple, plan_scale, view
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
-LARGE = "A1"  # no larger sheet is taken for the sake of the plans alone
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
 
 @dataclass(frozen=True)
@@ -35,11 +35,11 @@ class Composition:
     def score(self) -> tuple[float, float]:
         """How large the plans are, and among equals how large the smallest is beside its need.
 
-        The mechanism counts most, each other plan one half or, of many, its part of the need.
+        The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has.
         """
-        others = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
-        total = sum(others.values())
-        weights = {MECHANISM: 1.0, **{panel: min(0.5, need / total) for panel, need in others.items()}}
+        marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
+        weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
+        weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         return round(large, 9), min(self._size(panel) / need for panel, need in self.needs.items())
 
@@ -68,7 +68,7 @@ def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float]
         good = [arrangement for arrangement in found if _roomy(arrangement, needs)] or (found if paper else [])
         if good:
             best = max((_windows(a, figures, needs, planes) for a in good), key=lambda c: c.score)
-            if name == LARGE or _legible(planes, best.views):
+            if _legible(planes, best.views, name):
                 return best
     if best is None:
         raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
@@ -107,14 +107,14 @@ def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
     return found
 
 
-def _legible(planes: Planes, views: Mapping[str, View]) -> bool:
-    """Whether the links are long enough for letters, and no plan is crowded."""
+def _legible(planes: Planes, views: Mapping[str, View], paper: str) -> bool:
+    """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
     for panel, window in views.items():
         spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
         box = around(spots or [(0.0, 0.0)])
-        if max(box.area, (box.width**2 + box.height**2) / 4) < CROWDED * len(spots):
+        if max(box.area, (box.width**2 + box.height**2) / 4) < LARGE.get(paper, CROWDED) * len(spots):
             return False
-    return _shortest(planes) * views[MECHANISM].scale >= SHORTEST
+    return paper in LARGE or _shortest(planes) * views[MECHANISM].scale >= SHORTEST
 
 
 def _shortest(planes: Planes) -> float:

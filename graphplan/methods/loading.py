@@ -220,7 +220,7 @@ def force_scale(scene: Scene) -> Number:
     assert loads is not None
     size = extent(scene)
     sizes = [abs(float(v)) for force in loads.forces for v in force.value]
-    sizes += [abs(float(moment.value * metre(scene.units))) / size for moment in loads.moments]
+    sizes += [2 * abs(float(moment.value * metre(scene.units))) / size for moment in loads.moments]
     sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]
     sizes += _inertia_sizes(scene, size)
     largest = max(sizes, default=0.0)

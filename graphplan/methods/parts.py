@@ -62,14 +62,19 @@ class Parts:
             self.chains[link] = own = self._in_chain(link, corner)
             corner = own[-1].head if own else corner
             couples = list(self.loading.couples(link, corner))
-            self.forces.shown += [applied(self.board, force) for pair in couples for force in pair]
+            self._apply(force for pair in couples for force in pair)
             self.couples[link] = couples + list(self._couples_of_slides(link))
+
+    def _apply(self, loads: Iterable[Acting]) -> None:
+        """Draw loads where they act; once, not again with friction."""
+        if not self.forces.suffix:
+            self.forces.shown += [applied(self.board, force) for force in loads]
 
     def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
         """The forces on one link: its loads, and what solved groups pass on to it."""
         own = list(self.loading.forces(link, corner))
         self.forces.shown += [Shown("load", force.name, force.tail, force.head) for force in own]
-        self.forces.shown += [applied(self.board, force) for force in own]
+        self._apply(own)
         for force in self._passed_to(link):
             tail = own[-1].head if own else corner
             own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail), force.name))

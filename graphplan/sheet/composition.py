@@ -112,7 +112,8 @@ def _legible(planes: Planes, views: Mapping[str, View], paper: str) -> bool:
     for panel, window in views.items():
         spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
         box = around(spots or [(0.0, 0.0)])
-        if max(box.area, (box.width**2 + box.height**2) / 4) < LARGE.get(paper, CROWDED) * len(spots):
+        size = max(box.area, (box.width**2 + box.height**2) / 4)
+        if 1e-6 < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
             return False
     return paper in LARGE or _shortest(planes) * views[MECHANISM].scale >= SHORTEST
 

@@ -30,7 +30,7 @@ def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rec
 
 
 def _shared(region: Rect, needs: Mapping[str, float], few: int) -> Iterator[dict[str, Rect]]:
-    """The ways in which plans share a region: one or two evenly in `few` rows, more in any number of rows or columns."""
+    """The ways in which plans share a region: one or two evenly in `few` rows, more in rows or columns."""
     if len(needs) < 3:
         yield _grid(region, dict.fromkeys(needs, 1.0), few)
         return

@@ -1,0 +1,54 @@
+"""The sheets of the packaged scenes, and how far their items reach."""
+
+from __future__ import annotations
+
+from functools import cache
+from pathlib import Path
+
+import graphplan as gp
+from graphplan.methods.construction import Construction
+from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.layout import layout
+from graphplan.sheet.lettering import CAPS, DEPTH, width
+
+SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
+LOADED = [name for name in SCENES if gp.load(name).loads is not None]
+
+
+@cache
+def drawing_of(name: str, plan: str = "orthogonal") -> Construction:
+    return gp.construct(gp.load(name), plan=plan)
+
+
+@cache
+def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Sheet:
+    return layout(drawing_of(name, plan), paper)
+
+
+def spots(item: Item) -> list[Spot]:
+    """The extreme spots of an item, letters included."""
+    match item:
+        case Polyline() | Polygon():
+            return list(item.spots)
+        case Circle():
+            (x, y), r = item.centre, item.radius
+            return [(x - r, y - r), (x + r, y + r)]
+        case Arc():
+            return list(item.spots())
+        case Arrow():
+            return [item.start, item.end]
+        case Text():
+            box = box_of(item)
+            return [(box.left, box.bottom), (box.right, box.top)]
+    raise TypeError(item)
+
+
+def outside(sheet: Sheet) -> list[Item]:
+    """What leaves the frame."""
+    return [item for item in sheet.items if not all(sheet.frame.holds(spot, 0.01) for spot in spots(item))]
+
+
+def box_of(text: Text) -> Rect:
+    long = width(text.runs, text.size, text.bold)
+    left = text.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
+    return Rect(left, text.at[1] - DEPTH * text.size, left + long, text.at[1] + CAPS * text.size)

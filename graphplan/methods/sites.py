@@ -14,10 +14,11 @@ from functools import cached_property
 from random import Random
 
 from graphplan.mechanism.equations import PRIME, System
-from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
+from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.transfer import stages
 
 Triple = tuple[int, int, int]
+MOST_PARTS = 2000  # of a group: no textbook's has so many
 FAR: Triple = (0, 0, 1)  # the line on which all slides' pencils have their points: a force along it is a couple
 
 
@@ -187,7 +188,3 @@ class Span:
         inverse = pow(next(iter(row.values())), -1, PRIME)
         self._rows.append({k: c * inverse % PRIME for k, c in row.items()})
         return True
-
-
-MOST_PARTS = 2000  # of a group: no textbook's has so many
-__all__ = ["FAR", "FRAME", "Group", "Joint", "Site", "Span", "Triple", "cross", "dot", "equation", "groups"]

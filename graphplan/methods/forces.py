@@ -150,7 +150,7 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
         seat, pair = forces.seats[slide], forces.pairs[slide]
         with board.on(MECHANISM, (slide.link, slide.along)):
             H = seat if pair is None else board.resultant(
-                seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head,
+                seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head, name=f"H_{slide.link}",
                 why=f"the reaction of the slide {slide.name} acts here")
             at, guide = pose.points[slide.at], pose.guide(slide)
             if seat is not at:

@@ -68,7 +68,8 @@ class ForceTables:
         for name, (x, y) in self.values.get("slide arm", {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
-            yield f"The reaction of the slide {name} acts in ({digits(at[0] + x)}, {digits(at[1] + y)})."
+            spot = f"({digits(at[0] + x)}, {digits(at[1] + y)}) {self.drawing.scene.units.length}"
+            yield f"The reaction of the slide {name} acts at {spot}."
 
     # ---- balance ---------------------------------------------------------------------------------------------------
 

@@ -23,7 +23,7 @@ from graphplan.sheet.pens import Pen
 DIRECTIONS = tuple((math.cos(i * math.pi / 8), math.sin(i * math.pi / 8)) for i in range(16))
 RINGS = ((0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0))
 LED = 3.4  # mm from which a thin leader ties a letter to its mark
-CLASH, FORBIDDEN, AIR = 400.0, 1e6, 0.3
+CLASH, AIR = 400.0, 0.3
 SWEEPS = 8
 BALLOON = 2.1
 

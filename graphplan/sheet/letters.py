@@ -118,7 +118,7 @@ class Letters:
             spots = tuple(clip.between(start, end, t) for t in (NEAR_HEAD if answered else MIDDLE))
             pen = replace(pens.VECTORS[first.kind], width=0.0)
             runs = name_runs(names[0]) if len(names) == 1 else sentence_runs(", ".join(names), names)
-            yield Wish(runs, spots, 0.7, pen=pen, step=first.end, label=",".join(names), free=True)
+            yield Wish(runs, spots, 0.7, pen=pen, step=first.end, label=" ".join(names), free=True)
 
 
 def _listed(steps: list[Step]) -> Runs:

@@ -68,5 +68,7 @@ VECTORS = {
 }
 FORCES = frozenset({"load", "reaction", "part", "balance"})  # the kinds of vector that are forces
 GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED)}
-HEADS = {"velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
-         "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5}
+HEADS = {
+    "velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
+    "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5,
+}  # fmt: skip

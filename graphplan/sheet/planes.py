@@ -62,7 +62,7 @@ class Drawing(Protocol):
 
 def corner(step: Step) -> bool:
     """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
-    return step.name.isdigit()
+    return step.op.name != "given" and step.name.rstrip("'").isdigit()
 
 
 @dataclass(frozen=True)
@@ -181,7 +181,6 @@ class Planes:
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         return Figure(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
-
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

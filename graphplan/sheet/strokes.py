@@ -7,7 +7,7 @@ the panel breaks off at its edge and says where it goes.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,6 +20,7 @@ from graphplan.sheet.view import View
 
 LAYER = "construction"
 BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
+NOTHING = 0.3  # mm: what is left of a stroke is not drawn if it is shorter
 SHORT, HIDDEN = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
 STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
 
@@ -84,18 +85,20 @@ class Strokes:
         here = self.spots[step.index]
         root = laid_off.root(step)
         if root in self.spots and not self._vector_between(self.spots[root], here):
-            yield self._laid_off(step, self.spots[root], here)
+            yield from self._laid_off(step, self.spots[root], here)
         if self.shown(step.index) and not corner(step) and step.index not in self._force_heads:
             pen = pens.ORIGIN if step.op.name == "begin" else pens.DOT
             yield Circle(pen, LAYER, step.index, here, 0.5 if step.name else 0.4)
 
-    def _laid_off(self, step: Step, root: Spot, here: Spot) -> Item:
+    def _laid_off(self, step: Step, root: Spot, here: Spot) -> Iterator[Item]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
         if laid_off.given(self.planes.drawing.drawn.steps, step) and math.dist(root, here) > SHORT:
             kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
-            return Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
+            yield Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
+            return
         brought = step.op.name not in laid_off.MEASURED and self.planes.homes[step.args[0]] != self.panel
-        return Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, (root, here))
+        for piece in _bare(root, here, self._forces_along(step, root, here)):
+            yield Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, piece)
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
@@ -138,33 +141,29 @@ class Strokes:
         pen = pens.LOCUS if step.name else pens.PRODUCED if step.op.name in ("line", "guide") else pens.THIN
         if step.op.name == "line" and len(self._on(step)) == 2:
             pen = pens.THIN
-        for piece in self._bare(stretch):
+        start, end = stretch.start, stretch.end
+        links = self._links_along(start, end) if self.panel == MECHANISM else ()
+        for piece in _bare(start, end, [*links, *self._forces_along(step, start, end)]):
             yield Polyline(pen, LAYER, step.index, piece)
         for tip, tail, _ in stretch.breaks:
             yield Arrow(pens.THIN.filled(pens.GREY), LAYER, step.index, towards(tip, tail, 4.0), tip, 2.0)
 
-    def _bare(self, stretch: Stretch) -> list[tuple[Spot, Spot]]:
-        """A stretch without the parts that run along a link: there the link is the line."""
-        start, end = stretch.start, stretch.end
-        long = math.dist(start, end)
-        cuts, done, pieces = sorted(self._links_along(start, end)) if self.panel == MECHANISM else [], 0.0, []
-        for low, high in (*cuts, (1.0, 1.0)):
-            if (low - done) * long > 0.3:
-                pieces.append((clip.between(start, end, done), clip.between(start, end, low)))
-            done = max(done, high)
-        return pieces
-
     def _links_along(self, start: Spot, end: Spot) -> Iterator[tuple[float, float]]:
-        """Where links lie along a segment, as fractions of its length."""
-        (ux, uy), long = _unit(start, end), math.dist(start, end)
+        """Where links lie along a segment, as fractions of its length: there the link is the line."""
         scene = self.planes.drawing.scene
         for link in scene.moving:
             spots = [self.view(self.planes.place(name)) for name in scene.links[link]]
-            off = [(x - start[0]) * uy - (y - start[1]) * ux for x, y in spots]
-            along = [((x - start[0]) * ux + (y - start[1]) * uy) / long for x, y in spots]
-            hit = [t for t, gap in zip(along, off, strict=True) if abs(gap) < 0.1]
+            hit = _along(start, end, spots)
             if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
                 yield min(hit), max(hit)
+
+    def _forces_along(self, step: Step, start: Spot, end: Spot) -> Iterator[tuple[float, float]]:
+        """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
+        for vector in self.vectors if math.dist(start, end) > NOTHING else ():
+            if vector.kind in pens.FORCES and vector.end < step.index:
+                hit = _along(start, end, (self.spots[vector.start], self.spots[vector.end]))
+                if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
+                    yield max(min(hit), 0.0), min(max(hit), 1.0)
 
     def _on(self, step: Step) -> list[int]:
         """The marks of this plan on a line or an arc."""
@@ -218,6 +217,24 @@ class Strokes:
         for crossing in crossings:
             middle = _angle(centre, crossing)
             yield Arc(pens.ARC, LAYER, step.index, centre, radius, middle - wide, middle + wide)
+
+
+def _along(start: Spot, end: Spot, spots: Sequence[Spot]) -> list[float]:
+    """How far along a segment, in its lengths, those of the spots are that lie on its line."""
+    (ux, uy), long = _unit(start, end), math.dist(start, end)
+    off = [(x - start[0]) * uy - (y - start[1]) * ux for x, y in spots]
+    along = [((x - start[0]) * ux + (y - start[1]) * uy) / long for x, y in spots]
+    return [t for t, gap in zip(along, off, strict=True) if abs(gap) < 0.1]
+
+
+def _bare(start: Spot, end: Spot, cuts: Iterable[tuple[float, float]]) -> list[tuple[Spot, Spot]]:
+    """What is left of a segment without some parts of its length."""
+    long, done, pieces = math.dist(start, end), 0.0, []
+    for low, high in (*sorted(cuts), (1.0, 1.0)):
+        if (low - done) * long > NOTHING:
+            pieces.append((clip.between(start, end, done), clip.between(start, end, low)))
+        done = max(done, high)
+    return pieces
 
 
 def _unit(start: Spot, end: Spot) -> Spot:

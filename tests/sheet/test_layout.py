@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+
 import pytest
 from sheets import SCENES, box_of, drawing_of, outside, sheet_of, spots
 
@@ -89,6 +91,16 @@ def test_strokes_stay_on_their_panels() -> None:
         for item in sheet.items:
             if item.step is not None and item.layer != "text":
                 assert any(all(rect.holds(spot, 0.01) for spot in spots(item)) for rect in sheet.panels.values()), name
+
+
+def test_a_given_vector_that_is_not_asked_for_stays_on_its_plan() -> None:
+    """The velocity of the crank, drawn where only another point's is asked for, does not run off the sheet."""
+    scene = gp.load("triad")
+    asked = replace(scene, find=replace(scene.find, velocity=("E",), acceleration=()))
+    sheet = layout(gp.construct(asked, plan="polar"))
+    arrows = [item for item in sheet.items if isinstance(item, Arrow)]
+    assert len(arrows) == 2
+    assert all(sheet.panels["velocity plan"].holds(spot) for arrow in arrows for spot in (arrow.start, arrow.end))
 
 
 def test_a_named_paper_is_used() -> None:

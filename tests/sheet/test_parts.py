@@ -10,8 +10,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphplan.sheet import pens, symbols
+from graphplan.sheet.captions import caption, listed, spoken
 from graphplan.sheet.clip import clipped, segment
 from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect, Text
+from graphplan.sheet.divisions import divisions
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.rows import Cell, Row, fill
@@ -43,6 +45,13 @@ def test_scales_tie_velocity_and_acceleration_to_the_plan() -> None:
     scales = Scales(5.0, 0.1, "mm", {"N-plan": Fraction(2)})
     assert scales.said("mechanism", {"velocity"}) == ["k_s = 5 mm/mm", "k_v = 50 mm/s per mm"]
     assert scales.said("N-plan", {"acceleration"}) == ["k_a = 250 mm/s² per mm"]
+
+
+def test_the_scale_of_forces_follows_from_phi() -> None:
+    """k_F = k_s/phi, divided by the multiple of the plan, in the scene's unit of force."""
+    scales = Scales(5.0, 0.1, "mm", {"force plan 1": Fraction(2), "lever": Fraction(1, 2)}, 0.25, "kN")
+    assert scales.said("force plan 1", {"reaction", "part"}) == ["k_F = 10 kN/mm"]
+    assert scales.said("lever", {"velocity", "load", "balance"}) == ["k_v = 100 mm/s per mm", "k_F = 40 kN/mm"]
 
 
 @pytest.mark.parametrize(("value", "text"), [
@@ -79,6 +88,33 @@ def test_names_run_together_are_told_apart() -> None:
     assert sentence_runs("alphabet", ("alpha",)) == (Run("alphabet"),)
 
 
+@pytest.mark.parametrize(("panel", "kinds", "text"), [
+    ("mechanism", set(), "Mechanism plan"),
+    ("mechanism", {"load"}, "Mechanism plan with loads"),
+    ("mechanism", {"load", "velocity"}, "Mechanism plan with orthogonal velocities and loads"),
+    ("velocity plan", {"velocity"}, "Velocity plan"),
+    ("force plan 1", {"balance"}, "Force plan: link 1"),
+    ("force plan 2, 3", {"load"}, "Force plan: links 2 and 3"),
+    ("force plan 2, 3 with friction", {"load"}, "Force plan with friction: links 2 and 3"),
+    ("lever", {"load"}, "Zhukovsky's lever"),
+    ("lever 2", {"load"}, "Zhukovsky's lever 2"),
+    ("lever 2 at B, x", {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
+    ("lever frame at O, y", {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
+])  # fmt: skip
+def test_a_caption_says_what_its_plan_is(panel: str, kinds: set[str], text: str) -> None:
+    """Each plan is named as a textbook would, with its links, and the mechanism's with what is drawn on it."""
+    assert caption(panel, kinds) == text
+
+
+def test_links_are_listed_shortly() -> None:
+    """Links that follow each other are given by the first and the last, also where a plan is spoken of in a step."""
+    assert listed(["4", "5", "6", "7"]) == "links 4 to 7"
+    assert listed(["2", "3", "5"]) == "links 2, 3 and 5"
+    assert listed(["rod", "piston"]) == "links rod and piston"
+    assert spoken("force plan 4, 5, 6") == "force plan of links 4 to 6"
+    assert (spoken("mechanism"), spoken("N-plan")) == ("mechanism plan", "N-plan")
+
+
 @given(st.text(st.characters(codec="latin-1"), max_size=200), st.floats(20, 100))
 def test_wrapped_lines_fit(text: str, room: float) -> None:
     """No wrapped line is longer than its room, and no word is lost."""
@@ -111,6 +147,26 @@ def test_columns_fill_one_after_the_other() -> None:
     assert placed_rows is not None
     assert [x for _, x, _ in placed_rows] == [0, 0, 60, 60, 60]
     assert fill(rows * 2, columns) is None
+
+
+@given(st.dictionaries(st.text("abcdefghijk", min_size=1), st.floats(1.0, 8.0), min_size=1, max_size=9))
+def test_plans_share_their_region_without_a_rest(needs: dict[str, float]) -> None:
+    """Every division gives each plan a panel, and the panels fill the region; the first has half of it or more."""
+    for division in divisions(SQUARE, needs):
+        assert list(division) == list(needs)
+        assert sum(rect.area for rect in division.values()) == pytest.approx(SQUARE.area)
+        rects = [rect.inset(1e-6, 1e-6, 1e-6, 1e-6) for rect in division.values()]
+        assert not any(rects[i].meets(rects[j]) for i in range(len(rects)) for j in range(i))
+        assert rects[0].area >= 0.499 * SQUARE.area
+
+
+def test_two_other_plans_share_evenly_and_more_by_need() -> None:
+    """Two others have equal panels whatever they need; of four the needy one has the larger."""
+    assert all(len({round(rect.area) for rect in list(division.values())[1:]}) == 1
+               for division in divisions(SQUARE, {"a": 5.0, "b": 1.0, "c": 4.0}))  # fmt: skip
+    four = list(divisions(SQUARE, {"a": 9.0, "b": 1.0, "c": 4.0, "d": 1.0, "e": 2.0}))
+    assert all(division["c"].area >= division["b"].area for division in four)
+    assert len({tuple(division.values()) for division in four}) > 30
 
 
 def test_the_head_of_an_arrow_ends_at_its_tip() -> None:

@@ -14,7 +14,8 @@ from graphplan.commands.choices import add_choices, write
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="SHEET.svg", help="the file to write; without it standard output")
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"), help="the sheet; without it the smallest that will do")
+    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
+                         help="the sheet; without it the smallest that will do")
     add_choices(command)
 
 

@@ -90,7 +90,7 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
         if asked is None or point in asked:
-            yield REACTION, pair_name(point, link), _on(scene, forces, board, point, link)
+            yield REACTION, pair_name(point, link), reaction_on(scene, forces, board, point, link)
     for slide in scene.slides:
         if asked is None or slide.name in asked:
             yield SLIDE_REACTION, slide.name, forces.slides[slide]
@@ -158,7 +158,7 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
         yield SLIDE_ARM, slide.name, (at, H)
 
 
-def _on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:
+def reaction_on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:
     """The force on a link, the frame among them, at a joint."""
     if (point, link) in forces.joints:
         return forces.joints[point, link]

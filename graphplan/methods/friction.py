@@ -12,6 +12,7 @@ from functools import partial
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Friction, Slide
+from graphplan.methods.forces import reaction_on
 from graphplan.methods.loading import Acting, Lay, Loading
 from graphplan.methods.poses import MECHANISM
 from graphplan.methods.reactions import Forces
@@ -64,7 +65,8 @@ class Rubbed:
             slip = self.velocity.slip(pin, link, name)
         why = f"the friction of the journal {friction.at}, of link {link} in link {pin}"
         radius = friction.radius * friction.coefficient
-        tip = self.board.journal(P, R, slip, *self._reaction(friction.at, link), start, radius=radius, why=why)
+        reaction = reaction_on(self.scene, self.forces, self.board, friction.at, link)
+        tip = self.board.journal(P, R, slip, *reaction, start, radius=radius, why=why)
         letter = f"M_{friction.at}"
         return Acting(R, start, tip, letter), Acting(P, tip, start, letter)
 
@@ -72,13 +74,3 @@ class Rubbed:
         """Another point of a link than the journal."""
         one, two = self.loading.arm_points(link)
         return two if one == point else one
-
-    def _reaction(self, point: str, link: str) -> tuple[Mark, Mark]:
-        """The reaction of a journal; the frame has that of the moving link there, the other way."""
-        if (point, link) in self.forces.joints:
-            return self.forces.joints[point, link]
-        spans = [self.forces.joints[point, other][::-1] for other in self.scene.links_of[point] if other != link]
-        first, mark = spans[0]
-        for tail, head in spans[1:]:
-            mark = self.board.transfer(tail, head, mark)
-        return first, mark

@@ -9,6 +9,7 @@ from typing import Any
 from graphplan.kernel.lemoine import counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.positions import layout
+from graphplan.sheet.captions import spoken
 
 WIDTH = 110
 
@@ -23,7 +24,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
     for step, sentence in zip(drawn.steps[drawn.givens :], drawing.sentences()[drawn.givens :], strict=True):
         if step.panel != panel:
             panel = step.panel
-            lines.append(f"On the {panel} plan:" if panel == "mechanism" else f"On the {panel}:")
+            lines.append(f"On the {spoken(panel)}:")
         lines += _numbered(drawn.number(step.index), sentence)
     lines += ["", f"Cost: {counts(drawn)}."]
     if drawing.forms:

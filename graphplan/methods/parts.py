@@ -37,7 +37,8 @@ class Parts:
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
         with board.on(self.panel, group.links):
-            self.origin = self.numbered(board.begin(plan=self.panel, number=1))
+            links = f"link{'' if len(group.links) == 1 else 's'} {', '.join(group.links)}"
+            self.origin = self.numbered(board.begin(plan=f"force plan of {links}{forces.suffix}", number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None

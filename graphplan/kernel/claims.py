@@ -268,14 +268,6 @@ def _resists(d: Drawn, P: int, R: int, a: int, b: int, m: int) -> float:
     return (_cross(arm, d[-1] - d[m]) + d.number("ratio") * turning) / abs(arm) / d.size
 
 
-def _carries_couple(d: Drawn, C: int, s: int, t: int, P: int, R: int, a: int, b: int) -> float:
-    """At the drawn point the force against the acceleration has the couple's moment about the centre."""
-    arm, rate = d[R] - d[P], d[t] - d[s]
-    turning = _forward(d[b] - d[a], 1j * arm) / abs(arm)
-    moment, couple = _cross(d[-1] - d[C], -rate), -d.number("ratio") * turning
-    return (moment - couple) / abs(rate) / (d.size + abs(d[-1] - d[C]))
-
-
 def _takes_couple(d: Drawn, C: int, p: int, q: int, P: int, R: int, a: int, b: int) -> float:
     """At the drawn point the force has the pair's moment about C."""
     force, couple = d[q] - d[p], _cross(d[R] - d[P], d[b] - d[a])
@@ -338,7 +330,6 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "concurrent": _concurrent,
     "turns": _turns,
     "resists": _resists,
-    "carries couple": _carries_couple,
     "takes couple": _takes_couple,
     "rubs": _rubs,
     "drags": _drags,

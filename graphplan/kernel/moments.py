@@ -75,20 +75,6 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
     return _across(arm, -d.lift(ratio) * _cross(arm, _vector(a, b)) / square / square, m)
 
 
-@primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Shift the inertia force of {0} aside, square to the acceleration from {1} to {2}, by e: {ratio} times the "
-           "angular acceleration (from {5} to {6} over {3}{4}) by it. Mark {out}, where it acts alone.",
-           claims=(("across", (0, -1), (1, 2)), ("carries couple", 0, 1, 2, 3, 4, 5, 6)),
-           fails=("points-coincide", "couple-alone"), params=("ratio",), where=0,
-           source="Ozols 1974, 9-2, fig. 9-4c")
-def shifted(d: Any, C: Any, s: Any, t: Any, P: Any, R: Any, a: Any, b: Any, /, *, ratio: Any) -> Any:
-    """The point, square to the acceleration st of the centre C, where a link's inertia force acts without a couple."""
-    arm, rate = _arm(d, P, R), _vector(s, t)
-    d.nonzero(_size(rate), _size(s) + _size(t), "couple-alone", "the centre of mass does not accelerate")
-    turning = _cross(arm, _vector(a, b)) / _square(arm)
-    return _across(rate, -d.lift(ratio) * turning / _square(rate), C)
-
-
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "The reaction from {3} to {4} touches the friction circle of {0}, of radius {radius}: for its couple, "
            "against the turning shown by {1}{2}, take a pair of forces at {0} and {1}; from {5} lay off that at {1}, "

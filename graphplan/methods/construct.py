@@ -132,7 +132,7 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
 def _best(scene: Scene, method: str, chosen: Style) -> Construction:
     """The construction by the best way; what forces need is not even imported where there are no loads."""
     if scene.loads is None:
-        return best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
+        return best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())[0]
     from graphplan.methods.loaded import best_loaded
 
     return best_loaded(scene, method, chosen)

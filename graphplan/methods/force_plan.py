@@ -12,10 +12,11 @@ from fractions import Fraction
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
+from graphplan.methods.force_letters import pair_letter, reaction_letter
 from graphplan.methods.loading import Acting
 from graphplan.methods.parts import Part, Parts
 from graphplan.methods.poses import MECHANISM
-from graphplan.methods.reactions import Known, Pair, Shown, Span, pair_letter, reaction_letter, signed
+from graphplan.methods.reactions import Known, Pair, Shown, Span, signed
 from graphplan.methods.sites import Joint, Site
 from graphplan.methods.statics import (
     About,
@@ -88,8 +89,7 @@ class ForcePlan(Parts):
         return one, two
 
     def _letters(self, about: Where) -> dict[str, str]:
-        names = [site.link for site in (about.one, about.two) if isinstance(site, Joint | Slide | Balance)]
-        return {"Q": self.pose.letter(" ".join(sorted(names)))}
+        return {"Q": self.pose.letter(" ".join(sorted((about.one.link, about.two.link))))}
 
     def _moments(self, part: Part, site: Site, about: About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
@@ -155,7 +155,7 @@ class ForcePlan(Parts):
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
         """A point at which a pair with Y has a good arm."""
         one, two = self.loading.arm(site.link)
-        return two if one is Y else one if two is Y else two
+        return one if two is Y else two
 
     def _across(self, part: Part, site: Site, about: About, sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""

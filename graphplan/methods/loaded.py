@@ -105,15 +105,9 @@ class Loaded(Draughtsman):
 
 def best_loaded(scene: Scene, method: str, style: Style) -> Construction:
     """The construction of a scene with loads, by the best way through its motion and through its forces."""
-    plans, planners = Plans(scene), dict[int, Planner]()
-
-    def draw(planner: Planner) -> Construction:
-        drawn = Loaded(scene, planner, style, plans).draw()
-        planners[id(drawn)] = planner
-        return drawn
-
-    best = best_way(Network(scene), method, draw)
-    return _steadiest(best, planners[id(best)], style, plans) if style.polygons else best
+    plans = Plans(scene)
+    best, planner = best_way(Network(scene), method, lambda planner: Loaded(scene, planner, style, plans).draw())
+    return _steadiest(best, planner, style, plans) if style.polygons else best
 
 
 def _steadiest(found: Construction, planner: Planner, style: Style, plans: Plans) -> Construction:

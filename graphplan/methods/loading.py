@@ -121,16 +121,16 @@ class Loading:
         return (one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2
 
     def _shifted(self, link: str, mass: Mass, radius2: Number) -> str:
-        """The point where the inertia force acts without a couple."""
+        """The point where the inertia force acts without a couple: acceleration and turning say it, in proportion."""
         assert self.motion is not None
-        name, (P, R) = f"K_{link}", self.arm_points(link)
-        if name not in self.pose.points:
-            ends = [self.motion.end_in(link, point) for point in (P, R)]
-            vector = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
-            points = self.pose.points
-            with self.board.on(MECHANISM, (link,)):
-                points[name] = self.board.shifted(points[mass.centre], *vector, points[P], points[R], *ends,
-                                                  ratio=radius2, name=name)
+        name, points, (one, two) = f"K_{link}", self.pose.points, self.arm_points(link)
+        if name not in points:
+            home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+            ends = self.motion.end_in(link, one), self.motion.end_in(link, two)
+            tip = self.board.inertia_pair(points[one], points[two], *ends, end, ratio=radius2)
+            points[name] = self.board.resultant(
+                points[mass.centre], end, home, points[one], points[two], end, tip, name=name,
+                why=f"the inertia force of link {link}, shifted by its couple over it")
         return name
 
     def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
@@ -215,7 +215,6 @@ class Loading:
 
 def force_scale(scene: Scene) -> Number:
     """How long a unit of force is drawn: the largest load about a third of the mechanism, in a round number."""
-
     loads = scene.loads
     assert loads is not None
     size = extent(scene)

@@ -6,19 +6,10 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide
+from graphplan.methods.force_letters import pair_letter, reaction_letter
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.poses import MECHANISM, Pose
-from graphplan.methods.reactions import (
-    Forces,
-    Known,
-    Pair,
-    Shown,
-    Span,
-    applied,
-    pair_letter,
-    reaction_letter,
-    signed,
-)
+from graphplan.methods.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
 from graphplan.methods.sites import Group, Joint, Site
 
 Part = frozenset[str]
@@ -99,7 +90,7 @@ class Parts:
         for slide in self._solved_slides(link):
             pair = self.forces.pairs[slide]
             if pair is not None:
-                yield pair if slide.link == link else (pair[0].reversed, pair[1].reversed)
+                yield signed_pair(pair, 1 if slide.link == link else -1)
 
     def _solved_slides(self, link: str) -> list[Slide]:
         """The slides that join a link to solved groups."""
@@ -174,16 +165,13 @@ class Parts:
         for site, sign in self._solved(part):
             pair_of = self.pairs.get(site)
             if pair_of is not None and site != but:
-                yield from pair_of if sign > 0 else (force.reversed for force in pair_of)
-        own = [(but, sign) for site, sign in self.group.boundary(part) if site == but and isinstance(but, Slide)]
-        for site, sign in (*facts, *own):
+                yield from signed_pair(pair_of, sign)
+        told = [*facts, (but, self.sign(part, but))] if isinstance(but, Slide) else list(facts)
+        yield from self.parts_of(told)
+        for site, sign in told:
             known = self.known.get(site)
-            if known is None or site in self.ends:
-                continue
-            if known.part is not None:
-                yield Acting(self.acts_at(site, known), *signed(known.part, sign))
-            if known.pair is not None:
-                yield from known.pair if sign > 0 else (force.reversed for force in known.pair)
+            if known is not None and known.pair is not None and site not in self.ends:
+                yield from signed_pair(known.pair, sign)
 
     def acts_at(self, site: Site, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)

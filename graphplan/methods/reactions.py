@@ -1,11 +1,11 @@
-"""What force plans tell each other: the reactions found so far, the arrows that show them, and their letters."""
+"""What force plans tell each other: the reactions found so far, and the arrows that show them."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
+from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.loading import Acting
 from graphplan.methods.poses import MECHANISM
 
@@ -16,6 +16,11 @@ Pair = tuple[Acting, Acting]
 def signed(span: Span, sign: int) -> Span:
     """A force as (tail, head), or its answer."""
     return span if sign > 0 else (span[1], span[0])
+
+
+def signed_pair(pair: Pair, sign: int) -> Pair:
+    """A couple as a pair of forces, or its answer."""
+    return pair if sign > 0 else (pair[0].reversed, pair[1].reversed)
 
 
 @dataclass
@@ -64,15 +69,3 @@ class Forces:
         self.seats: dict[Slide, Mark] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
-
-
-def pair_letter(one: str, other: str) -> str:
-    """The letter of the force of one link on another; the frame is 0."""
-    names = ["0" if name == FRAME else name for name in (one, other)]
-    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
-
-
-def reaction_letter(scene: Scene, point: str, link: str) -> str:
-    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
-    pin, *others = scene.links_of[point]
-    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)

@@ -27,16 +27,16 @@ HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
 
 
-def best_way(network: Network, method: str, draw: Callable[[Planner], Construction]) -> Construction:
-    """The construction by the best way on at each ring, one ring after the other; the only one if there is no ring.
+def best_way(network: Network, method: str, draw: Callable[[Planner], Construction]) -> tuple[Construction, Planner]:
+    """The construction by the best way on at each ring, one ring after the other, and the planner of that way.
 
     Fails with `Refused`, naming the links, where no way reaches them.
     """
     taken = _way(network, method, (), draw)
     weighed = 0
     ring = 0
-    while ring < len(taken.options):
-        before, count = taken.choice[:ring], taken.options[ring]
+    while ring < len(taken.planner.options):
+        before, count = taken.choice[:ring], taken.planner.options[ring]
         others = [_way(network, method, (*before, way), draw) for way in range(count) if way != taken.choice[ring]]
         weighed += len(others)
         taken = min([taken, *others], key=_Way.rank(min(way.growth for way in [taken, *others])))
@@ -47,15 +47,15 @@ def best_way(network: Network, method: str, draw: Callable[[Planner], Constructi
         taken.construction.notes.append(
             f"rings of links: {taken.construction.ways or 'travelling facts'}; errors of the steps grow "
             f"{taken.growth:.2g}-fold, the best of {weighed + 1} ways")
-    return taken.construction
+    return taken.construction, taken.planner
 
 
 @dataclass
 class _Way:
-    """One way through the rings: the choices made, how many there were at each, and what came of it."""
+    """One way through the rings: the choices made, the planner that made them, and what came of it."""
 
     choice: tuple[int, ...]
-    options: list[int]
+    planner: Planner
     construction: Construction | None
     refusal: Refused | None
     growth: float
@@ -78,10 +78,10 @@ def _way(network: Network, method: str, choice: tuple[int, ...], draw: Callable[
         planner.plan()
     except Refused as refusal:
         full = (*choice, *[0] * (len(planner.options) - len(choice)))
-        return _Way(full, planner.options, None, refusal, math.inf)
+        return _Way(full, planner, None, refusal, math.inf)
     construction = draw(planner)
     full = (*choice, *[0] * (len(planner.options) - len(choice)))
-    return _Way(full, planner.options, construction, None, growth(construction.program) if full else 1.0)
+    return _Way(full, planner, construction, None, growth(construction.program) if full else 1.0)
 
 
 def growth(program: Program) -> float:

@@ -7,7 +7,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.mechanism.model import FRAME, Balance
+from graphplan.mechanism.model import Balance
+from graphplan.methods.force_letters import pair_letter
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import Drawing
 from graphplan.sheet.scales import digits
@@ -59,7 +60,7 @@ class ForceTables:
     def _lettered(self, one: str, other: str, point: str) -> tuple[Runs, int]:
         """The letter of the force of one link on another at a point; its answer, with the sign -1, if that is drawn."""
         drawn = {vector.label for vector in self.drawing.arrows}
-        letter, answer = _pair_letter(one, other), _pair_letter(other, one)
+        letter, answer = pair_letter(one, other), pair_letter(other, one)
         sign = -1 if answer in drawn and letter not in drawn else 1
         return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" at {point}", (point,))), sign
 
@@ -97,9 +98,3 @@ class ForceTables:
                  for name, i in rows.items()]  # fmt: skip
         sizes = [figure(math.hypot(*value), largest) for value in ways.values()]
         return [*parts, [(*sentence_runs(f"|{letter}|"), *sentence_runs(f" {self.unit}")), *sizes]]
-
-
-def _pair_letter(one: str, other: str) -> str:
-    """The letter of the force of one link on another, as on the force plans; the frame is 0."""
-    names = ["0" if name == FRAME else name for name in (one, other)]
-    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)

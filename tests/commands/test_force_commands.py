@@ -20,15 +20,11 @@ length = "m"
 O = [0, 0]
 A = [3, 4]
 B = [15, -1]
-C = [21, 7]
-D = [27, -1]
 [links]
 1 = "O A"
 2 = "A B"
-3 = "B C"
-frame = "O D"
 4 = "B"
-5 = "C D"
+frame = "O"
 [[slides]]
 link = "4"
 along = "frame"
@@ -46,11 +42,15 @@ on = "4"
 at = "B"
 value = [-12, 5]
 [[moments]]
-on = "5"
+on = "2"
 value = 7
 [balance]
 link = "1"
 """
+
+LEVERED = PRESS.replace('4 = "B"', '3 = "B"\n4 = "B"\n5 = "D"').replace("[links]", "D = [27, -1]\n[links]").replace(
+    'frame = "O"', 'frame = "O D"').replace(
+    "[[drive]]", '[[slides]]\nlink = "3"\nalong = "5"\nat = "B"\ndirection = [3, 4]\n[[drive]]')
 
 REST = """
 title = "Press"
@@ -96,9 +96,7 @@ def exactly(pair: list[str]) -> list[Fraction]:
 
 def test_reactions_of_a_joint_add_up(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """At a joint of three links the one named first carries the pin; slider, load and reactions are in balance."""
-    slide = '[[slides]]\nlink = "3"\nalong = "5"\nat = "C"\ndirection = "D C"\n[[drive]]'
-    scene = PRESS.replace("[[drive]]", slide).replace('5 = "C D"', '5 = "D"')
-    told = solved(scene, monkeypatch, capsys, "--exact")
+    told = solved(LEVERED, monkeypatch, capsys, "--exact")
     at_pin = [entry for entry in told["reactions"] if entry.get("at") == "B"]
     assert [(entry["on"], entry["from"]) for entry in at_pin] == [("3", "2"), ("4", "2")]
     guide = next(entry for entry in told["reactions"] if entry.get("slide") == "4 along frame")
@@ -164,8 +162,7 @@ link = "4"
 
 def test_steps_speak_of_forces(monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     """The protocol has a part for each force plan and for the lever, and says what every load is."""
-    assert ran(["steps"], PRESS.replace('3 = "B C"\n', "").replace('5 = "C D"', "").replace("C = [21, 7]", "")
-               .replace('"O D"', '"O"').replace("D = [27, -1]", "").replace('on = "5"', 'on = "2"'), monkeypatch) == 0
+    assert ran(["steps"], PRESS, monkeypatch) == 0
     words = " ".join(capsys.readouterr().out.split())
     for said in (
         "On the force plan of links 2 and 4:", "On the force plan of link 1:", "On the lever:",

@@ -106,7 +106,6 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("balance", "about the other point", ordered(1, 0, 2, 3, 4, 5)),
     ("couple", "the wrong way round", reflected(2)),
     ("inertia_pair", "with the turning", reflected(4)),
-    ("shifted", "to the other side", reflected(0)),
     ("resultant", "to the other side", reflected(0)),
     ("journal", "with the turning", reflected(5)),
     ("drag", "with the sliding", reflected(4)),

@@ -23,6 +23,7 @@ MAY = {
     "methods": {"errors", "kernel", "mechanism"},
     "sheet": {"errors", "kernel", "mechanism", "methods"},
     "backends": {"errors", "kernel", "mechanism", "methods", "sheet"},
+    "drafting": {"errors", "kernel", "mechanism", "methods", "sheet"},
     "check": {"errors", "kernel", "mechanism", "methods", "solver"},
 }
 FRONT = {"__init__", "__main__", "commands"}
@@ -32,7 +33,13 @@ OUTSIDE = {
     "shapely": {"sheet/labels.py", "sheet/clip.py"},
     "svgwrite": {"backends"},
     "matplotlib": {"backends"},
+    "numba": {"kernel/tape/compiled.py"},
+    "distributed": {"methods/crew.py"},
+    "flint": {"kernel/numbers/enclosures.py", "check"},
 }
+# Where the kernel reckons beyond Python alone.
+NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),
+           "kernel/tape/blocks.py", "kernel/tape/compiled.py"}
 
 
 def folder(path: Path) -> str:
@@ -90,12 +97,12 @@ def test_no_circles() -> None:
 
 @pytest.mark.parametrize("path", FILES, ids=named)
 def test_outside_packages(path: Path) -> None:
-    """shapely serves labels and clipping, svgwrite and matplotlib back ends; numpy in the kernel serves arrays."""
+    """shapely serves labels and clipping, svgwrite and matplotlib back ends; numpy and flint number domains."""
     found = outside(path)
     for package, users in OUTSIDE.items():
         assert package not in found or users & {folder(path), named(path)}
     assert found <= {"numpy", *OUTSIDE}
-    if folder(path) in ("errors", "kernel") and named(path) != "kernel/numbers/arrays.py":
+    if folder(path) in ("errors", "kernel") and named(path) not in NUMBERS:
         assert not found
 
 

@@ -14,18 +14,20 @@ from graphplan.kernel.program import Program, Step
 def evaluate(
     program: Program,
     domain: Domain,
-    given: Mapping[str, Mapping[str, Any]] | None = None,
+    given: Mapping[Any, Mapping[str, Any]] | None = None,
     after: Callable[[Step], None] | None = None,
 ) -> list[Any]:
     """The value of every step, in order.
 
-    Reads a program, a number domain and, by name, other parameters for `given` points; calls `after` after each step.
+    Reads a program, a number domain and, by name or index of a step, other parameters than were recorded (where a
+    point is given, how a guide runs); calls `after` after each step.
     Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
     """
     values: list[Any] = []
     given = given or {}
     for step in program.steps:
-        params = {**step.params, **given[step.name]} if step.name in given else step.params
+        other = given.get(step.name) or given.get(step.index)
+        params = {**step.params, **other} if other else step.params
         try:
             values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
         except Undrawable as fault:

@@ -48,6 +48,10 @@ class Primitive:
     symmetric: bool = False
     forms: dict[str, Callable[..., Any]] = field(default_factory=dict, repr=False)
 
+    def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
+        """Copied and sent elsewhere by name: there is one table."""
+        return named, (self.name,)
+
     @property
     def compound(self) -> bool:
         """Whether it can be drawn from other primitives."""
@@ -60,6 +64,12 @@ class Primitive:
 
 
 TABLE: dict[str, Primitive] = {}
+
+
+def named(name: str) -> Primitive:
+    """The operation of this name."""
+    return TABLE[name]
+
 
 FAILURES: dict[str, tuple[str, str]] = {
     "points-coincide": ("two points that should give a direction coincide", "move one of them, or ask for less"),

@@ -1,8 +1,8 @@
-"""One program over many poses: the recorded steps replayed on arrays."""
+"""One construction over many poses: the recorded steps replayed on arrays, block by block, if need be by many hands."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -12,63 +12,169 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
+from graphplan.mechanism.model import FRAME, Slide
 from graphplan.methods.network import Network
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
 
+Coordinates = dict[str | int, dict[str, Any]]
+Results = dict[str, dict[str, Any]]
+Faults = dict[int, str]
+Progress = Callable[[int, int], None]
+STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
+
 
 @dataclass(frozen=True)
 class Poses:
-    """Results over n poses: complex arrays of shape (n,) in scene units by point; links' rates as real arrays.
+    """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
 
-    Where a pose is singular its results are nan, and `faults` says why, by the pose's place.
+    All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place.
     """
 
-    velocity: dict[str, Any]
-    acceleration: dict[str, Any]
-    omega: dict[str, Any]
-    alpha: dict[str, Any]
-    faults: dict[int, str]
+    results: Results
+    faults: Faults
+
+    @property
+    def velocity(self) -> dict[str, Any]:
+        """The velocities of points."""
+        return self.results.get("velocity", {})
+
+    @property
+    def acceleration(self) -> dict[str, Any]:
+        """The accelerations of points."""
+        return self.results.get("acceleration", {})
+
+    @property
+    def omega(self) -> dict[str, Any]:
+        """The angular velocities of links."""
+        return self.results.get("omega", {})
+
+    @property
+    def alpha(self) -> dict[str, Any]:
+        """The angular accelerations of links."""
+        return self.results.get("alpha", {})
+
+    @property
+    def reactions(self) -> dict[str, Any]:
+        """The reactions, on links at joints, such as `2 at B`, and of slides."""
+        return {**self.results.get("reaction", {}), **self.results.get("slide reaction", {})}
+
+    @property
+    def balances(self) -> list[Any]:
+        """The balances, by force plans or else by the lever: moments in force * m, forces as complex numbers."""
+        kinds = ("lever", "lever moment", "balance", "balance moment")
+        found = {name: value for kind in kinds for name, value in self.results.get(kind, {}).items()}
+        return [value for _, value in sorted(found.items())]
 
 
-def batch(construction: Construction, points: Mapping[str, Any]) -> Poses:
-    """The construction replayed over the poses in `points`."""
-    n, given = _coordinates(construction, points)
+def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
+          workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Poses:
+    """The construction replayed over the poses in `points` and `guides`.
+
+    `workers` is how many processes share the poses out, or the address of a dask scheduler; with `machine` numba
+    compiles the replay; `progress` is told after each stretch how many poses are done, of how many.
+    """
+    n, given = _given(construction, points, guides)
+    stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
+    results, faults = construction.blank(n), dict[int, str]()
+    for place, wrong in zip(stretches, _filled(construction, given, stretches, results, workers, machine), strict=True):
+        faults.update((place.start + pose, why) for pose, why in wrong.items())
+        if progress:
+            progress(place.stop, n)
+    return Poses(results, faults)
+
+
+def _filled(construction: Construction, given: Coordinates, stretches: Iterable[slice], results: Results,
+            workers: int | str, machine: bool) -> Iterator[Faults]:
+    """Fill the results stretch by stretch, by one hand or many; the faults of each."""
+    if workers == 1:
+        for place in stretches:
+            yield stretch(construction, _cut(given, place), _cut(results, place), machine)
+        return
+    from graphplan.methods.crew import shared_out
+
+    found = shared_out(construction, (_cut(given, place) for place in stretches), workers, machine)
+    for place, (values, faults) in zip(stretches, found, strict=True):
+        for kind, named in values.items():
+            for name, value in named.items():
+                results[kind][name][place] = value
+        yield faults
+
+
+def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: slice) -> dict[Any, dict[str, Any]]:
+    """The same arrays, for some of the poses."""
+    return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
+
+
+def stretch(construction: Construction, given: Coordinates, results: Results, machine: bool) -> Faults:
+    """Fill the results of one stretch of poses; its faults, by place."""
+    faults: Faults = {}
+    replay = construction.replay_of(tuple((key, name) for key, numbers in given.items() for name in numbers))
+    left = [slice(None)] if replay is None or not given else replay.run(given, results, machine)
+    for part in left:
+        _by_rules(construction, _cut(given, part), _cut(results, part), part.start or 0, faults)
+    return faults
+
+
+def _by_rules(construction: Construction, given: Coordinates, results: Results, start: int, faults: Faults) -> None:
+    """Fill results by the rules themselves, which find the poses that cannot be drawn."""
     domain, program = Arrays(), construction.program
-    faults: dict[int, str] = {}
+    n = len(next(z for named in results.values() for z in named.values()))
 
     def note(step: Step) -> None:
         for code, why, bad in domain.faults:
             for pose in np.flatnonzero(np.broadcast_to(bad, (n,))):
-                faults.setdefault(int(pose), str(error_at(program, step, Undrawable(code, why))))
+                faults.setdefault(start + int(pose), str(error_at(program, step, Undrawable(code, why))))
         domain.faults.clear()
 
     with np.errstate(all="ignore"):
-        results = construction.read(domain, given, note)
-    pairs = {kind: {name: _complex(pair, n) for name, pair in results.get(kind, {}).items()}
-             for kind in ("velocity", "acceleration")}
-    rates = {kind: {name: np.broadcast_to(value, (n,)).copy() for name, value in results.get(kind, {}).items()}
-             for kind in ("omega", "alpha")}
-    return Poses(**pairs, **rates, faults=dict(sorted(faults.items())))
+        found = construction.read(domain, given, note)
+    for kind, named in found.items():
+        for name, value in named.items():
+            z = results[kind][name]
+            for row, number in [(z.real, value[0]), (z.imag, value[1])] if isinstance(value, tuple) else [(z, value)]:
+                row[:] = number
 
 
-def _coordinates(construction: Construction, points: Mapping[str, Any]) -> tuple[int, dict[str, dict[str, Any]]]:
-    """The number of poses, and the given points as pairs of real arrays."""
-    arrays = {name: np.atleast_1d(np.asarray(z, dtype=complex)) for name, z in points.items()}
+def _given(construction: Construction, points: Mapping[str, Any],
+           guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
+    """The number of poses, and what is given in each: coordinates of points, and directions of guides by their step."""
+    scene = construction.scene
+    arrays = {name: _poses(z) for name, z in points.items()}
+    directions = {name: _poses(z) for name, z in guides.items()}
     for name in arrays:
-        if name not in construction.scene.points:
-            known = ", ".join(construction.scene.points)
-            raise Refused(f"point {name}", "the scene has no such point", f"one of {known}")
-    shapes = {array.shape for array in arrays.values()} or {(1,)}
+        if name not in scene.points:
+            raise Refused(f"point {name}", "the scene has no such point", f"one of {', '.join(scene.points)}")
+    slides = {slide.name: slide for slide in scene.slides}
+    for name in directions:
+        if name not in slides or slides[name].through or slides[name].along == FRAME:
+            free = [s.name for s in slides.values() if s.through is None and s.along != FRAME]
+            raise Refused(f"guide {name}", "no guide on a moving link has its direction given under this name",
+                          f"one of {', '.join(free)}" if free else "points alone: they turn every guide here")
+    shapes = {array.shape for array in (*arrays.values(), *directions.values())} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
-    for (at, _), name in Network(construction.scene).coincident.items():  # one mark serves both
+    for (at, _), name in Network(scene).coincident.items():  # one mark serves both
         if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
-    return next(iter(shapes))[0], {name: {"x": z.real, "y": z.imag} for name, z in arrays.items()}
+    drawn = {step.name for step in construction.program.steps[:construction.program.givens]}
+    given: Coordinates = {name: _parts(z, "x", "y") for name, z in arrays.items() if name in drawn}
+    for name, z in directions.items():
+        given |= {step: _parts(z, "dx", "dy") for step in _guides(construction, slides[name])}
+    return next(iter(shapes))[0], given
 
 
-def _complex(pair: Any, n: int) -> Any:
-    return np.broadcast_to(pair[0] + 1j * pair[1], (n,)).copy()
+def _poses(z: Any) -> Any:
+    return np.atleast_1d(np.asarray(z, dtype=complex))
+
+
+def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
+    return {one: np.ascontiguousarray(z.real), two: np.ascontiguousarray(z.imag)}
+
+
+def _guides(construction: Construction, slide: Slide) -> list[int]:
+    """The steps that draw the guide of a slide in its given direction."""
+    return [step.index for step in construction.program.steps
+            if step.op.name == "guide" and step.links == (slide.link, slide.along)]

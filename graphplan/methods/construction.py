@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
@@ -20,6 +20,7 @@ from graphplan.methods.tempo import Tempo
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
+    from graphplan.methods.replay import Free, Replay
 
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
@@ -176,20 +177,23 @@ class Construction:
     def read(
         self,
         domain: Domain,
-        given: Mapping[str, Mapping[str, Any]] | None = None,
+        given: Mapping[Any, Mapping[str, Any]] | None = None,
         after: Callable[[Step], None] | None = None,
     ) -> dict[str, dict[str, Any]]:
         """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
 
-        `given` overrides the coordinates of named points; `after` is called after each step.
+        `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
+        after each step.
         """
         values = evaluate(self.program, domain, given, after)
         wanted = [values[index] for index in self.program.wanted]
+        return self._named(lambda r: self._value(r.kind, [wanted[position] for position in r.marks], domain))
+
+    def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
+        """Something for each reading, by kind and name."""
         results: dict[str, dict[str, Any]] = {}
         for reading in self.readings:
-            marks = [wanted[position] for position in reading.marks]
-            value = self._value(reading.kind, marks, domain)
-            results.setdefault(reading.kind, {})[reading.of] = value
+            results.setdefault(reading.kind, {})[reading.of] = value(reading)
         return results
 
     def _value(self, kind: str, marks: list[Any], domain: Domain) -> Any:
@@ -198,11 +202,48 @@ class Construction:
             return FORCE_READERS[kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))
         return READERS[kind](marks, domain.lift(self.tempo.unit), self.turned)
 
-    def evaluate(self, points: Mapping[str, Any]) -> Poses:
-        """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still."""
+    def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
+                 workers: int | str = 1, machine: bool = False,
+                 progress: Callable[[int, int], None] | None = None) -> Poses:
+        """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still.
+
+        `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
+        the scene gives as a vector. `workers` processes share the poses out, or those of a dask scheduler by its
+        address; with `machine` numba compiles the replay, which pays for millions of poses; `progress` is told how
+        many are done, of how many.
+        """
         from graphplan.methods.batch import batch
 
-        return batch(self, points)
+        return batch(self, points, guides or {}, workers, machine, progress)
+
+    def blank(self, n: int) -> dict[str, dict[str, Any]]:
+        """Arrays for the readings in n poses, by kind and name: complex ones for vectors, nan to begin with."""
+        import numpy as np
+
+        return self._named(lambda reading: np.full(n, np.nan, float if reading.kind in NUMBERS else complex))
+
+    def replay(self, points: Mapping[str, complex] | None = None) -> dict[str, dict[str, Any]]:
+        """All readings, by kind and name, with some points elsewhere; made for many poses one after the other."""
+        given = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
+        free = tuple((name, part) for name in given for part in "xy")
+        found = self.replay_of(free)
+        return self.read(Floats(), given) if found is None else found.read(given)
+
+    def replay_of(self, free: Free) -> Replay | None:
+        """The replay in which these numbers are free, made once; None where what stands still cannot be drawn."""
+        if free not in self._replays:
+            from graphplan.methods.replay import replay
+
+            self._replays[free] = replay(self, free)
+        return self._replays[free]
+
+    @cached_property
+    def _replays(self) -> dict[Free, Replay | None]:
+        return {}
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes it up; what is found from that is found again elsewhere."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @cached_property
     def _floats(self) -> dict[str, dict[str, Any]]:
@@ -311,3 +352,6 @@ FORCE_READERS = {
     "lever": _read_force,
     "lever moment": _read_moment,
 }
+
+# Readings that are one number; the others are vectors.
+NUMBERS = frozenset({"omega", "alpha", *(kind for kind in FORCE_READERS if "moment" in kind)})

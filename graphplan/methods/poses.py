@@ -28,7 +28,7 @@ class Pose:
 
     def guide(self, slide: Slide) -> Mark:
         """The guide of a sliding pair, through the pair."""
-        with self.board.on(MECHANISM):
+        with self.board.on(MECHANISM, (slide.link, slide.along)):
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)

@@ -1,0 +1,211 @@
+"""A tape as numpy calls on blocks of poses: blocks stay in the cache, and every number is written into a used place.
+
+A question is first asked of a whole block, by bounds: the least size of the value and the largest of what the scale is
+made from. Only where the bounds leave it open is the block handed back, to be asked pose by pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any
+
+import numpy as np
+
+from graphplan.kernel.numbers.floats import ZERO
+from graphplan.kernel.tape.record import Entry, Question, Tape, operands
+from graphplan.kernel.tape.source import compiled
+
+BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
+CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
+         "sqrt": "sqrt", "sign": "sign"}
+HEAD = ("from numpy import absolute, add, divide, minimum, multiply, negative, sqrt, subtract",
+        "from graphplan.kernel.tape.blocks import largest, least, sign")
+
+
+class Blocks:
+    """The replay of a tape over arrays: made once, then `run` over any number of poses.
+
+    With `machine` a block is one loop in machine code, by numba, else a list of numpy calls.
+    """
+
+    def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int], machine: bool = False):
+        self._registers: list[Any] = []
+        self._block: Callable[..., bool]
+        if machine:
+            from graphplan.kernel.tape.compiled import loop
+
+            self._block = loop(tape, inputs, outputs)
+        else:
+            writer = _Writer(tape, inputs, outputs)
+            self._block = compiled(writer.text(), "block")
+            self._registers = [np.empty(BLOCK) for _ in range(writer.registers)]
+
+    def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> list[slice]:
+        """Fill the outputs for n poses; the blocks that a question left open, whose outputs say nothing.
+
+        Reads arrays of shape (n,), one for each input, and writes into those for each output.
+        """
+        n, left = len(inputs[0]), []
+        for start in range(0, n, BLOCK):
+            part = slice(start, min(start + BLOCK, n))
+            registers = self._registers
+            if part.stop - part.start < BLOCK:
+                registers = [register[: part.stop - part.start] for register in registers]
+            with np.errstate(all="ignore"):
+                if not self._block([array[part] for array in inputs], [array[part] for array in outputs], registers):
+                    left.append(part)
+        return left
+
+
+def largest(numbers: Any) -> float:
+    """The largest size in a block; nan where any is."""
+    high, low = float(np.maximum.reduce(numbers)), float(np.minimum.reduce(numbers))
+    return high if high >= -low else -low  # nan in one is nan in both
+
+
+def least(numbers: Any) -> float:
+    """The least size in a block; nan where any is."""
+    low = float(np.minimum.reduce(numbers))
+    if low >= 0.0:
+        return low
+    high = float(np.maximum.reduce(numbers))
+    return -high if high <= 0.0 else float(np.minimum.reduce(np.absolute(numbers)))
+
+
+def sign(value: Any, scale: Any) -> Any:
+    """1, -1, or 0 where a value is nothing beside its scale."""
+    return np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
+
+
+class _Writer:
+    """Writes the function for one block; numbers are kept in registers, each taken again when its number is done with.
+    """
+
+    def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
+        self.tape = tape
+        self.names = {place: f"i{k}" for k, place in enumerate(inputs)}
+        self.told: dict[int, int] = {}
+        for k, place in enumerate(outputs):
+            self.told.setdefault(place, k)
+        self.copies = [(k, place) for k, place in enumerate(outputs) if self.told[place] != k or self._leaf(place)]
+        self.marks = set(tape.needed([*outputs, *(q.value for q in tape.questions)]))
+        self.marks.update(tape.needed(a for q in tape.questions for a in self._leaves(q.scale)))
+        self.registers, self.free = 0, list[str]()
+        self.lines: list[str] = []
+        self.sizes: dict[int, str] = {}
+        self._write(sorted(self.marks))
+
+    def text(self) -> str:
+        """The function `block(inputs, outputs, registers)`: whether every question was answered."""
+        unpack = [f"{', '.join(names)}, = {array}" for array, names in (
+            ("I", [name for name in self.names.values() if name[0] == "i"]),
+            ("O", [f"o{k}" for k in range(self._count())]),
+            ("R", [f"r{k}" for k in range(self.registers)])) if names]
+        copies = [f"o{k}[:] = {self._name(place)}" for k, place in self.copies]
+        body = [*HEAD, *unpack, *self.lines, *copies, "return True"]
+        return "\n    ".join(["def block(I, O, R):", *body])
+
+    def _count(self) -> int:
+        return max([*self.told.values(), *(k for k, _ in self.copies)], default=-1) + 1
+
+    def _leaf(self, place: int) -> bool:
+        return self.tape.entries[place][0] in ("in", "constant")
+
+    def _write(self, needed: Sequence[int]) -> None:
+        """Each number, then the questions that can be asked with it, then its operands are let go if done with."""
+        asked = self._asked()
+        last = {a: place for place in needed for a in operands(self.tape.entries[place])}
+        for place, questions in asked.items():
+            for question in questions:
+                last.update((a, max(place, last.get(a, 0))) for a in (question.value, *self._leaves(question.scale)))
+        ends: dict[int, list[int]] = {}
+        for place, end in last.items():
+            ends.setdefault(end, []).append(place)
+        for place in needed:
+            if not self._leaf(place):
+                self._make(place, [a for a in ends.get(place, []) if a in operands(self.tape.entries[place])
+                                   and place not in asked])
+            for question in asked.get(place, []):
+                self._ask(question)
+            for done in ends.get(place, []):
+                self._release(done)
+
+    def _asked(self) -> dict[int, list[Question]]:
+        """The questions, by the place after which all that they need is there."""
+        found: dict[int, list[Question]] = {}
+        for question in self.tape.questions:
+            found.setdefault(max([question.value, *self._leaves(question.scale)]), []).append(question)
+        return found
+
+    def _make(self, place: int, ending: Sequence[int]) -> None:
+        op, *args = self.tape.entries[place]
+        called = [self._name(a) for a in args]
+        for done in ending:  # its own place may take the result
+            self._release(done)
+        target = f"o{self.told[place]}" if place in self.told else self._taken()
+        self.names[place] = target
+        if op == "sign":
+            self.lines.append(f"{target}[:] = sign({called[0]}, {called[1]})")
+        else:
+            self.lines.append(f"{CALLS[op]}({', '.join(called)}, {target})")
+
+    def _taken(self) -> str:
+        if self.free:
+            return self.free.pop()
+        self.registers += 1
+        return f"r{self.registers - 1}"
+
+    def _release(self, place: int) -> None:
+        if self.names.get(place, "").startswith("r"):
+            self.free.append(self.names.pop(place))
+
+    def _name(self, place: int) -> str:
+        return repr(self.tape.entries[place][1]) if self.tape.is_constant(place) else self.names[place]
+
+    # ---- questions --------------------------------------------------------------------------------------------
+
+    def _ask(self, question: Question) -> None:
+        value = self._name(question.value)
+        if question.scale is None:
+            self.lines.append(f"if not minimum.reduce({value}) >= 0.0: return False")
+            return
+        least = f"minimum.reduce({value})" if self._never_negative(question.value) else f"least({value})"
+        if self.tape.is_constant(question.value):
+            least = repr(abs(self.tape.entries[question.value][1]))
+        self.lines.append(f"if not {least} > {ZERO!r} * {self._bound(question.scale)}: return False")
+
+    def _leaves(self, place: int | None) -> Iterator[int]:
+        """The numbers of the tape from which the size of a scale is bounded."""
+        if place is None or self.tape.is_constant(place):
+            return
+        entry = self.tape.entries[place]
+        if place in self.marks or not self._bounded(entry):
+            yield place
+        else:
+            for a in operands(entry):
+                yield from self._leaves(a)
+
+    def _bounded(self, entry: Entry) -> bool:
+        """Whether an operation's size is bounded by the sizes of its operands."""
+        return entry[0] in ("+", "-", "*", "neg", "abs")
+
+    def _bound(self, place: int) -> str:
+        """An expression for the largest size that a number has in the block."""
+        entry = self.tape.entries[place]
+        if entry[0] == "constant":
+            return repr(abs(entry[1]))
+        if place in self.marks or not self._bounded(entry):
+            return self._size(place)
+        parts = [self._bound(a) for a in operands(entry)]
+        return parts[0] if len(parts) == 1 else f"({parts[0]} {'*' if entry[0] == '*' else '+'} {parts[1]})"
+
+    def _size(self, place: int) -> str:
+        if place not in self.sizes:
+            self.sizes[place] = f"m{place}"
+            self.lines.append(f"m{place} = largest({self._name(place)})")
+        return self.sizes[place]
+
+    def _never_negative(self, place: int) -> bool:
+        op, *args = self.tape.entries[place]
+        return op in ("abs", "sqrt") or (op == "*" and args[0] == args[1]) or (
+            op in ("+", "*", "/") and all(self._never_negative(a) for a in args))

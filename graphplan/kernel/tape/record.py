@@ -1,0 +1,209 @@
+"""The tape (Wengert 1964): every sum, product and root of a program, each once, with the questions that were asked.
+
+Symbols pass through the rules in the place of numbers. The same operation is done once, and signs move outwards, by
+identities that hold in rounded arithmetic too: so a tape gives the same numbers as the rules, to the last bit (only a
+zero may change its sign).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.kernel.numbers.floats import Floats
+
+Entry = tuple[Any, ...]  # ("in", name), ("constant", value), or an operation and the places of its operands
+
+FLOATS = Floats()
+LEAVES = ("in", "constant")
+
+
+@dataclass(frozen=True)
+class Question:
+    """Asked where a rule may fail: is the number at `value` nonzero beside `scale`? Without scale: not negative?"""
+
+    value: int
+    scale: int | None
+
+
+@dataclass
+class Tape:
+    """What was recorded: `entries` in order, and the questions asked on the way, each once, in order."""
+
+    entries: list[Entry] = field(default_factory=list)
+    questions: dict[Question, None] = field(default_factory=dict)
+    _places: dict[Entry, int] = field(default_factory=dict)
+
+    def input(self, name: str) -> Symbol:
+        """A number that is told at the replay."""
+        return self._entered("in", name)
+
+    def place(self, number: Any) -> int:
+        """Where a number stands on the tape: a symbol, or a constant."""
+        if isinstance(number, Symbol):
+            return number.place
+        return self._entered("constant", float(number)).place
+
+    def _entered(self, *entry: Any) -> Symbol:
+        place = self._places.setdefault(entry, len(self.entries))
+        if place == len(self.entries):
+            self.entries.append(entry)
+        return Symbol(self, place)
+
+    def is_constant(self, a: int, *values: float) -> bool:
+        """Whether a place holds a constant, one of `values` if there are any."""
+        op, *rest = self.entries[a]
+        return op == "constant" and (not values or rest[0] in values)
+
+    # ---- arithmetic, by places --------------------------------------------------------------------------------
+
+    def add(self, a: int, b: int) -> Symbol:
+        if self.is_constant(b, 0.0):
+            return Symbol(self, a)
+        if (c := self._negated(b)) is not None:
+            return self.sub(a, c)
+        if (c := self._negated(a)) is not None:
+            return self.sub(b, c)
+        return self._entered("+", *sorted((a, b)))
+
+    def sub(self, a: int, b: int) -> Symbol:
+        if self.is_constant(b, 0.0):
+            return Symbol(self, a)
+        if self.is_constant(a, 0.0):
+            return self.neg(b)
+        if (c := self._negated(b)) is not None:
+            return self.add(a, c)
+        if (c := self._negated(a)) is not None:
+            return -self.add(c, b)
+        mirrored = self._places.get(("-", b, a))
+        return self._entered("-", a, b) if mirrored is None else self.neg(mirrored)
+
+    def mul(self, a: int, b: int) -> Symbol:
+        for one, other in (a, b), (b, a):
+            if self.is_constant(one, 1.0):
+                return Symbol(self, other)
+            if self.is_constant(one, -1.0):
+                return self.neg(other)
+            if (c := self._negated(one)) is not None:
+                return -self.mul(c, other)
+        return self._entered("*", *sorted((a, b)))
+
+    def div(self, a: int, b: int) -> Symbol:
+        if self.is_constant(b, 1.0):
+            return Symbol(self, a)
+        if (c := self._negated(a)) is not None:
+            return -self.div(c, b)
+        if (c := self._negated(b)) is not None:
+            return -self.div(a, c)
+        return self._entered("/", a, b)
+
+    def neg(self, a: int) -> Symbol:
+        c = self._negated(a)
+        return self._entered("neg", a) if c is None else Symbol(self, c)
+
+    def abs(self, a: int) -> Symbol:
+        c = self._negated(a)
+        return self._entered("abs", a if c is None else c)
+
+    def sqrt(self, a: int) -> Symbol:
+        self.questions[Question(a, None)] = None
+        return self._entered("sqrt", a)
+
+    def sign(self, a: int, scale: int) -> Symbol:
+        return self._entered("sign", a, scale)
+
+    def nonzero(self, a: int, scale: int) -> Symbol:
+        self.questions[Question(a, scale)] = None
+        return Symbol(self, a)
+
+    def _negated(self, a: int) -> int | None:
+        """What an entry is the negative of."""
+        entry = self.entries[a]
+        return entry[1] if entry[0] == "neg" else None
+
+    # ---- reading ----------------------------------------------------------------------------------------------
+
+    def needed(self, wanted: Iterable[int]) -> list[int]:
+        """The places, in order, on which the wanted ones rest."""
+        found: set[int] = set()
+        waiting = list(wanted)
+        while waiting:
+            place = waiting.pop()
+            if place not in found:
+                found.add(place)
+                waiting.extend(operands(self.entries[place]))
+        return sorted(found)
+
+
+def operands(entry: Entry) -> tuple[int, ...]:
+    """The places that an entry reads."""
+    return () if entry[0] in LEAVES else entry[1:]
+
+
+class Symbol:
+    """A number that is not known yet; arithmetic with it is recorded."""
+
+    __slots__ = ("place", "tape")
+
+    def __init__(self, tape: Tape, place: int):
+        self.tape, self.place = tape, place
+
+    def __add__(self, other: Any) -> Symbol:
+        return self.tape.add(self.place, self.tape.place(other))
+
+    __radd__ = __add__
+
+    def __sub__(self, other: Any) -> Symbol:
+        return self.tape.sub(self.place, self.tape.place(other))
+
+    def __rsub__(self, other: Any) -> Symbol:
+        return self.tape.sub(self.tape.place(other), self.place)
+
+    def __mul__(self, other: Any) -> Symbol:
+        return self.tape.mul(self.place, self.tape.place(other))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, other: Any) -> Symbol:
+        return self.tape.div(self.place, self.tape.place(other))
+
+    def __rtruediv__(self, other: Any) -> Symbol:
+        return self.tape.div(self.tape.place(other), self.place)
+
+    def __neg__(self) -> Symbol:
+        return self.tape.neg(self.place)
+
+    def __abs__(self) -> Symbol:
+        return self.tape.abs(self.place)
+
+    def __bool__(self) -> bool:
+        raise TypeError("a rule may not branch on a number: ask the domain")
+
+
+class Symbols:
+    """The domain of symbols. What is told by constants alone is reckoned in floats at once, and fails at once."""
+
+    name = "symbol"
+
+    def __init__(self) -> None:
+        self.tape = Tape()
+
+    def lift(self, value: Any) -> Any:
+        return value if isinstance(value, Symbol) else float(value)
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        return self.tape.sqrt(value.place) if isinstance(value, Symbol) else FLOATS.sqrt(value, code, why)
+
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        if isinstance(value, Symbol) or isinstance(scale, Symbol):
+            return self.tape.nonzero(self.tape.place(value), self.tape.place(scale))
+        return FLOATS.nonzero(value, scale, code, why)
+
+    def sign(self, value: Any, scale: Any) -> Any:
+        if isinstance(value, Symbol) or isinstance(scale, Symbol):
+            return self.tape.sign(self.tape.place(value), self.tape.place(scale))
+        return FLOATS.sign(value, scale)
+
+    def whole(self, value: Any) -> Any:
+        return value

@@ -1,0 +1,91 @@
+"""The second opinion over many poses: the same equations filled with arrays, all systems solved at once by LAPACK.
+
+Every scene that is read holds each link just once, so both systems, for the rates and for the forces, are square.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from graphplan.mechanism.model import Number, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.solver import rates, statics
+from graphplan.solver.elimination import transpose
+from graphplan.solver.equations import Equations, Row
+from graphplan.solver.facts import Along, Fact, facts, supports
+from graphplan.solver.loads import acting, resultants
+from graphplan.solver.plane import dot, times
+
+
+def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Scene:
+    """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
+
+    `points` gives them by name as complex arrays, `guides` the directions of slides that no two points give.
+    """
+    def where(name: str) -> Any:
+        return _pair(points[name]) if name in points else tuple(map(float, scene.points[name]))
+
+    def direction(slide: Slide) -> Any:
+        if slide.through is not None:
+            (ax, ay), (bx, by) = map(where, slide.through)
+            return bx - ax, by - ay
+        return _pair(guides[slide.name]) if slide.name in guides else tuple(map(float, slide.direction))
+
+    slides = tuple(replace(slide, direction=direction(slide)) for slide in scene.slides)
+    return replace(scene, points={name: where(name) for name in scene.points}, slides=slides)
+
+
+def solve(scene: Scene, n: int) -> rates.Rates:
+    """The rates of a scene in n poses, as arrays of shape (n,); nan where a system has no solution."""
+    equations = Equations(scene, tuple(_facts(scene)))
+    zero: Any = np.zeros(n)
+    first = equations.rates(_solved(equations.rows, equations.velocities, n), zero)
+    second = equations.rates(_solved(equations.rows, equations.accelerations(first), n), zero)
+    return rates.read(equations, first, second)
+
+
+def reactions(scene: Scene, motion: rates.Rates, n: int) -> statics.Reactions:
+    """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays."""
+    equations = Equations(scene, supports(scene))
+    right = [-value for value in resultants(equations, acting(scene, motion))]
+    return statics.read(equations, _solved(transpose(equations.rows, equations.width), right, n), motion)
+
+
+def _facts(scene: Scene) -> Iterator[Fact]:
+    """The scene's facts, with the lengths of directions over all poses."""
+    turning = tuple(drive for drive in scene.drives if isinstance(drive, TurningDrive))
+    yield from facts(replace(scene, drives=turning))
+    for drive in (drive for drive in scene.drives if isinstance(drive, SlidingDrive)):
+        slide = next(s for s in scene.slides if (s.link, s.along) == (drive.link, drive.along))
+        square: Any = dot(slide.direction, slide.direction)
+        rate, change = times(np.sqrt(square), (float(drive.speed), float(drive.acceleration)))
+        yield Along(slide.link, slide.along, slide.at, slide.direction, rate, change)
+
+
+def _solved(rows: Sequence[Row], right: Sequence[Number], n: int) -> Sequence[Any]:
+    """The unknowns, each over all poses."""
+    size = len(rows)
+    matrix, sides = np.zeros((n, size, size)), np.empty((n, size, 1))
+    for i, (row, side) in enumerate(zip(rows, right, strict=True)):
+        sides[:, i, 0] = side
+        for j, value in row.items():
+            matrix[:, i, j] = value
+    try:
+        return list(np.linalg.solve(matrix, sides)[:, :, 0].T)
+    except np.linalg.LinAlgError:
+        return list(np.array([_alone(*pose) for pose in zip(matrix, sides, strict=True)])[:, :, 0].T)
+
+
+def _alone(matrix: Any, side: Any) -> Any:
+    """The solution in one pose, nan where there is none."""
+    try:
+        return np.linalg.solve(matrix, side)
+    except np.linalg.LinAlgError:
+        return np.full_like(side, np.nan)
+
+
+def _pair(z: Any) -> Any:
+    return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)

@@ -1,0 +1,168 @@
+"""One recorded program over many poses: in blocks, one by one, by many hands, always the same numbers."""
+
+from __future__ import annotations
+
+import pickle
+from typing import Any
+
+import numpy as np
+import pytest
+
+import graphplan as gp
+from graphplan.errors import Refused
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.scene import packaged
+from graphplan.methods.batch import Poses
+from graphplan.methods.network import Network
+
+GUIDED = """
+[points]
+O = [0, 0]
+P = [100, 0]
+A = [30, 40]
+B = [90, 60]
+[links]
+1 = "O A"
+2 = "P B"
+3 = "A"
+frame = "O P"
+[[slides]]
+link = "3"
+along = "2"
+at = "A"
+direction = [3, 1]
+[[drive]]
+link = "1"
+omega = 2
+[find]
+velocity = ["A", "B"]
+acceleration = ["A", "B"]
+"""
+
+
+def shaken(scene: Scene, n: int, by: float = 0.01) -> dict[str, Any]:
+    """n poses in which every moving joint lies a little elsewhere."""
+    reach = max(abs(float(x)) for point in scene.points.values() for x in point)
+    random = np.random.default_rng(4)
+    away = {name: by * reach * (random.normal(size=n) + 1j * random.normal(size=n)) for name in scene.points
+            if FRAME not in scene.links_of[name]}
+    away |= {name: away[at] for (at, _), name in Network(scene).coincident.items() if {name, at} <= away.keys()}
+    return {name: complex(*map(float, scene.points[name])) + shift for name, shift in away.items()}
+
+
+def at(poses: Poses, k: int) -> dict[str, dict[str, Any]]:
+    """The results of one pose, as a single replay gives them."""
+    return {kind: {name: (float(z[k].real), float(z[k].imag)) if np.iscomplexobj(z) else float(z[k])
+                   for name, z in named.items()} for kind, named in poses.results.items()}
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_many_poses_are_each_pose(name: str) -> None:
+    """Over arrays, alone, and by the rules themselves every packaged scene gives the same floats, forces too."""
+    drawing = gp.construct(gp.load(name))
+    points = shaken(drawing.scene, 5)
+    poses = drawing.evaluate(points)
+    assert not poses.faults
+    for k in range(5):
+        pose = {point: complex(z[k]) for point, z in points.items()}
+        given = {point: {"x": z.real, "y": z.imag} for point, z in pose.items()}
+        drawn = {step.name for step in drawing.program.steps}
+        assert drawing.replay({p: z for p, z in pose.items() if p in drawn}) == drawing.read(Floats(), given) == at(
+            poses, k)
+
+
+def test_a_pose_of_its_own_needs_no_points() -> None:
+    """Without points the replay reads the scene's own pose."""
+    drawing = gp.construct(gp.load("four-bar"))
+    assert complex(*drawing.replay()["velocity"]["B"]) == drawing.velocity["B"]
+    assert drawing.evaluate({}).velocity["B"][0] == drawing.velocity["B"]
+
+
+@pytest.mark.parametrize("singular", [0, 4095, 4096, 9999])
+def test_one_singular_pose_among_many(singular: int) -> None:
+    """A pose that cannot be drawn is nan and says why, wherever it stands; its neighbours are as without it."""
+    drawing = gp.construct(gp.load("four-bar"))
+    points = shaken(drawing.scene, 10000)
+    sound = drawing.evaluate(points)
+    (ax, ay), (cx, cy) = (drawing.scene.points[name] for name in "AC")
+    points["A"][singular], points["B"][singular] = complex(ax, ay), complex(ax + cx, ay + cy) / 2
+    poses = drawing.evaluate(points)
+    others = np.arange(10000) != singular
+    assert list(poses.faults) == [singular]
+    assert "parallel" in poses.faults[singular]
+    assert np.isnan(poses.velocity["B"][singular])
+    assert np.array_equal(poses.velocity["B"][others], sound.velocity["B"][others])
+
+
+def test_guides_on_moving_links_turn_with_them() -> None:
+    """A guide whose direction the scene gives as a vector runs as `guides` says: all turned, the results turn too."""
+    drawing = gp.construct(gp.parse(GUIDED, "guided"))
+    turn = np.exp(1j * np.array([0.0, 0.3, 2.0]))
+    points = {name: complex(*map(float, at)) * turn for name, at in drawing.scene.points.items()}
+    poses = drawing.evaluate(points, guides={"3 along 2": (3 + 1j) * turn})
+    assert poses.velocity["B"] == pytest.approx(drawing.velocity["B"] * turn)
+    assert poses.results["slide velocity"]["3 along 2"] / turn == pytest.approx(
+        poses.results["slide velocity"]["3 along 2"][0])
+
+
+@pytest.mark.parametrize(("guide", "why"), [("3 along frame", "no guide"), ("9 along 2", "one of 3 along 2")])
+def test_guides_that_nothing_turns_are_refused(guide: str, why: str) -> None:
+    """Only a guide on a moving link, given as a vector, takes a direction."""
+    drawing = gp.construct(gp.parse(GUIDED, "guided"))
+    with pytest.raises(Refused, match=why):
+        drawing.evaluate({"A": [30 + 40j]}, guides={guide: [1j]})
+
+
+def test_a_construction_can_be_sent_elsewhere() -> None:
+    """Pickled, a construction draws the same elsewhere, and brings no table of its own along."""
+    drawing = gp.construct(gp.load("jaanimets-10"))
+    there = pickle.loads(pickle.dumps(drawing))
+    assert there.velocity == drawing.velocity
+    assert there.program.steps[-1].op is drawing.program.steps[-1].op
+
+
+def test_many_hands_give_what_one_gives(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two processes share the poses out and give the same results and faults, in the same order."""
+    from graphplan.methods import batch
+
+    monkeypatch.setattr(batch, "STRETCH", 40)
+    drawing = gp.construct(gp.load("four-bar"))
+    points = shaken(drawing.scene, 100)
+    points["B"][70] = points["A"][70]
+    told: list[tuple[int, int]] = []
+    one = drawing.evaluate(points)
+    two = drawing.evaluate(points, workers=2, progress=lambda done, of: told.append((done, of)))
+    assert np.array_equal(one.velocity["B"], two.velocity["B"], equal_nan=True)
+    assert one.faults == two.faults
+    assert list(one.faults) == [70]
+    assert told == [(40, 100), (80, 100), (100, 100)]
+
+
+def test_a_dask_cluster_gives_what_one_gives() -> None:
+    """The same call on a local dask cluster, by the address of its scheduler, gives the same results."""
+    distributed = pytest.importorskip("distributed")
+    drawing = gp.construct(gp.load("four-bar"))
+    points = shaken(drawing.scene, 100)
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as crew:
+        poses = drawing.evaluate(points, workers=crew.scheduler_address)
+    assert np.array_equal(poses.velocity["B"], drawing.evaluate(points).velocity["B"])
+
+
+@pytest.mark.parametrize("workers", [0, -3, "tcp://127.0.0.1:9"])
+def test_no_workers_are_refused(workers: int | str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Without anyone to do the work one line says so."""
+    from graphplan.methods import crew
+
+    monkeypatch.setattr(crew, "PATIENCE", "0.5s")
+    with pytest.raises(Refused, match="workers"):
+        gp.construct(gp.load("four-bar")).evaluate({"B": [1j]}, workers=workers)
+
+
+def test_machine_code_gives_what_numpy_gives() -> None:
+    """Where numba is installed, the compiled replay gives the same results to the last bit."""
+    pytest.importorskip("numba")
+    drawing = gp.construct(gp.load("slider-crank"))
+    points = shaken(drawing.scene, 10)
+    compiled = drawing.evaluate(points, machine=True)
+    assert np.array_equal(compiled.velocity["B"], drawing.evaluate(points).velocity["B"])

@@ -28,6 +28,7 @@ class Held:
     results: dict[str, dict[str, Any]]
     reactions: Reactions
     power: tuple[Any, ...]
+    rounds: bool = True  # whether it is told where further rounds of friction stand
 
     @cached_property
     def truth(self) -> dict[str, dict[str, Any]]:
@@ -55,7 +56,7 @@ class Held:
     @property
     def _standing(self) -> dict[str, dict[str, Any]]:
         """The balances with friction as they stand in the end, where some are drawn: a round of their own."""
-        kinds = [kind for kind in RUBBED if kind in self.results]
+        kinds = [kind for kind in RUBBED if kind in self.results and self.rounds]
         return {kind: {str(k): value for k, value in enumerate(self.standing.balances, 1)
                        if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in kinds}
 
@@ -92,23 +93,23 @@ class Held:
         return with_friction(self.scene)
 
     @property
-    def efficiency(self) -> float | None:
+    def efficiency(self) -> Any:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.rubbed:
             return None
         with_, without = (self._delivered(suffix) for suffix in (" with friction", ""))
         return efficiency(without, with_)
 
-    def _delivered(self, suffix: str) -> float:
+    def _delivered(self, suffix: str) -> Any:
         """The power that the balances of the construction give, in force * length/s."""
         loads, rates, delivered = self.scene.loads, self.reactions.rates, 0.0
         for number, balance in enumerate(loads.balances if loads else (), 1):
             if balance.at:
                 force, velocity = self.results["balance" + suffix][str(number)], rates.velocity[balance.at]
-                delivered += float(force[0] * velocity[0] + force[1] * velocity[1])
+                delivered += force[0] * velocity[0] + force[1] * velocity[1]
             else:
                 moment = self.results["balance moment" + suffix][str(number)]
-                delivered += float(moment * metre(self.scene.units) * rates.omega[balance.link])
+                delivered += moment * metre(self.scene.units) * rates.omega[balance.link]
         return delivered
 
 

@@ -7,6 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.report import Report
+from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Slide
 
 if TYPE_CHECKING:
@@ -24,10 +25,18 @@ def data(found: Report) -> dict[str, Any]:
         "slides": _merged(found, (s.name for s in scene.slides), velocity="slide velocity",
                                acceleration="slide acceleration"),
         **_forces(found),
-        "method": found.drawing.method,
-        "check": {kind: _number(value) if value else 0 for kind, value in found.check.items()},
-        "steps": len(found.drawing.drawn) - found.drawing.drawn.givens,
+        **_protocol(found),
     }
+
+
+def _protocol(found: Report) -> dict[str, Any]:
+    """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
+    check = {kind: _number(value) if value else 0 for kind, value in found.check.items()}
+    try:
+        steps = len(found.drawing.drawn) - found.drawing.drawn.givens
+    except ConstructionError:
+        return {"check": check}
+    return {"method": found.drawing.method, "check": check, "steps": steps}
 
 
 def _forces(found: Report) -> dict[str, Any]:
@@ -63,10 +72,11 @@ def _friction(held: Held) -> dict[str, Any]:
     if not held.rubbed:
         return {}
     drawn = [held.rubbed[name] for name in sorted(held.rubbed)]
-    stands = {"balance": [_balance(value) for value in held.standing.balances],
-              "efficiency": held.standing.efficiency}
-    return {"friction": {"balance": [_balance(value) for value in drawn], "efficiency": held.efficiency,
-                         "stands": stands}}
+    told = {"balance": [_balance(value) for value in drawn], "efficiency": held.efficiency}
+    if held.rounds:
+        told["stands"] = {"balance": [_balance(value) for value in held.standing.balances],
+                          "efficiency": held.standing.efficiency}
+    return {"friction": told}
 
 
 def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection
 from fractions import Fraction
+from typing import Any
 
 from graphplan.mechanism.items import Item, Vector, described
-from graphplan.mechanism.numerals import heading
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning
 
 Direction = Vector | Fraction | str
 """A direction as written: a vector, an angle in degrees, or two points such as "O A"."""
 
-Where = Callable[[str], Vector]
-"""Gives a named point's coordinates."""
+Where = Callable[[str], tuple[Any, Any]]
+"""Gives a named point's coordinates, in fractions or in any numbers that reckon with them."""
 
 _EIGHTHS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 """A direction may have any length, so the multiples of 45 degrees are exact."""
@@ -48,7 +49,7 @@ def points_of(direction: Direction) -> tuple[str, ...]:
     return tuple(direction.split()) if isinstance(direction, str) else ()
 
 
-def vector(direction: Direction, at: Where) -> tuple[Fraction, Fraction, bool]:
+def vector(direction: Direction, at: Where, by: Reckoning = TO_A_FLOAT) -> tuple[Any, Any, bool]:
     """The direction as a vector, and whether it is exact (provided that its points are)."""
     if isinstance(direction, tuple):
         return *direction, True
@@ -56,7 +57,7 @@ def vector(direction: Direction, at: Where) -> tuple[Fraction, Fraction, bool]:
         if direction % 45 == 0:
             x, y = _EIGHTHS[int(direction / 45) % 8]
             return Fraction(x), Fraction(y), True
-        return heading(direction)
+        return by.heading(direction)
     (x0, y0), (x1, y1) = (at(name) for name in points_of(direction))
     if (x0, y0) == (x1, y1):
         raise Misfit(f"the points {direction} coincide and give no direction", "two points that lie apart")

@@ -130,7 +130,7 @@ def _balance(row: Item, names: Names) -> Balance | None:
     guide = read_guide(fields["direction"], names)
     if link is None or at is None or guide is None or not _on_link(fields["at"], at, link, names):
         return None
-    return Balance(link, at, guide[0])
+    return Balance(link, at, guide[0], guide[2])
 
 
 def _balanced(item: Item, names: Names) -> str | None:

@@ -13,6 +13,7 @@ from functools import cached_property
 
 Number = Fraction | float
 Pair = tuple[Number, Number]
+Written = tuple[Fraction, Fraction] | Fraction | str | None
 
 FRAME = "frame"
 
@@ -39,7 +40,8 @@ class Slide:
     """A sliding pair: `link` slides along the guide fixed to `along`; `at` is a point of `link` on the guide line.
 
     `direction` is the guide's direction in this pose, of any length. `through` names the two points that give it,
-    where the scene gives it so: then it turns with them in other poses.
+    where the scene gives it so: then it turns with them in other poses. `written` is the direction as the scene
+    writes it: a vector, an angle in degrees, or two points.
     """
 
     link: str
@@ -47,6 +49,7 @@ class Slide:
     at: str
     direction: Pair
     through: tuple[str, str] | None = None
+    written: Written = field(default=None, compare=False)
 
     @property
     def name(self) -> str:
@@ -56,12 +59,16 @@ class Slide:
 
 @dataclass(frozen=True)
 class TurningDrive:
-    """A prescribed angular velocity (rad/s) and acceleration (rad/s^2) of `link` relative to `relative_to`."""
+    """A prescribed angular velocity (rad/s) and acceleration (rad/s^2) of `link` relative to `relative_to`.
+
+    `rpm` is the angular velocity in turns a minute, where the scene writes it so.
+    """
 
     link: str
     relative_to: str
     omega: Number
     alpha: Number
+    rpm: Number | None = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)
@@ -127,12 +134,13 @@ class Moment:
 class Balance:
     """The unknown that keeps the prescribed motion: a moment on `link`, or a force at its point `at` along `direction`.
 
-    The direction has any length; only where there is none it is a moment.
+    The direction has any length, and is written as a slide's is; only where there is none it is a moment.
     """
 
     link: str
     at: str = ""
     direction: Pair | None = None
+    written: Written = field(default=None, compare=False)
 
 
 @dataclass(frozen=True)

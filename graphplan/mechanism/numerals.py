@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from math import cos, isqrt, radians, sin
+from typing import Any, NamedTuple
 
 _DIGITS = 100
 """The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""
@@ -57,6 +59,17 @@ def heading(degrees: Fraction) -> tuple[Fraction, Fraction, bool]:
     c, s = Fraction(cos(angle)), Fraction(sin(angle))
     c, s = ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
     return c, s, rest == 45
+
+
+class Reckoning(NamedTuple):
+    """How placements take square roots and directions from angles; each says besides whether it is exact."""
+
+    root: Callable[[Any], tuple[Any, bool]]
+    heading: Callable[[Fraction], tuple[Any, Any, bool]]
+
+
+TO_A_FLOAT = Reckoning(root, heading)
+"""Roots to some 60 digits, cosines and sines to a float's."""
 
 
 def shown(number: Fraction | float) -> str:

@@ -14,6 +14,7 @@ from graphplan.mechanism.arcs import RULES
 from graphplan.mechanism.directions import Misfit, points_of, read_direction
 from graphplan.mechanism.items import Item, Vector, described, quoted
 from graphplan.mechanism.model import Pair, Placement
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning
 
 _FORMS: dict[str, dict[str, str]] = {
     "polar": {
@@ -133,6 +134,18 @@ def place(placements: Mapping[str, Placement], table: Item) -> dict[str, Pair]:
     return points
 
 
+def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, Pair]:
+    """The coordinates of the points of a sound scene, reckoned once more from what is written.
+
+    Fails with `Misfit` where `by` sees arcs pass each other by that rounding lets touch.
+    """
+    points: dict[str, Pair] = {}
+    for name in TopologicalSorter({name: needs(placement) for name, placement in placements.items()}).static_order():
+        x, y, _ = RULES[placements[name].how](placements[name].data, points.__getitem__, False, by)
+        points[name] = x, y
+    return points
+
+
 def exactly(point: Pair) -> Vector:
     """A point's coordinates as fractions: a float is taken as the binary fraction that it is."""
     return Fraction(point[0]), Fraction(point[1])
@@ -145,7 +158,7 @@ def is_exact(*points: Pair) -> bool:
 
 def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:
     rational = is_exact(*(points[name] for name in needs(placement)))
-    x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational)
+    x, y, exact = RULES[placement.how](placement.data, lambda name: exactly(points[name]), not rational, TO_A_FLOAT)
     return (x, y) if exact and rational else (float(x), float(y))
 
 

@@ -9,7 +9,18 @@ from math import pi
 
 from graphplan.mechanism.directions import Misfit, points_of, read_direction, vector
 from graphplan.mechanism.items import Item, Vector, described
-from graphplan.mechanism.model import FRAME, Drive, Motion, Number, Pair, Slide, SlidingDrive, TurningDrive, Units
+from graphplan.mechanism.model import (
+    FRAME,
+    Drive,
+    Motion,
+    Number,
+    Pair,
+    Slide,
+    SlidingDrive,
+    TurningDrive,
+    Units,
+    Written,
+)
 from graphplan.mechanism.numerals import root
 from graphplan.mechanism.placements import exactly, is_exact
 
@@ -95,14 +106,15 @@ def _read_slide(row: Item, names: Names) -> Slide | None:
     return Slide(link, along, at, *guide)
 
 
-def read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None] | None:
-    """A guide's direction in this pose and the two points that give it, if points do."""
+def read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None, Written] | None:
+    """A guide's direction in this pose, the two points that give it, if points do, and the direction as written."""
     direction = read_direction(item, names.points)
     if direction is None:
         return None
     through = points_of(direction)
     if any(name not in names.placed for name in through):
-        return (Fraction(1), Fraction(0)), (through[0], through[1])  # the point has its own fault; look for more
+        place = Fraction(1), Fraction(0)  # the point has its own fault; look for more
+        return place, (through[0], through[1]), direction
     try:
         x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
     except Misfit as misfit:
@@ -112,7 +124,7 @@ def read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None] 
         names.irrational.append(f"{item.where}: angle")
     rational = exact and is_exact(*(names.placed[name] for name in through))
     pair: Pair = (x, y) if rational else (float(x), float(y))
-    return pair, (through[0], through[1]) if through else None
+    return pair, (through[0], through[1]) if through else None, direction
 
 
 # --- drives --------------------------------------------------------------------------------------------------------
@@ -149,7 +161,7 @@ def _read_turning(row: Item, names: Names) -> TurningDrive | None:
     elif link is not None and link == base:
         row.fault(f"link {link} is driven relative to itself", "another link, or no relative_to for the frame")
     elif link is not None and base is not None and omega is not None:
-        return TurningDrive(link, base, omega, alpha)
+        return TurningDrive(link, base, omega, alpha, fields["rpm"].number() if "rpm" in fields else None)
     return None
 
 

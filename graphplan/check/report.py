@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -15,13 +16,14 @@ from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.ways import growth
+from graphplan.methods.ways import growth, growth_of_rates
 from graphplan.solver import Rates, solve
 
 if TYPE_CHECKING:
     from graphplan.check.held import Held
 
 EPSILON = 2.0**-52
+LOST = 1e-6  # a form that loses more digits than these gives no numbers
 SAFETY = 100  # roundings of the mechanism's own condition that a difference may have
 
 # What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.
@@ -89,14 +91,31 @@ class Report:
     @property
     def agrees(self) -> bool:
         """Whether the differences are within the tolerance, or within what this form lets rounding grow to."""
-        worst = max(self.check.values(), default=0)
-        if self.exact or worst <= self.tolerance:
-            return worst <= self.tolerance
-        return bool(worst <= SAFETY * EPSILON * growth(self.drawing.program))
+        return not self.complaint or (self._grown and self._worst <= LOST)
+
+    @property
+    def complaint(self) -> str:
+        """What is wrong with the numbers, if anything: one line."""
+        if self._worst <= self.tolerance:
+            return ""
+        if not self._grown:
+            return "the construction and the analytic solver disagree"
+        digits = max(0, int(-math.log10(self._worst)))
+        return (f"rounding grows large in this form here: {digits} digits of the construction hold; "
+                "let the form be chosen, without --method or --plan")
+
+    @property
+    def _worst(self) -> Any:
+        return max(self.check.values(), default=0)
+
+    @cached_property
+    def _grown(self) -> bool:
+        """Whether this form lets rounding grow to such differences."""
+        return not self.exact and bool(self._worst <= SAFETY * EPSILON * max(
+            growth(self.drawing.program), growth_of_rates(self.drawing)))
 
 
-
-def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "orthogonal",
+def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "",
            strict: bool = False, inertia: str = "couple") -> Report:
     """Construct, read, solve and compare.
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from dataclasses import replace
 from itertools import combinations
 
 from graphplan.errors import Refused
@@ -19,7 +20,7 @@ from graphplan.methods.poses import Pose
 from graphplan.methods.styles import Style, style
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.ways import best_way
+from graphplan.methods.ways import best_way, growth_of_rates
 
 
 class Draughtsman:
@@ -109,15 +110,17 @@ def _ways(moves: Iterable[Move]) -> str:
     return ", ".join(ways)
 
 
+UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 
 
-def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", strict: bool = False,
+def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
               inertia: str = "couple") -> Construction:
     """The construction of what the scene asks for.
 
     `method` names the form of loci and rings (auxiliary, trial or poles); without it the pose chooses, and the
     construction says why. `plan` is orthogonal or polar, and for forces lever, polygons or both, such as "polar,lever";
+    without a word for the motion velocities are orthogonal, unless some links are too short for that beside others.
     `inertia` is the form of inertia forces: with a couple, shifted so that they need none, or at two points that
     replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
     planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
@@ -130,6 +133,29 @@ def construct(scene: Scene, *, method: str = "", plan: str = "orthogonal", stric
 
 
 def _best(scene: Scene, method: str, chosen: Style) -> Construction:
+    """The construction by the best way, on the plans that are asked for, or that the lengths of the links allow.
+
+    Orthogonal velocities end on the mechanism plan. Where that reaches far beyond the vectors their ends tell little.
+    """
+    best = _by_best_way(scene, method, chosen)
+    if chosen.free and _uneven(scene):
+        polar = _by_best_way(scene, method, replace(chosen, polar=True))
+        one, other = growth_of_rates(best), growth_of_rates(polar)
+        if other < one:
+            polar.notes.append(f"polar plans, as links differ so much in length: errors of the steps grow {other:.2g}-"
+                               f"fold, with orthogonal velocities {one:.2g}-fold")
+            return polar
+    return best
+
+
+def _uneven(scene: Scene) -> bool:
+    """Whether the distances of joints on links differ too much for one drawing."""
+    places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    sides = [abs(places[p] - places[q]) for names in scene.links.values() for p, q in combinations(names, 2)]
+    return max(sides, default=0.0) > UNEVEN * min((side for side in sides if side), default=1.0)
+
+
+def _by_best_way(scene: Scene, method: str, chosen: Style) -> Construction:
     """The construction by the best way; what forces need is not even imported where there are no loads."""
     if scene.loads is None:
         return best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())[0]

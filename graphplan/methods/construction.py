@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -186,8 +186,11 @@ class Construction:
         after each step.
         """
         values = evaluate(self.program, domain, given, after)
-        wanted = [values[index] for index in self.program.wanted]
-        return self._named(lambda r: self._value(r.kind, [wanted[position] for position in r.marks], domain))
+        return self.told([values[index] for index in self.program.wanted], domain)
+
+    def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
+        """All readings from the values of the wanted marks, by kind and name."""
+        return self._named(lambda r: self.value(r.kind, [wanted[position] for position in r.marks], domain))
 
     def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
         """Something for each reading, by kind and name."""
@@ -196,7 +199,7 @@ class Construction:
             results.setdefault(reading.kind, {})[reading.of] = value(reading)
         return results
 
-    def _value(self, kind: str, marks: list[Any], domain: Domain) -> Any:
+    def value(self, kind: str, marks: list[Any], domain: Domain) -> Any:
         """What marks say: a rate in the scene's lengths and seconds, or a force in its units."""
         if kind in FORCE_READERS:
             return FORCE_READERS[kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))

@@ -55,6 +55,7 @@ class Plan:
         self.loci: dict[Locus, Mark] = {}
         self.prime = ""  # of the letters in a trial figure
         self.known: dict[str, list[Place]] = {body: [] for body in net.members}
+        self._told: set[tuple[str, Mark]] = set()
         self.pole_vectors: dict[tuple[Place, str], Vector] = {}
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
@@ -163,7 +164,8 @@ class Plan:
         """Enter an end; the bodies there may be drawn from it."""
         if place not in self.ends and (place[1] in self.net.body or not place[1]):
             for body in self.net.bodies_at(place):
-                if all(self.point(other) is not self.point(place) for other in self.known[body]):
+                if (body, self.point(place)) not in self._told:
+                    self._told.add((body, self.point(place)))
                     self.known[body].append(place)  # a figure needs points that lie apart
         self.ends[place] = mark
 

@@ -12,9 +12,13 @@ INERTIA = ("couple", "shifted", "points")
 
 @dataclass(frozen=True)
 class Style:
-    """Which plans are drawn: orthogonal or polar ones of the motion; the lever, force polygons, or both."""
+    """Which plans are drawn: orthogonal or polar ones of the motion; the lever, force polygons, or both.
+
+    `free` says that the plans of the motion are not asked for by name: then the lengths of the links may decide.
+    """
 
     polar: bool = False
+    free: bool = True
     lever: bool = True
     polygons: bool = True
     inertia: str = "couple"
@@ -24,10 +28,11 @@ def style(plan: str, inertia: str) -> Style:
     """The style that `plan` names: one word for the motion, one for the forces, or both with a comma between them."""
     if inertia not in INERTIA:
         raise Refused(f"inertia {inertia}", "there is no such form", f"one of {', '.join(INERTIA)}")
-    words = plan.split(",")
+    words = plan.split(",") if plan else []
     for word in words:
         if word not in PLANS:
             raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
-    return Style("polar" in words, lever or both, polygons or both, inertia)
+    free = not {"orthogonal", "polar"} & set(words)
+    return Style("polar" in words, free, lever or both, polygons or both, inertia)

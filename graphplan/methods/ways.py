@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from random import Random
 from typing import TYPE_CHECKING, Any
 
@@ -86,13 +87,29 @@ def _way(network: Network, method: str, choice: tuple[int, ...], draw: Callable[
 
 def growth(program: Program) -> float:
     """How much larger the shaking of the wanted marks is than that of each step; infinite where it cannot be drawn."""
-    steady = _drawn(program, None)
+    return _shaking(lambda hand: _drawn(program, hand))
+
+
+def growth_of_rates(construction: Construction) -> float:
+    """The same for the velocities and accelerations that are read, each kind beside its largest: the marks may lie far
+    from the origin, and the vectors between them be short."""
+    def read(kind: str, hand: Random | None) -> list[Any] | None:
+        marks = _drawn(construction.program, hand)
+        return marks and list(construction.told(marks, Floats()).get(kind, {}).values())
+
+    kinds = {reading.kind for reading in construction.readings} & {"velocity", "acceleration"}
+    return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
+
+
+def _shaking(drawn: Callable[[Random | None], list[Any] | None]) -> float:
+    """How far shaking hands draw things from where a steady one does, beside the largest of them."""
+    steady = drawn(None)
     if steady is None:
         return math.inf
     size = max((abs(number) for value in steady for number in value), default=1.0) or 1.0
     most = 0.0
     for hand in range(HANDS):
-        shaken = _drawn(program, Random(hand))
+        shaken = drawn(Random(hand))
         if shaken is None:
             return math.inf
         gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]

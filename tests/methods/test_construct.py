@@ -10,7 +10,6 @@ from fractions import Fraction
 import numpy as np
 import pytest
 from random_mechanisms import GROUPS, mechanism
-from test_stability import basic_case
 
 import graphplan as gp
 from graphplan.check.report import report
@@ -48,7 +47,7 @@ alpha = 3
 
 def test_the_velocity_of_one_point_draws_no_more_than_it_needs() -> None:
     """Asked for v_C of the basic case: no N-plan, and nothing of A, B, D, E but their lines' directions."""
-    drawing = gp.construct(asked(basic_case(), "C"))
+    drawing = gp.construct(asked(gp.load("rosenauer-basic"), "C"))
     assert {step.panel for step in drawing.drawn.steps} == {"mechanism"}
     assert not {"v_a", "v_b", "v_d", "v_e"} & {step.name for step in drawing.drawn.steps}
     assert set(drawing.velocity) == {"C"}

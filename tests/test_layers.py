@@ -24,7 +24,9 @@ MAY = {
     "sheet": {"errors", "kernel", "mechanism", "methods"},
     "backends": {"errors", "kernel", "mechanism", "methods", "sheet"},
     "drafting": {"errors", "kernel", "mechanism", "methods", "sheet"},
-    "check": {"errors", "kernel", "mechanism", "methods", "solver"},
+    "cycle": {"errors", "kernel", "mechanism", "methods", "sheet"},
+    "check": {"errors", "kernel", "mechanism", "methods", "solver", "cycle"},
+    "survey": {"errors", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet", "drafting"},
 }
 FRONT = {"__init__", "__main__", "commands"}
 

@@ -14,8 +14,8 @@ from graphplan.sheet.captions import spoken
 WIDTH = 110
 
 
-def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
-    """The whole construction as numbered sentences, plan by plan."""
+def protocol(drawing: Construction, structure: Iterable[str] = (), drafting: Iterable[str] = ()) -> str:
+    """The whole construction as numbered sentences, plan by plan; `drafting` is what is told of its cost and errors."""
     scene, drawn = drawing.scene, drawing.drawn
     lines = [scene.title, *filter(None, [scene.source]), ""]
     lines += [f"Structure: {line}" for line in structure]
@@ -27,6 +27,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = ()) -> str:
             lines.append(f"On the {spoken(panel)}:")
         lines += _numbered(drawn.number(step.index), sentence)
     lines += ["", f"Cost: {counts(drawn)}."]
+    lines += [line for told in drafting for line in _wrapped(told, "")]
     if drawing.forms:
         lines += ["", "Forms chosen for this pose:"]
         lines += [line for form in drawing.forms for line in _wrapped(form, "  ")]

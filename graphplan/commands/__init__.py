@@ -10,7 +10,7 @@ from collections.abc import Sequence
 
 from graphplan.errors import GraphplanError
 
-SUBCOMMANDS = ("draw", "steps", "solve", "check", "gallery")
+SUBCOMMANDS = ("draw", "steps", "solve", "check", "cycle", "cost", "gallery")
 
 EXAMPLES = """\
 examples:
@@ -18,6 +18,7 @@ examples:
   graphplan steps scene.toml                    the construction in words, step by step
   graphplan solve scene.toml --exact            velocities and accelerations as fractions
   graphplan check scene.toml                    the construction beside the analytic solver
+  graphplan cost scene.toml                     what each form costs, and how far off the pencil is
 
 exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose is singular
 """

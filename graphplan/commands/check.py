@@ -45,8 +45,8 @@ def run(options: argparse.Namespace) -> int:
     if not found.exact:
         lines.append(f"condition of the mechanism: {found.condition:.3g}; allowed: {found.tolerance:.2g}")
     write("\n".join(lines) + "\n", None)
-    if not found.agrees:
-        print("the construction and the analytic solver disagree", file=sys.stderr)
+    if found.complaint:
+        print(found.complaint, file=sys.stderr)
     return 0 if found.agrees else 1
 
 

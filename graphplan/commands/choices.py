@@ -6,17 +6,22 @@ import argparse
 import os
 import sys
 import tempfile
+from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.mechanism.model import Scene
 
 
 def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
     """The options that choose how it is drawn."""
     command.add_argument("--method", default="", choices=("auxiliary", "trial", "poles"),
                          help="the form of loci and rings; without it the pose chooses, and the protocol says why")
-    command.add_argument("--plan", default="orthogonal", metavar="PLAN",
-                         help="orthogonal velocities on the mechanism plan (default), or polar plans; of the forces "
-                         "lever, polygons, or both (default); such as --plan polar,lever")
+    command.add_argument("--plan", default="", metavar="PLAN",
+                         help="orthogonal velocities on the mechanism plan, or polar plans (without either the lengths "
+                         "of the links decide); of the forces lever, polygons, or both (default); such as "
+                         "--plan polar,lever")
     command.add_argument("--inertia", default="couple", choices=("couple", "shifted", "points"),
                          help="inertia forces: at the centre of mass with a couple (default), shifted so that they "
                          "need none, or at two points that replace the link")
@@ -25,19 +30,48 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
                              help="compasses and straightedge alone, no set squares")
 
 
-def write(text: str, path: str | None) -> None:
-    """Text to a file, or to standard output; a file appears whole, or stays as it was."""
-    if path is None or path == "-":
-        sys.stdout.write(text)
+def add_pencil(command: argparse.ArgumentParser) -> None:
+    """The option that says how well it is drawn."""
+    command.add_argument("--pencil", default="", metavar="SIZES",
+                         help="how far off the pencil is, as standard deviations: such as point=0.1,edge=0.1,"
+                         "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
+
+
+def add_preference(command: argparse.ArgumentParser) -> None:
+    """The options by which a form is preferred."""
+    command.add_argument("--prefer", default="", choices=("quick", "accurate", "balanced"),
+                         help="weigh all forms: the fewest operations, the smallest pencil error, or both")
+    add_pencil(command)
+
+
+def chosen(options: argparse.Namespace, scene: Scene, *, strict: bool = False,
+           paper: str | None = None) -> tuple[str, tuple[str, ...]]:
+    """The method to draw by, as named or as preferred, and what is told of the preference."""
+    if not options.prefer:
+        return options.method, ()
+    from graphplan.drafting.pencil import pencil
+    from graphplan.drafting.preference import preferred
+
+    found = preferred(scene, options.prefer, pencil(options.pencil), method=options.method, plan=options.plan,
+                      strict=strict, inertia=options.inertia, paper=paper)
+    return found.method, found.told
+
+
+def write(content: str | bytes, path: str | None) -> None:
+    """Text or bytes to a file, or text to standard output; a file appears whole, or stays as it was."""
+    if isinstance(content, str) and path in (None, "-"):
+        sys.stdout.write(content)
         return
+    assert path is not None
+    data = content.encode() if isinstance(content, str) else content
     temporary = ""
     try:
         folder = os.path.dirname(os.path.abspath(path))
         if os.path.isdir(path):
             raise IsADirectoryError(21, "this is a directory")
-        with tempfile.NamedTemporaryFile("w", encoding="utf-8", dir=folder, prefix=".graphplan-", delete=False) as file:
+        with tempfile.NamedTemporaryFile("wb", dir=folder, prefix=".graphplan-", delete=False) as file:
             temporary = file.name
-            file.write(text)
+            file.write(data)
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
     except OSError as error:

@@ -3,13 +3,14 @@
 examples:
   graphplan draw alt-eight-link -o sheet.svg
   graphplan draw scene.toml --plan polar > sheet.svg
+  graphplan draw scene.toml --prefer accurate --pencil point=0.2 > sheet.svg
 """
 
 from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import add_choices, write
+from graphplan.commands.choices import add_choices, add_preference, chosen, write
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -17,13 +18,20 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
                          help="the sheet; without it the smallest that will do")
     add_choices(command)
+    add_preference(command)
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan import sheet
     from graphplan.check.report import report
+    from graphplan.drafting.drafted import drafted
+    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
 
-    found = report(load(options.scene), method=options.method, plan=options.plan, inertia=options.inertia)
-    write(sheet.svg(found.drawing, paper=options.paper, check=found.check), options.output)
+    scene, hand = load(options.scene), pencil(options.pencil)
+    method, told = chosen(options, scene, paper=options.paper)
+    found = report(scene, method=method, plan=options.plan, inertia=options.inertia)
+    found.drawing.notes.extend(told)
+    errors = drafted(found.drawing, hand, options.paper, found.check).deviations
+    write(sheet.svg(found.drawing, paper=options.paper, check=found.check, pencil=errors), options.output)
     return 0

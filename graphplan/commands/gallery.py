@@ -54,6 +54,8 @@ def _pages() -> Iterator[tuple[str, str]]:
     from graphplan.backends.text import protocol
     from graphplan.check.printed import data
     from graphplan.check.report import report
+    from graphplan.drafting.drafted import drafted
+    from graphplan.drafting.pencil import Pencil
     from graphplan.mechanism.scene import load, packaged
     from graphplan.mechanism.structure import structure
 
@@ -64,8 +66,9 @@ def _pages() -> Iterator[tuple[str, str]]:
             print(f"\r{count}/{len(names)} {name:<30}", end="", file=sys.stderr, flush=True)
         found = report(load(name))
         scene = found.scene
-        yield f"{name}.svg", sheet.svg(found.drawing, check=found.check)
-        yield f"{name}.txt", protocol(found.drawing, structure(scene).lines())
+        errors = drafted(found.drawing, Pencil(), check=found.check)
+        yield f"{name}.svg", sheet.svg(found.drawing, check=found.check, pencil=errors.deviations)
+        yield f"{name}.txt", protocol(found.drawing, structure(scene).lines(), errors.lines())
         entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
     if sys.stderr.isatty():
         print("\r" + " " * 50 + "\r", end="", file=sys.stderr)

@@ -3,6 +3,7 @@
 examples:
   graphplan solve alt-eight-link
   graphplan solve scene.toml --exact
+  graphplan solve kinytskyi --digits 30
   graphplan solve - --method trial < scene.toml
 """
 
@@ -10,13 +11,23 @@ from __future__ import annotations
 
 import argparse
 import json
+import sys
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, write
+from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.mechanism.model import Scene
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--exact", action="store_true", help='fractions, every number a string "p/q"')
+    command.add_argument("--digits", type=int, metavar="N",
+                         help="N proven digits of every number, as decimal strings, and the bounds that prove them")
     add_choices(command)
+    add_preference(command)
 
 
 def run(options: argparse.Namespace) -> int:
@@ -24,7 +35,29 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
-    found = report(load(options.scene), exact=options.exact, method=options.method, plan=options.plan,
-                   inertia=options.inertia)
-    write(json.dumps(data(found), indent=2, ensure_ascii=False) + "\n", None)
-    return 0 if found.agrees else 1
+    scene = load(options.scene)
+    how = {"method": chosen(options, scene)[0], "plan": options.plan, "inertia": options.inertia}
+    if options.digits is not None:
+        return _certified(options, scene, how)
+    found = report(scene, exact=options.exact, **how)
+    if found.complaint:
+        print(found.complaint, file=sys.stderr)
+    return _printed(data(found), found.agrees)
+
+
+def _certified(options: argparse.Namespace, scene: Scene, how: dict[str, str]) -> int:
+    """The same between proven bounds."""
+    if options.exact:
+        raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
+    if find_spec("flint") is None:
+        raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
+    from graphplan.check.certified import certified
+
+    found = certified(scene, options.digits, **how)
+    return _printed(found.data, found.agrees)
+
+
+def _printed(table: dict[str, Any], agrees: bool) -> int:
+    """The results on standard output, and the exit status."""
+    write(json.dumps(table, indent=2, ensure_ascii=False) + "\n", None)
+    return 0 if agrees else 1

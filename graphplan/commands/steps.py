@@ -4,6 +4,7 @@ examples:
   graphplan steps alt-eight-link
   graphplan steps scene.toml --strict
   graphplan steps scene.toml --json
+  graphplan steps scene.toml --prefer balanced
 """
 
 from __future__ import annotations
@@ -11,25 +12,31 @@ from __future__ import annotations
 import argparse
 import json
 
-from graphplan.commands.choices import add_choices, write
+from graphplan.commands.choices import add_choices, add_preference, chosen, write
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data")
     add_choices(command, strict=True)
+    add_preference(command)
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.backends import text
     from graphplan.check.report import report
+    from graphplan.drafting.drafted import drafted
+    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
 
-    scene = load(options.scene)
-    found = report(scene, method=options.method, plan=options.plan, inertia=options.inertia, strict=options.strict)
-    lines = structure(scene).lines()
+    scene, hand = load(options.scene), pencil(options.pencil)
+    method, told = chosen(options, scene, strict=options.strict)
+    found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
+    found.drawing.notes.extend(told)
+    on_sheet, lines = drafted(found.drawing, hand, check=found.check), structure(scene).lines()
     if options.json:
-        write(json.dumps(text.steps(found.drawing, lines), indent=1, ensure_ascii=False) + "\n", None)
+        data = text.steps(found.drawing, lines) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
     else:
-        write(text.protocol(found.drawing, lines), None)
+        write(text.protocol(found.drawing, lines, on_sheet.lines()), None)
     return 0

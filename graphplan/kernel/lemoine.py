@@ -6,7 +6,8 @@
 
 Simplicity is the number of all operations, exactitude the number of those that prepare (R1, C1, C2): the fewer, the
 better. The compasses keep their opening until another is taken, and need not be set where they stand already. Lengths
-laid off by the scale are outside his system and counted apart; so are set squares and dividers.
+laid off by the scale are outside his system and counted apart; so are set squares and dividers, and how often one
+instrument is put down for another.
 """
 
 from __future__ import annotations
@@ -14,13 +15,14 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.kernel.program import Program, Step
 
 
 @dataclass(frozen=True)
 class Counts:
-    """Lemoine's five counts, the lengths laid off by the scale, and what set squares and dividers did."""
+    """Lemoine's five counts, the lengths laid off by the scale, what set squares and dividers did, and how often the
+    instrument changes."""
 
     R1: int = 0
     R2: int = 0
@@ -28,6 +30,7 @@ class Counts:
     C2: int = 0
     C3: int = 0
     scale: int = 0
+    changes: int = 0
     others: dict[str, int] = field(default_factory=dict)
 
     @property
@@ -72,6 +75,7 @@ class Hand:
         self.others: Counter[str] = Counter()
         self.opening, self.needles = -1, frozenset[int]()
         self.known: set[int] = set()
+        self.taken = ""
 
     def play(self, step: Step) -> None:
         """Count one step."""
@@ -79,10 +83,12 @@ class Hand:
             case "given" | "begin":
                 pass
             case "line":
+                self._take(STRAIGHTEDGE)
                 self.counts.update(R1=2, R2=1)
             case "opening":
                 self._open(step)
             case "circle":
+                self._take(COMPASSES)
                 centre, opening = step.args
                 if opening != self.opening:
                     self._open(self.program.steps[opening])
@@ -91,14 +97,22 @@ class Hand:
                 self.needles = frozenset([centre])
                 self.counts["C3"] += 1
             case _ if step.op.instrument == SCALE:
+                self._take(SCALE)
                 self.counts["scale"] += 1
             case _ if step.op.instrument in (SET_SQUARES, DIVIDERS, COMPASSES) or step.op.compound:
+                self._take(step.op.instrument)
                 self.others[step.op.instrument] += 1
             case _ if step.op.instrument != PENCIL:
                 raise ValueError(f"there is no count for {step.op.name}")
 
+    def _take(self, instrument: str) -> None:
+        """Take an instrument, putting down the last one."""
+        self.counts["changes"] += self.taken not in ("", instrument)
+        self.taken = instrument
+
     def _open(self, step: Step) -> None:
         """Take a distance between the compasses' points, which then stand at both ends."""
+        self._take(COMPASSES)
         for point in step.args:
             self._set(point)
         self.opening, self.needles = step.index, frozenset(step.args)

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.model import Balance
 from graphplan.methods.force_letters import pair_letter
+from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import Drawing
 from graphplan.sheet.scales import digits
-from graphplan.sheet.tables import Table, figure, largest_size
+from graphplan.sheet.tables import Table, figure, largest_size, with_deviations
 
 Pair = tuple[float, float]
 WAYS = {"by force plans": "balance{}", "with friction": "balance{} with friction", "by the lever": "lever{}"}
@@ -20,10 +21,11 @@ WAYS = {"by force plans": "balance{}", "with friction": "balance{} with friction
 
 @dataclass(frozen=True)
 class ForceTables:
-    """What a construction says of forces; `values` are its readings by kind and name."""
+    """What a construction says of forces; `values` are its readings by kind and name, `pencil` their deviations."""
 
     drawing: Drawing
     values: Mapping[str, Mapping[str, Any]]
+    pencil: Deviations = field(default_factory=Deviations)
 
     @property
     def unit(self) -> str:
@@ -35,14 +37,26 @@ class ForceTables:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
         joints, slides = (self.values.get(kind, {}) for kind in ("reaction", "slide reaction"))
         largest = max(largest_size(joints), largest_size(slides))
+        head = [sentence_runs(word) for word in ("reaction", "R_x", "R_y", f"|R| {self.unit}")]
         table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
-        for name, force in slides.items():
-            row = self._row(*self._of_slide(name), force, largest)
-            moment = self._of_slide(name)[1] * self.values["slide moment"][name]
-            table.append([*row, figure(moment, largest)])
-        words = ["reaction", "R_x", "R_y", f"|R| {self.unit}", *([f"M {self.unit}·m"] if slides else [])]
-        head = [sentence_runs(word) for word in words]
-        return [head, *([*row, *[()] * (len(head) - len(row))] for row in table)] if table else []
+        table += [self._row(*self._of_slide(name), force, largest) for name, force in slides.items()]
+        off = self.pencil.of("reaction", "slide reaction")
+        table = with_deviations([head, *table], [*joints, *slides], off) if table else []
+        return self._with_moments(table, [*joints, *slides], largest) if slides else table
+
+    def _with_moments(self, table: Table, names: list[str], largest: float) -> Table:
+        """The same with a last column for the moments of slides."""
+        column = [sentence_runs(f"M {self.unit}·m")]
+        for name in names:
+            moment = self.values.get("slide moment", {}).get(name)
+            told = () if moment is None else figure(self._of_slide(name)[1] * moment, largest)
+            column.append((*told, *self._off("slide moment", name)))
+        return [[*row, cell] for row, cell in zip(table, column, strict=True)]
+
+    def _off(self, kind: str, name: str) -> Runs:
+        """How far off a number is drawn, to stand behind it."""
+        deviation = self.pencil.of(kind).get(name)
+        return () if deviation is None else sentence_runs(f" ±{deviation}")
 
     def _row(self, name: Runs, sign: int, force: Pair, largest: float) -> list[Runs]:
         x, y = sign * force[0], sign * force[1]
@@ -70,7 +84,9 @@ class ForceTables:
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
             spot = f"({digits(at[0] + x)}, {digits(at[1] + y)}) {self.drawing.scene.units.length}"
-            yield f"The reaction of the slide {name} acts at {spot}."
+            off = self.pencil.of("slide arm").get(name)
+            within = f", ±{off}" if off else ""
+            yield f"The reaction of the slide {name} acts at {spot}{within}."
 
     # ---- balance ---------------------------------------------------------------------------------------------------
 
@@ -82,19 +98,21 @@ class ForceTables:
             moment = "" if balance.at else " moment"
             found = {way: self.values.get(kind.format(moment), {}).get(str(number)) for way, kind in WAYS.items()}
             ways = {way: value for way, value in found.items() if value is not None}
+            off = [self._off(WAYS[way].format(moment), str(number)) for way in ways]
             table = table or [[sentence_runs(word) for word in ("balance", *ways)]]
-            table += self._force(balance, ways) if balance.at else self._moment(balance, ways)
+            table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
         return table if table and len(table[0]) > 1 else []
 
-    def _moment(self, balance: Balance, ways: Mapping[str, float]) -> Table:
+    def _moment(self, balance: Balance, ways: Mapping[str, float], off: list[Runs]) -> Table:
         name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.unit}·m"))
-        return [[name, *(sentence_runs(digits(value)) for value in ways.values())]]
+        values = (sentence_runs(digits(value)) for value in ways.values())
+        return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
-    def _force(self, balance: Balance, ways: Mapping[str, Pair]) -> Table:
+    def _force(self, balance: Balance, ways: Mapping[str, Pair], off: list[Runs]) -> Table:
         largest = largest_size(ways)
         letter = f"F_{balance.link}"
         rows = {f"{letter}x": 0, f"{letter}y": 1}
         parts = [[(*name_runs(name), *sentence_runs(f" {self.unit}")), *(figure(v[i], largest) for v in ways.values())]
                  for name, i in rows.items()]  # fmt: skip
-        sizes = [figure(math.hypot(*value), largest) for value in ways.values()]
+        sizes = [(*figure(math.hypot(*v), largest), *within) for v, within in zip(ways.values(), off, strict=True)]
         return [*parts, [(*sentence_runs(f"|{letter}|"), *sentence_runs(f" {self.unit}")), *sizes]]

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
-from functools import cache
 from typing import Any
 
 from graphplan.sheet import clip, pens
 from graphplan.sheet.captions import captions
-from graphplan.sheet.composition import Composition, composed
+from graphplan.sheet.compose import compose
+from graphplan.sheet.composition import Composition
+from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.display import Item, Polygon, Sheet, Spot
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.letters import Letters
@@ -18,21 +19,20 @@ from graphplan.sheet.planes import MECHANISM, Drawing, Planes
 from graphplan.sheet.rows import fill, lettered
 from graphplan.sheet.strokes import Strokes
 from graphplan.sheet.symbols import RADIUS
-from graphplan.sheet.texts import Words
 from graphplan.sheet.title import TitleBlock, ratio
 from graphplan.sheet.view import View
 
 BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
 
 
-def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None) -> Sheet:
+def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+           pencil: Deviations | None = None) -> Sheet:
     """The sheet of a construction; `paper` names its size, else the smallest good one is taken.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    planes = Planes(drawing)
+    planes, composition = Planes(drawing), compose(drawing, paper, check, pencil)
     block = TitleBlock(drawing.scene.title, drawing.scene.source)
-    composition = composed(planes, cache(Words(planes, check or {}).rows), block.height, paper)
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_frame(arrangement))
     for panel, window in composition.views.items():

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from graphplan.sheet.deviations import Deviation
 from graphplan.sheet.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.rows import Cell, Row
 from graphplan.sheet.scales import digits
@@ -15,14 +16,27 @@ ROUNDING = 1e-12  # beside the largest number of its kind
 Table = list[list[Runs]]
 
 
-def vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, what: str = "point",
+Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
+
+
+def vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, off: Off, what: str = "point",
              beside: float = 0.0) -> Table:
-    """Components and magnitudes, each row with its name first; nothing if there are none."""
+    """Components, magnitudes and deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     largest = max(largest_size(values), beside)
-    rows = [[name_runs(n), *(figure(x, largest) for x in (*values[n], math.hypot(*values[n])))]
-            for n in order if n in values]  # fmt: skip
-    return [head, *rows] if rows else []
+    names = [n for n in order if n in values]
+    rows = [[name_runs(n), *(figure(x, largest) for x in (*values[n], math.hypot(*values[n])))] for n in names]
+    return with_deviations([head, *rows], names, off) if rows else []
+
+
+def with_deviations(table: Table, names: Sequence[str], off: Off) -> Table:
+    """A table with a last column for the deviations of its rows, where they are told."""
+    told = [off.get(name) for name in names]
+    if not any(told):
+        return table
+    head = "± (mm)" if any(deviation is not None and deviation.mm is not None for deviation in told) else "±"
+    column = [head, *("" if deviation is None else str(deviation) for deviation in told)]
+    return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 
 
 def largest_size(values: Mapping[str, Any]) -> float:
@@ -30,11 +44,13 @@ def largest_size(values: Mapping[str, Any]) -> float:
     return max((math.hypot(*value) for value in values.values()), default=0.0)
 
 
-def scalars(name: str, unit: str, values: Mapping[str, Any], order: Any) -> Table:
+def scalars(name: str, unit: str, values: Mapping[str, Any], order: Any, off: Off) -> Table:
+    """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs("link"), (*name_runs(name), *sentence_runs(f" {unit}"))]
     largest = max((abs(value) for value in values.values()), default=0.0)
-    rows = [[name_runs(n), figure(values[n], largest)] for n in order if n in values]
-    return [head, *rows] if rows else []
+    names = [n for n in order if n in values]
+    rows = [[name_runs(n), figure(values[n], largest)] for n in names]
+    return with_deviations([head, *rows], names, off) if rows else []
 
 
 def figure(value: float, largest: float) -> Runs:

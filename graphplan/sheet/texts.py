@@ -9,6 +9,7 @@ from typing import Any
 
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.sheet.captions import spoken
+from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.force_tables import ForceTables
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.planes import Drawing, Planes
@@ -21,10 +22,12 @@ HEADING, INDENT = 3.0, 8.5
 
 @dataclass(frozen=True)
 class Words:
-    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind."""
+    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind, `pencil` the
+    expected drawing errors where they are told."""
 
     planes: Planes
     check: Mapping[str, Any] = field(default_factory=dict)
+    pencil: Deviations = field(default_factory=Deviations)
 
     @property
     def drawing(self) -> Drawing:
@@ -37,7 +40,7 @@ class Words:
 
     def rows(self, wide: float) -> list[Row]:
         """Everything, for a column of this width."""
-        sections = (self._steps(wide), self._results(wide), self._check(wide), self._forms(wide))
+        sections = (self._steps(wide), self._results(wide), self._errors(wide), self._check(wide), self._forms(wide))
         return [row for section in sections for row in section]
 
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
@@ -64,26 +67,36 @@ class Words:
 
     def _results(self, wide: float) -> Iterator[Row]:
         values = self.drawing.read(Floats())
-        unit = self.drawing.scene.units.length
+        scene, unit, off = self.drawing.scene, self.drawing.scene.units.length, self.pencil.of
         yield heading("Results")
-        velocity = vectors("v", f"{unit}/s", values.get("velocity", {}), self.drawing.scene.points)
-        acceleration = vectors("a", f"{unit}/s²", values.get("acceleration", {}), self.drawing.scene.points)
+        velocity = vectors("v", f"{unit}/s", values.get("velocity", {}), scene.points, off("velocity"))
+        acceleration = vectors("a", f"{unit}/s²", values.get("acceleration", {}), scene.points, off("acceleration"))
         yield from joined_tables(velocity, acceleration, wide)
-        omega = scalars("omega", "1/s", values.get("omega", {}), self.drawing.scene.links)
-        alpha = scalars("alpha", "1/s²", values.get("alpha", {}), self.drawing.scene.links)
+        omega = scalars("omega", "1/s", values.get("omega", {}), scene.links, off("omega"))
+        alpha = scalars("alpha", "1/s²", values.get("alpha", {}), scene.links, off("alpha"))
         yield from joined_tables(omega, alpha, wide)
-        slides = [slide.name for slide in self.drawing.scene.slides]
+        yield from self._sliding(values, wide)
+        yield from self._forces(ForceTables(self.drawing, values, self.pencil), wide)
+
+    def _sliding(self, values: Mapping[str, Mapping[str, Any]], wide: float) -> Iterator[Row]:
+        """The motion of slides, beside the fastest and the sharpest of all."""
+        unit, slides, off = self.drawing.scene.units.length, [s.name for s in self.drawing.scene.slides], self.pencil.of
         fastest, sharpest = (largest_size(values.get(kind, {})) for kind in ("velocity", "acceleration"))
-        velocity = vectors("v", f"{unit}/s", values.get("slide velocity", {}), slides, "slide", fastest)
-        acceleration = vectors("a", f"{unit}/s²", values.get("slide acceleration", {}), slides, "slide", sharpest)
+        moving, speeding = (values.get(kind, {}) for kind in ("slide velocity", "slide acceleration"))
+        velocity = vectors("v", f"{unit}/s", moving, slides, off("slide velocity"), "slide", fastest)
+        acceleration = vectors("a", f"{unit}/s²", speeding, slides, off("slide acceleration"), "slide", sharpest)
         yield from joined_tables(velocity, acceleration, wide)
-        yield from self._forces(ForceTables(self.drawing, values), wide)
 
     def _forces(self, tables: ForceTables, wide: float) -> Iterator[Row]:
         yield from rows(tables.reactions())
         for sentence in tables.seats():
             yield from self._said(sentence, wide)
         yield from rows(tables.balance())
+
+    def _errors(self, wide: float) -> Iterator[Row]:
+        if self.pencil.told:
+            yield heading("Drawing errors")
+            yield from self._said(self.pencil.told, wide)
 
     def _check(self, wide: float) -> Iterator[Row]:
         if self.check:

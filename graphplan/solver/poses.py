@@ -23,7 +23,8 @@ from graphplan.solver.plane import dot, times
 def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Scene:
     """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
 
-    `points` gives them by name as complex arrays, `guides` the directions of slides that no two points give.
+    `points` gives them by name as complex arrays, `guides` the directions of slides that no two points give; complex
+    numbers give the scene in one other pose.
     """
     def where(name: str) -> Any:
         return _pair(points[name]) if name in points else tuple(map(float, scene.points[name]))
@@ -88,4 +89,6 @@ def _alone(matrix: Any, side: Any) -> Any:
 
 
 def _pair(z: Any) -> Any:
-    return np.ascontiguousarray(z.real), np.ascontiguousarray(z.imag)
+    """Coordinates as arrays, or as floats where there is but one pose."""
+    as_they_are = np.ascontiguousarray if np.ndim(z) else float
+    return as_they_are(z.real), as_they_are(z.imag)

@@ -29,7 +29,7 @@ class Blocks:
     """
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int], machine: bool = False):
-        self._registers: list[Any] = []
+        self._registers = 0
         self._block: Callable[..., bool]
         if machine:
             from graphplan.kernel.tape.compiled import loop
@@ -38,7 +38,7 @@ class Blocks:
         else:
             writer = _Writer(tape, inputs, outputs)
             self._block = compiled(writer.text(), "block")
-            self._registers = [np.empty(BLOCK) for _ in range(writer.registers)]
+            self._registers = writer.registers
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> list[slice]:
         """Fill the outputs for n poses; the blocks that a question left open, whose outputs say nothing.
@@ -46,13 +46,17 @@ class Blocks:
         Reads arrays of shape (n,), one for each input, and writes into those for each output.
         """
         n, left = len(inputs[0]), []
-        for start in range(0, n, BLOCK):
-            part = slice(start, min(start + BLOCK, n))
-            registers = self._registers
-            if part.stop - part.start < BLOCK:
-                registers = [register[: part.stop - part.start] for register in registers]
-            with np.errstate(all="ignore"):
-                if not self._block([array[part] for array in inputs], [array[part] for array in outputs], registers):
+        size = min(n, BLOCK)
+        registers, told = ([np.empty(size) for _ in range(count)] for count in (self._registers, len(outputs)))
+        with np.errstate(all="ignore"):
+            for start in range(0, n, BLOCK):
+                part = slice(start, min(start + BLOCK, n))
+                if part.stop - start < size:
+                    registers, told = ([array[: part.stop - start] for array in arrays] for arrays in (registers, told))
+                if self._block([array[part] for array in inputs], told, registers):
+                    for output, numbers in zip(outputs, told, strict=True):
+                        output[part] = numbers
+                else:
                     left.append(part)
         return left
 

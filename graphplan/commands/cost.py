@@ -1,0 +1,68 @@
+"""Compare the forms of a construction: what each costs, and how far off the pencil is.
+
+examples:
+  graphplan cost alt-eight-link
+  graphplan cost scene.toml --pencil point=0.2,angle=0.1
+  graphplan cost scene.toml --hands 4000 --json
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import sys
+from collections.abc import Iterator
+
+from graphplan.commands.choices import add_pencil, write
+
+PLANS = "orthogonal", "polar"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
+    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
+                         help="the sheet of all forms; without it each has the smallest that will do")
+    command.add_argument("--hands", type=int, default=0, metavar="N",
+                         help="let N noisy hands draw each form as well, and tell how their results scatter beside "
+                         "the expected errors")
+    add_pencil(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.drafting.comparison import Comparison, legend
+    from graphplan.drafting.pencil import pencil
+    from graphplan.drafting.preference import forms
+    from graphplan.errors import Refused
+    from graphplan.mechanism.scene import load
+
+    if options.hands and options.hands < 2:
+        raise Refused(f"--hands {options.hands}", "one hand does not scatter", "some thousands")
+    scene, hand = load(options.scene), pencil(options.pencil)
+    found = []
+    for plan, strict in _kinds():
+        _tell(f"{plan} plans{', strict' if strict else ''}")
+        drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper)
+        found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))
+    _tell("")
+    refusals = [form.refusal for one in found for form in one.forms]
+    if refusals[0] is not None and all(refusals):
+        raise refusals[0]
+    if options.json:
+        data = {"title": scene.title, "model": hand.model, "forms": [row for one in found for row in one.data()]}
+        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
+    else:
+        tables = [line for one in found for line in one.lines()]
+        lines = [scene.title, f"Pencil, standard deviations: {hand}.", *tables, *legend(options.hands)]
+        write("\n".join(lines) + "\n", None)
+    return 0
+
+
+def _kinds() -> Iterator[tuple[str, bool]]:
+    """Every plan with set squares, then with compasses and straightedge alone."""
+    yield from ((plan, strict) for strict in (False, True) for plan in PLANS)
+
+
+def _tell(progress: str) -> None:
+    """What is being drawn, to whoever waits."""
+    if sys.stderr.isatty():
+        print(f"\r{progress:<40}\r", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,116 @@
+"""Follow the mechanism around its drive's turn: every pose constructed, checked, tabled and plotted.
+
+Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
+singular are told on standard error and in the table, each with its place and reason. The table is comma-separated
+text, or an archive of arrays (.npz). The plot shows displacement, velocity and acceleration, with graphical
+differentiation and integration beside the plans.
+
+examples:
+  graphplan cycle four-bar --positions 12
+  graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
+  graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Iterator, Mapping
+from typing import TYPE_CHECKING, Any
+
+from graphplan.commands.choices import add_choices, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.check.cycle import Cycle
+
+NOTHING_REACHED = 3
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("--positions", type=int, required=True, metavar="N", help="how many poses")
+    add("--from", type=float, dest="start", metavar="A",
+        help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
+    add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
+    add("-o", "--output", metavar="FILE", help=".csv or .npz; without it comma-separated text on standard output")
+    add("--plot", metavar="FILE.svg", help="kinematic diagrams")
+    add("--of", action="append", default=[], metavar="NAME",
+        help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
+    add("--strips", type=int, metavar="N",
+        help="in how many strips the diagrams are divided; without it 24, 12 or as positions allow")
+    add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
+    add("--compiled", action="store_true", help="machine code by numba, if installed: pays for millions of poses")
+    add_choices(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.check.curves import asking, curves, quantities
+    from graphplan.check.cycle import cycle
+    from graphplan.mechanism.scene import load
+
+    scene = load(options.scene)
+    if (options.start is None) != (options.end is None):
+        raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
+    span = None if options.start is None else (options.start, options.end)
+    workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
+    wanted = quantities(scene, options.of) if options.plot else ()
+    found = cycle(asking(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
+                  inertia=options.inertia, workers=workers, machine=options.compiled,
+                  progress=_progress if sys.stderr.isatty() else None)
+    _table(found, options.output, bool(options.plot))
+    if options.plot:
+        from graphplan.backends.plots import diagrams
+        from graphplan.cycle.diagrams import diagram
+
+        drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
+        write(diagrams(drawn, scene.title), options.plot)
+    _say(found)
+    if found.wrong:
+        return 1
+    return NOTHING_REACHED if len(found.faults) == options.positions else 0
+
+
+def _table(found: Cycle, path: str | None, plotted: bool) -> None:
+    """The table, where it is asked for, or where nothing else is."""
+    from graphplan.backends import columns
+
+    if path is None and plotted:
+        return
+    parts = found.scene, found.turn.travel, found.asked, found.results, found.faults
+    write(columns.archive(*parts) if path and path.endswith(".npz") else columns.text(*parts), path)
+
+
+def _say(found: Cycle) -> None:
+    """What there is to say of the poses, on standard error."""
+    for line in (*_told(found, found.faults), *_told(found, {k: f"drawn by {how}" for k, how in
+                                                             found.otherwise.items()})):
+        print(line, file=sys.stderr)
+    for k in found.wrong:
+        print(f"pose {k}: the construction and the analytic solver disagree", file=sys.stderr)
+    checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in found.check.items())
+    count = len(found.turn.travel)
+    print(f"{count - len(found.faults)} of {count} poses; largest difference from the analytic solver: {checked}",
+          file=sys.stderr)
+
+
+def _told(found: Cycle, notes: Mapping[int, str]) -> Iterator[str]:
+    """Notes on poses, those of neighbours that say the same as one line."""
+    stretches: list[list[int]] = []
+    for k in notes:
+        same = stretches and k == stretches[-1][-1] + 1 and _reason(notes[k]) == _reason(notes[k - 1])
+        stretches[-1].append(k) if same else stretches.append([k])
+    for first, *rest in stretches:
+        poses = f"pose {first}" if not rest else f"poses {first} to {rest[-1]} ({len(rest) + 1})"
+        yield f"{poses}: {notes[first]}"
+
+
+def _reason(note: str) -> str:
+    """A note without the pose's own angle."""
+    return note.partition(": ")[2] if note.startswith("at ") else note
+
+
+def _progress(what: str, done: int, of: int) -> None:
+    """One line on the terminal, written over and over; gone in the end."""
+    text: Any = f"{what}: {done} of {of}" if done < of else ""
+    print(f"\r{text:<50}\r", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,125 @@
+"""What a diagram shows: a quantity and its rates over the drive's motion, as the plans of many positions give them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+from graphplan.errors import Refused
+
+Reals = npt.NDArray[np.float64]
+Places = npt.NDArray[np.int_]
+QUANTITIES = ("s", "v", "a")
+ROUNDING = 2.0**-40  # of the whole time: times read back from the paper are not beyond the ends for less
+
+
+@dataclass(frozen=True, eq=False)
+class Curve:
+    """One quantity s with its rates v and a, at n positions of the drive; nan where a position cannot be drawn.
+
+    `travel` is the drive's, in radians or in the lengths that `travel_unit` names; `time` grows. `closed` says that the
+    last position is the first one again, a period later. `unit` is that of s: a length, or rad for a link's angle,
+    which must then be unwrapped.
+    """
+
+    name: str
+    unit: str
+    travel: Reals
+    time: Reals
+    s: Reals
+    v: Reals
+    a: Reals
+    closed: bool = False
+    travel_unit: str = "rad"
+
+    def __post_init__(self) -> None:
+        shapes = {np.shape(array) for array in (self.travel, self.time, self.s, self.v, self.a)}
+        if len(shapes) > 1 or len(next(iter(shapes))) != 1:
+            raise Refused(self._what, f"its arrays have the shapes {sorted(shapes)}", "give five of one shape (n,)")
+        if len(self.time) < 3 or not (np.diff(self.time) > 0).all():
+            raise Refused(self._what, "its time does not grow from each position to the next", "give three or more")
+        if not self.known.any():
+            raise Refused(self._what, "no position of the range can be drawn", "choose another range")
+
+    @property
+    def _what(self) -> str:
+        return f"diagram of {self.name}"
+
+    @property
+    def known(self) -> npt.NDArray[np.bool_]:
+        """Where the position, the velocity and the acceleration are all known."""
+        return np.isfinite(self.s) & np.isfinite(self.v) & np.isfinite(self.a)
+
+    @property
+    def letters(self) -> dict[str, str]:
+        """What s, v and a are called: psi, omega and alpha where the quantity is an angle."""
+        angle = self.unit == "rad"
+        return dict(zip(QUANTITIES, ("psi", "omega", "alpha") if angle else QUANTITIES, strict=True))
+
+    @property
+    def units(self) -> dict[str, str]:
+        """The units of s, v and a."""
+        return dict(zip(QUANTITIES, (self.unit, f"{self.unit}/s", f"{self.unit}/s²"), strict=True))
+
+    def values(self, quantity: str) -> Reals:
+        """The values of s, v or a; nan where any of them is unknown."""
+        array: Reals = {"s": self.s, "v": self.v, "a": self.a}[quantity]
+        return np.where(self.known, array, np.nan)
+
+    def stretches(self, places: Places) -> list[Places]:
+        """The places in stretches of two or more between which no position is unknown: a gap is never bridged."""
+        gaps, known = np.cumsum(~self.known), self.known
+        seen = places[known[places]]
+        parts = np.split(seen, np.flatnonzero(np.diff(gaps[seen])) + 1)
+        return [part for part in parts if len(part) > 1]
+
+    def at(self, quantity: str, times: Reals) -> Reals:
+        """The values of s, v or a at other times: the cubic through the four positions about each; nan in gaps.
+
+        It errs by the fourth order of the positions' distance, where the graphical methods err by the second.
+        """
+        found = np.full(np.shape(times), np.nan)
+        slack = ROUNDING * (self.time[-1] - self.time[0])
+        for part in self.stretches(np.arange(len(self.time))):
+            t, y = self.time[part], self.values(quantity)[part]
+            inside = (times >= t[0] - slack) & (times <= t[-1] + slack)
+            found[inside] = _through_four(t, y, times[inside])
+        return found
+
+
+def followed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
+             period: float | None = None, travel_unit: str = "rad") -> Curve:
+    """The curve of positions that a drive passes at a constant rate.
+
+    Where `period` is given it closes: the first position, so much travel later, is added at the end. A drive that runs
+    back passes the positions in reverse. Angles need not be unwrapped.
+    """
+    arrays = [np.asarray(array, dtype=float) for array in (travel, s, v, a)]
+    if period is not None:
+        arrays = [np.append(array, array[0] + over) for array, over in zip(arrays, (period, 0, 0, 0), strict=True)]
+    if rate < 0:
+        arrays = [array[::-1] for array in arrays]
+    travel, s, v, a = arrays
+    time = (travel - travel[0]) / rate
+    return Curve(name, unit, travel, time, _unwrapped(s) if unit == "rad" else s, v, a, period is not None, travel_unit)
+
+
+def _unwrapped(angles: Reals) -> Reals:
+    """Angles without jumps of a whole turn, also from one side of a gap to the other."""
+    known, found = np.isfinite(angles), angles.copy()
+    found[known] = np.unwrap(angles[known])
+    return found
+
+
+def _through_four(t: Reals, y: Reals, times: Reals) -> Reals:
+    """Lagrange's interpolation through the four samples about each time, or through all where there are fewer."""
+    count = min(4, len(t))
+    first = np.clip(np.searchsorted(t, times, side="right") - 2, 0, len(t) - count)
+    nodes = [(t[first + k], y[first + k]) for k in range(count)]
+    total = np.zeros(len(times))
+    for k, (here, value) in enumerate(nodes):
+        others = [there for i, (there, _) in enumerate(nodes) if i != k]
+        total += value * np.prod([(times - there) / (here - there) for there in others], axis=0)
+    return total

@@ -1,0 +1,61 @@
+"""Travel: how far the first drive goes, in how many poses, and how the other drives keep pace with it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from graphplan.cycle.linkage import Array
+from graphplan.errors import Refused
+from graphplan.mechanism.model import Drive, Scene, SlidingDrive
+
+TURN = 2 * math.pi
+
+
+def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
+    """The first drive's travel in each pose, shape (n,): radians, or scene lengths where it slides.
+
+    Without a span it is one full turn, whose end is its beginning; a span, in degrees or lengths, has both ends.
+    Fails with :class:`Refused` where nothing drives the scene, or a sliding drive is given no span.
+    """
+    if scene.motions or not scene.drives:
+        why = "the motion of points is given, for this pose alone" if scene.motions else "nothing drives it"
+        raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
+    if positions < 1:
+        raise Refused("the cycle", f"{positions} positions are none", "at least 1")
+    sliding = isinstance(scene.drives[0], SlidingDrive)
+    if span is None:
+        if sliding:
+            raise Refused("the cycle", "the first drive slides, and no turn closes its travel", "a span of lengths")
+        return TURN * np.arange(positions) / positions
+    if not all(math.isfinite(end) for end in span):
+        raise Refused("the cycle", f"the span {span[0]} to {span[1]} has no end", "two finite numbers")
+    ends = span if sliding else (math.radians(span[0]), math.radians(span[1]))
+    return np.linspace(*ends, positions)
+
+
+def paces(scene: Scene) -> tuple[float, ...]:
+    """The travel of each drive for a unit of the first one's: its rate over the first one's."""
+    first, *others = (_rate(drive) for drive in scene.drives)
+    if first == 0 and any(others):
+        raise Refused("the cycle", "the first drive stands still while another moves",
+                      "a drive that moves as the first [[drive]]")
+    return (1.0, *(other / first if first else 0.0 for other in others))
+
+
+def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
+    """Whether every drive is back where it was after one turn of the first: then going back is going round."""
+    return all(pace == 0 if isinstance(drive, SlidingDrive) else pace == round(pace)
+               for drive, pace in zip(scene.drives, paces, strict=True))
+
+
+def told(scene: Scene, travel: float, digits: int = 6) -> str:
+    """A travel in words: degrees, or the scene's lengths."""
+    if isinstance(scene.drives[0], SlidingDrive):
+        return f"{travel:.{digits}g} {scene.units.length}"
+    return f"{math.degrees(travel):.{digits}g} degrees"
+
+
+def _rate(drive: Drive) -> float:
+    return float(drive.speed if isinstance(drive, SlidingDrive) else drive.omega)

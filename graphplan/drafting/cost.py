@@ -1,0 +1,98 @@
+"""What drawing a construction costs: movements, changes of instrument, how its curves cross, what leaves the paper."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from graphplan.kernel.expand import CROSSINGS
+from graphplan.kernel.kinds import CIRCLE, DIVIDERS, SET_SQUARES
+from graphplan.kernel.lemoine import Counts, counts
+from graphplan.kernel.program import Step
+from graphplan.methods.construction import Construction
+from graphplan.sheet.composition import Composition
+from graphplan.sheet.planes import Planes
+
+
+@dataclass(frozen=True)
+class Crossing:
+    """Where two curves meet: the step that marks it, and the sine of the angle between them."""
+
+    number: int
+    mark: str
+    sine: float
+
+    @property
+    def degrees(self) -> float:
+        """The angle between the curves."""
+        return math.degrees(math.asin(min(1.0, self.sine)))
+
+
+@dataclass(frozen=True)
+class Cost:
+    """The counts of a drawing, its steps, its crossings, and the steps whose marks lie outside the paper of their
+    plans."""
+
+    counts: Counts
+    steps: int
+    crossings: tuple[Crossing, ...]
+    off_sheet: tuple[int, ...]
+
+    @property
+    def flattest(self) -> Crossing | None:
+        """The crossing with the smallest angle."""
+        return min(self.crossings, key=lambda crossing: crossing.sine, default=None)
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """All of it, as data; simplicity and exactitude, which know no set squares, of a strict drawing alone."""
+        found = self.counts
+        return {
+            "said": str(found), "steps": self.steps, "operations": found.operations, "lines": found.R2,
+            "arcs": found.C3, "scale": found.scale, "set squares": found.others.get(SET_SQUARES, 0),
+            "dividers": found.others.get(DIVIDERS, 0), "instrument changes": found.changes,
+            "simplicity": found.simplicity if found.strict else None,
+            "exactitude": found.exactitude if found.strict else None,
+            "crossings": [{"step": c.number, "mark": c.mark, "degrees": c.degrees} for c in self.crossings],
+            "off the sheet": list(self.off_sheet),
+        }
+
+    def lines(self) -> list[str]:
+        """The cost in words, a line each."""
+        told = [f"Changes of instrument: {self.counts.changes}."]
+        if self.flattest:
+            told.append(f"Flattest crossing: {self.flattest.degrees:.0f} degrees, step {self.flattest.number}.")
+        if self.off_sheet:
+            told.append(f"Outside the paper of their plans: steps {', '.join(map(str, self.off_sheet))}.")
+        return told
+
+
+def cost(drawing: Construction, composition: Composition) -> Cost:
+    """What drawing a construction costs on its sheet."""
+    drawn = drawing.drawn
+    crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), _sine(step, drawing.values))
+                 for step in drawn.steps if step.op.name in CROSSINGS]
+    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(drawing, composition))
+
+
+def _off_sheet(drawing: Construction, composition: Composition) -> tuple[int, ...]:
+    """The steps whose points lie outside the paper of their plans."""
+    planes = Planes(drawing)
+    off = [index for panel, view in composition.views.items() for index in planes.points(panel)
+           if not view.rect.holds(view(planes.spot(index)))]
+    return tuple(drawing.drawn.number(index) for index in sorted(off))
+
+
+def _sine(step: Step, values: Sequence[Any]) -> float:
+    """The sine of the angle under which the two curves of a crossing meet."""
+    X = complex(*values[step.index])
+    one, two = (_normal(kind, values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
+    return abs((one.conjugate() * two).imag)
+
+
+def _normal(kind: str, curve: Any, X: complex) -> complex:
+    """The unit normal of a line, or of a circle at X."""
+    normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
+    return normal / (abs(normal) or 1.0)

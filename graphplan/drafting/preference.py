@@ -1,0 +1,129 @@
+"""Which form to draw: every form that there is, drawn and weighed by its operations and by its pencil error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from graphplan.drafting.drafted import Drafted, drafted, percent
+from graphplan.drafting.pencil import Pencil
+from graphplan.errors import GraphplanError, Refused
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import METHODS, construct
+from graphplan.methods.construction import Construction
+from graphplan.sheet.paper import sheet_size
+
+FORMS = ("", *METHODS)  # first the one that the pose chooses
+
+
+@dataclass(frozen=True)
+class Form:
+    """One drawing, by all the methods that lead to it; or a method that does not, and why."""
+
+    methods: tuple[str, ...]
+    drafted: Drafted | None
+    refusal: GraphplanError | None = None
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        if self.methods == FORMS:
+            return "every method"
+        return ", ".join(method or "pose's own" for method in self.methods)
+
+    def __str__(self) -> str:
+        if self.drafted is None:
+            return f"{self.name}: cannot be drawn: {self.refusal}"
+        worst = f" ({self.drafted.worst})" if self.drafted.worst else ""
+        return f"{self.name}: {self.drafted.operations} operations, error {percent(self.drafted.error)}{worst}"
+
+
+@dataclass(frozen=True)
+class Preference:
+    """The form preferred, by the name of its method, and what is told of the choice: a line each."""
+
+    method: str
+    told: tuple[str, ...] = ()
+
+
+def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
+          paper: str | None = None) -> list[Form]:
+    """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
+    found: list[Form] = []
+    for method in FORMS:
+        try:
+            drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
+            same = next((form for form in found if form.drafted and _same(form.drafted.drawing, drawing)), None)
+            if same is not None:
+                found[found.index(same)] = replace(same, methods=(*same.methods, method))
+            else:
+                found.append(Form((method,), drafted(drawing, pencil, paper)))
+        except GraphplanError as refusal:
+            found.append(Form((method,), None, refusal))
+    return found
+
+
+def _same(one: Construction, other: Construction) -> bool:
+    """Whether two constructions are drawn by the same steps."""
+    return [step.key for step in one.drawn.steps] == [step.key for step in other.drawn.steps]
+
+
+def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
+              strict: bool = False, inertia: str = "couple", paper: str | None = None) -> Preference:
+    """The form that is quickest, most accurate or, by the product of both beside the best of each, balanced.
+
+    Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
+    """
+    if prefer not in WEIGHED:
+        raise Refused(f"--prefer {prefer}", "nothing is weighed so", f"one of {', '.join(WEIGHED)}")
+    if method:
+        raise Refused(f"--prefer {prefer}", f"--method {method} names the form already", "leave out one of the two")
+    found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper))
+    if found[0].refusal is not None and all(form.refusal for form in found):
+        raise found[0].refusal
+    return weighed(found, prefer)
+
+
+def weighed(found: Sequence[Form], prefer: str) -> Preference:
+    """The best of some forms, of which one at least is drawn; of equals the first."""
+    drawn = [(form, form.drafted) for form in found if form.drafted is not None]
+    best, on = min(drawn, key=lambda pair: WEIGHED[prefer](pair[1]))
+    return Preference(best.methods[0], (f"{prefer} form preferred: {best.name}; weighed on {on.paper}:",
+                                        *map(str, found)))
+
+
+def _on_one_paper(found: list[Form]) -> list[Form]:
+    """The same forms, all on the largest of their sheets: a larger one would make any form more accurate."""
+    papers = [form.drafted.paper for form in found if form.drafted is not None]
+    largest = max(papers, key=lambda paper: sheet_size(paper)[0] * sheet_size(paper)[1], default="")
+    return [_moved(form, form.drafted, largest) if form.drafted is not None else form for form in found]
+
+
+def _moved(form: Form, one: Drafted, paper: str) -> Form:
+    """A form drawn on another sheet, or why it cannot be."""
+    if one.paper == paper:
+        return form
+    try:
+        return Form(form.methods, drafted(one.drawing, one.pencil, paper))
+    except Refused as refusal:
+        return Form(form.methods, None, refusal)
+
+
+def _quick(one: Drafted) -> tuple[float, ...]:
+    """Fewest operations first."""
+    return one.operations, one.error
+
+
+def _accurate(one: Drafted) -> tuple[float, ...]:
+    """Smallest pencil error first."""
+    return one.error, one.operations
+
+
+def _balanced(one: Drafted) -> tuple[float, ...]:
+    """Smallest product of both first: so each counts beside the best of its kind."""
+    return one.operations * one.error, one.operations
+
+
+WEIGHED: dict[str, Callable[[Drafted], tuple[float, ...]]] = {
+    "quick": _quick, "accurate": _accurate, "balanced": _balanced,
+}

@@ -1,0 +1,201 @@
+"""`graphplan cycle`: every pose constructed, checked, tabled and plotted, and none silently left out."""
+
+from __future__ import annotations
+
+import csv
+import io
+import re
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+import graphplan as gp
+from graphplan.check import cycle as checked
+from graphplan.check.curves import asking, curves, quantities
+from graphplan.check.cycle import cycle
+from graphplan.commands import main
+from graphplan.mechanism.scene import packaged
+
+TURNING = [name for name in packaged() if gp.load(name).drives and not gp.load(name).motions
+           and name not in ("plough-lift", "ozols-5-3")]
+
+
+@pytest.fixture
+def run(capsys: pytest.CaptureFixture[str]) -> Any:
+    """The command: its exit status, standard output and standard error."""
+
+    def run(*arguments: str) -> tuple[int, str, str]:
+        status = main(["cycle", *arguments])
+        return status, *capsys.readouterr()
+
+    return run
+
+
+@pytest.mark.parametrize("name", TURNING)
+def test_every_pose_agrees_or_says_why_not(name: str) -> None:
+    """Around the turn of every packaged scene, forces among it, each pose agrees with the solver, or has a fault."""
+    found = cycle(gp.load(name), 24)
+    assert found.wrong == ()
+    for k in range(24):
+        told = [np.isfinite(z[k]) for named in found.results.values() for z in named.values()]
+        assert all(told) or k in found.faults
+    assert all(gap <= 1e-10 for gap in found.check.values())
+
+
+def test_one_pose_of_the_cycle_is_that_pose_alone() -> None:
+    """What a pose of the cycle gives is what the same program gives for it alone, to the last bit."""
+    found = cycle(gp.load("jaanimets-10"), 7)
+    for k in range(7):
+        alone = found.drawing.replay({name: complex(z[k]) for name, z in found.turn.points.items()
+                                      if any(step.name == name for step in found.drawing.program.steps)})
+        for kind, named in alone.items():
+            for name, value in named.items():
+                z = found.results[kind][name][k]
+                assert (complex(*value) if isinstance(value, tuple) else value) == z
+
+
+def test_the_table_has_a_line_for_each_pose(run: Any) -> None:
+    """Comma-separated text: a heading with units, then one line for each pose, its first that of the scene."""
+    status, out, err = run("four-bar", "--positions", "8")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    assert status == 0
+    assert [row["pose"] for row in rows] == [str(k) for k in range(8)]
+    assert float(rows[0]["B.vx [mm/s]"]) == pytest.approx(gp.construct(gp.load("four-bar")).velocity["B"].real)
+    assert float(rows[2]["travel [deg]"]) == pytest.approx(90)
+    assert "8 of 8 poses" in err
+
+
+def test_unreachable_poses_are_told_with_angle_and_reason(run: Any) -> None:
+    """Poses that cannot be reached are in the table without numbers, and on standard error as one line a stretch."""
+    status, out, err = run("stephenson", "--positions", "36")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    empty = [row for row in rows if not row["A.vx [mm/s]"]]
+    assert status == 0
+    assert empty
+    assert all("degrees" in row["fault"] for row in empty)
+    assert not any(row["fault"] for row in rows if row["A.vx [mm/s]"])
+    assert re.search(r"^poses \d+ to \d+ \(\d+\): at \d+ degrees: links .*limit position near", err, re.M)
+
+
+def test_an_archive_of_arrays(run: Any, tmp_path: Path) -> None:
+    """The .npz has travel, points and every reading as arrays, and which poses have none, and why."""
+    file = tmp_path / "turn.npz"
+    assert run("class-four-loaded", "--positions", "36", "-o", str(file))[0] == 0
+    with np.load(file, allow_pickle=False) as arrays:
+        assert arrays["travel"].shape == arrays["velocity G"].shape == (36,)
+        assert {"reaction 2 at A", "balance moment 1"} <= set(arrays.files)
+        faults = arrays["fault_pose"]
+        assert np.array_equal(np.flatnonzero(np.isnan(arrays["velocity G"])), faults)
+        assert len(arrays["fault_why"]) == len(faults)
+
+
+def test_a_range_of_a_sliding_drive(run: Any) -> None:
+    """A drive that slides needs a range of lengths, and both its ends are poses."""
+    status, out, _ = run("plough-lift", "--positions", "5", "--from", "0", "--to", "20")
+    rows = list(csv.DictReader(io.StringIO(out)))
+    assert status == 0
+    assert [float(row["travel [mm]"]) for row in rows] == [0, 5, 10, 15, 20]
+
+
+def test_the_plot_shows_what_the_mechanism_drives(run: Any, tmp_path: Path) -> None:
+    """The diagrams are written as SVG, the same every time, with the errors of the graphical methods."""
+    one, two = tmp_path / "one.svg", tmp_path / "two.svg"
+    for file in (one, two):
+        assert run("slider-crank", "--positions", "24", "--plot", str(file))[0] == 0
+    assert one.read_bytes() == two.read_bytes()
+    assert "slide 3 along frame" in one.read_text()
+    assert run("four-bar", "--positions", "24", "--plot", str(two), "--of", "3", "--of", "M.x")[0] == 0
+
+
+@pytest.mark.parametrize(("name", "of"), [("four-bar", "3"), ("four-bar", "M.y"), ("slider-crank", "3 along frame"),
+                                          ("slotted-link", "2 along 3"), ("shaper", "3")])
+def test_curves_are_their_own_rates(name: str, of: str) -> None:
+    """Displacement, velocity and acceleration of a curve are derivatives of each other, to the step's square."""
+    scene = gp.load(name)
+    wanted = quantities(scene, [of])
+    (curve,) = curves(cycle(asking(scene, wanted), 720), wanted)
+    for below, above in (curve.s, curve.v), (curve.v, curve.a):
+        slope = (below[2:] - below[:-2]) / (curve.time[2:] - curve.time[:-2])
+        assert np.abs(slope - above[1:-1]).max() <= 2e-3 * np.abs(above).max()
+
+
+def test_a_drive_that_runs_back_gives_the_same_curve_backwards() -> None:
+    """With the crank turning clockwise the diagrams run over growing time too."""
+    scene = gp.load("slider-crank")
+    back = replace(scene, drives=(replace(scene.drives[0], omega=-10),))
+    wanted = quantities(back, ["3 along frame"])
+    (curve,) = curves(cycle(asking(back, wanted), 90), wanted)
+    assert (np.diff(curve.time) > 0).all()
+    slope = np.gradient(curve.s, curve.time)
+    assert np.abs(slope - curve.v)[1:-1].max() <= 0.01 * np.abs(curve.v).max()
+
+
+FAULTS = {
+    ("--positions", "0"): "at least 1",
+    ("--positions", "5", "--from", "3"): "only one of --from and --to",
+    ("--positions", "5", "--from", "nan", "--to", "4"): "finite",
+    ("--positions", "5", "--workers", "0"): "at least 1",
+    ("--positions", "5", "--plot", "x.svg", "--of", "9"): "no such thing",
+    ("--positions", "5", "--plot", "x.svg", *["--of", "3"] * 5): "at most 4",
+    ("--positions", "5", "-o", "missing/table.csv"): "cannot be written",
+}
+
+
+@pytest.mark.parametrize("arguments", FAULTS, ids=" ".join)
+def test_bad_questions_get_one_line(arguments: tuple[str, ...], run: Any, tmp_path: Path,
+                                    monkeypatch: pytest.MonkeyPatch) -> None:
+    """What cannot be done is said in one line, with exit status 2, and nothing is written."""
+    monkeypatch.chdir(tmp_path)
+    status, out, err = run("four-bar", *arguments)
+    assert (status, out) == (2, "")
+    assert FAULTS[arguments] in err
+    assert len(err.splitlines()) == 1
+    assert not list(tmp_path.iterdir())
+
+
+def test_open_chains_have_no_cycle(run: Any) -> None:
+    """A scene of given point motions has nothing that turns."""
+    status, _, err = run("open-chain", "--positions", "5")
+    assert status == 2
+    assert "[[drive]]" in err
+
+
+def test_where_one_way_fails_another_serves(monkeypatch: pytest.MonkeyPatch) -> None:
+    """With the recorded way through a ring spoilt in some poses, another form gives them, and it is noted which."""
+    from graphplan.methods import batch
+
+    scene = gp.load("class-four")
+    sound = cycle(scene, 12)
+    real = batch.batch
+
+    def spoilt(construction: Any, *rest: Any, **more: Any) -> Any:
+        poses = real(construction, *rest, **more)
+        if construction.ways == sound.drawing.ways:
+            for z in poses.velocity.values():
+                z[2] += 1
+        return poses
+
+    monkeypatch.setattr(batch, "batch", spoilt)
+    found = cycle(scene, 12)
+    assert list(found.otherwise) == [2]
+    assert "false position" in found.otherwise[2]
+    assert found.wrong == ()
+    assert found.results["velocity"]["E"] == pytest.approx(sound.results["velocity"]["E"], nan_ok=True)
+
+
+def test_what_no_form_gives_right_is_wrong(monkeypatch: pytest.MonkeyPatch, run: Any) -> None:
+    """Where the construction and the solver disagree and no form agrees, the poses are told, with exit status 1."""
+    real = checked.poses.solve
+
+    def other(scene: Any, n: int) -> Any:
+        rates = real(scene, n)
+        rates.velocity["B"] = rates.velocity["B"][0] + 1, rates.velocity["B"][1]
+        return rates
+
+    monkeypatch.setattr(checked.poses, "solve", other)
+    status, _, err = run("four-bar", "--positions", "3")
+    assert status == 1
+    assert err.count("disagree") == 3

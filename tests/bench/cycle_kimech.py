@@ -1,0 +1,57 @@
+"""A turn of an eight-link chain in 360 poses, against kimech.
+
+kimech finds its own positions and cannot be handed any. So there are three rows: its rates alone, which are what the
+whole takes longer than the positions, against ours from given poses; the whole against ours from given poses; and the
+whole against ours with positions found too.
+"""
+
+from __future__ import annotations
+
+import math
+
+import exact
+import numpy as np
+from harness import Row, Target, alternate, compared, peer
+
+import graphplan as gp
+from graphplan.cycle import follow
+
+POSES = 360
+SCENE = "alt-eight-link-2"  # whose crank turns all the way round
+
+
+def rows() -> list[Row]:
+    """Ours against kimech, without and with positions."""
+    scene, drawing = gp.load(SCENE), gp.construct(gp.load(SCENE))
+    travel = 2 * math.pi / POSES * np.arange(POSES)
+    points = moving(scene)
+    runs = {"ours": lambda: motion(drawing, points),
+            "ours with positions": lambda: motion(drawing, moving(scene))}
+    motions = dict(runs)
+    if module := peer("by_kimech"):
+        chain = module.Kimech(scene)
+        runs |= {"kimech": lambda: chain.motion(travel), "its positions": lambda: chain.positions(travel)}
+        motions["kimech"] = lambda: chain.read(chain.motion(travel))
+    truth = exact.of_travel(scene, travel, points)
+    errors = {name: exact.error(found(), truth) for name, found in motions.items()}
+    times = alternate(runs)
+    if module:
+        times["kimech, rates"] = [a - b for a, b in zip(times["kimech"], times["its positions"], strict=True)]
+        errors["kimech, rates"] = errors["kimech"]
+    target = Target("at least", 2000)
+    return [compared("turn, given poses", "kimech, rates", target, times, over=POSES, errors=errors),
+            compared("turn, poses given to ours", "kimech", target, times, over=POSES, errors=errors),
+            compared("turn with positions", "kimech", target, times, ours="ours with positions", over=POSES,
+                     errors=errors)]
+
+
+def moving(scene: gp.Scene) -> exact.Points:
+    """The positions of the points that move, over the turn."""
+    points = follow(scene, POSES).points
+    return {name: points[name] for name in scene.find.velocity}
+
+
+def motion(drawing: gp.Construction, points: exact.Points) -> exact.Motion:
+    """The steps over all poses."""
+    poses = drawing.evaluate(points)
+    return {"velocity": poses.velocity, "acceleration": poses.acceleration}

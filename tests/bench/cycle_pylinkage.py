@@ -1,0 +1,49 @@
+"""A turn of a four-bar in 100,000 poses, positions found too, against pylinkage compiled with numba."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Any
+
+import exact
+import numpy as np
+from harness import Row, Target, alternate, compared, peer
+
+import graphplan as gp
+from graphplan.cycle import follow
+
+N = 100_000
+
+
+def rows() -> list[Row]:
+    """Ours against pylinkage: positions, and positions with velocities and accelerations."""
+    scene, drawing = gp.load("four-bar"), gp.construct(gp.load("four-bar"))
+    runs: dict[str, Callable[[], Any]] = {
+        "ours": lambda: motion(drawing),
+        "our positions": lambda: {"points": moving(scene)},
+    }
+    found = {name: run() for name, run in runs.items()}
+    if module := peer("by_pylinkage"):
+        linkage = module.Pylinkage(scene, N)
+        runs |= {"pylinkage": linkage.motion, "pylinkage, positions": linkage.positions}
+        found |= {name: linkage.read(runs[name]()) for name in ("pylinkage", "pylinkage, positions")}
+    truth = exact.of_travel(scene, 2 * math.pi / N * np.arange(N), moving(scene))
+    errors = {name: exact.error(values, truth) for name, values in found.items()}
+    times, target = alternate(runs), Target("at least", 2)
+    return [compared("turn, positions", "pylinkage, positions", target, times, ours="our positions", over=N,
+                     errors=errors),
+            compared("turn, positions and rates", "pylinkage", target, times, over=N, errors=errors)]
+
+
+def moving(scene: gp.Scene) -> exact.Points:
+    """The positions of the points that move, over the turn."""
+    points = follow(scene, N).points
+    return {name: points[name] for name in scene.find.velocity}
+
+
+def motion(drawing: gp.Construction) -> exact.Motion:
+    """Positions, and the steps over all of them."""
+    points = moving(drawing.scene)
+    poses = drawing.evaluate(points)
+    return {"points": points, "velocity": poses.velocity, "acceleration": poses.acceleration}

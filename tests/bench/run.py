@@ -1,0 +1,58 @@
+"""Measures every figure and prints one table: `python tests/bench/run.py [-o FILE.md] [FIGURE ...]`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import platform
+import sys
+from importlib import import_module
+from pathlib import Path
+
+FIGURES = ("arrays", "one_pose", "cycle_kimech", "cycle_pylinkage", "cold", "growth")
+
+# One core for all, and before numpy is imported: its BLAS reads this once.
+ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+
+
+def main() -> None:
+    """Measure the figures asked for, or all."""
+    parser = argparse.ArgumentParser(description="Measure graphplan against its rivals.")
+    parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"of {', '.join(FIGURES)}; default all")
+    parser.add_argument("-o", dest="file", type=Path, help="write the table here too")
+    asked = parser.parse_args()
+    if unknown := set(asked.figures) - set(FIGURES):
+        parser.error(f"no figure {', '.join(sorted(unknown))}; one of {', '.join(FIGURES)}")
+    os.environ |= ONE_THREAD
+    text = measured(asked.figures or FIGURES)
+    print(text, end="")
+    if asked.file:
+        asked.file.write_text(text)
+
+
+def measured(figures: tuple[str, ...]) -> str:
+    """The table of these figures, under what they were measured with."""
+    from harness import table
+
+    rows = []
+    for figure in figures:
+        print(f"measuring {figure} ...", file=sys.stderr)
+        rows += import_module(figure).rows()
+    return f"{platform.python_implementation()} {platform.python_version()}, {versions()}\n\n{table(rows)}"
+
+
+def versions() -> str:
+    """The packages that take part, and their versions."""
+    from importlib.metadata import PackageNotFoundError, version
+
+    found = []
+    for package in ("numpy", "numba", "kimech", "pylinkage"):
+        try:
+            found.append(f"{package} {version(package)}")
+        except PackageNotFoundError:
+            found.append(f"{package} not installed")
+    return ", ".join(found)
+
+
+if __name__ == "__main__":
+    main()

@@ -35,7 +35,7 @@ def run(options: argparse.Namespace) -> int:
         else:
             write(text, str(path))
     for path in sorted(options.folder.iterdir()):
-        if path.name not in written:
+        if path.is_file() and path.name not in written:
             stale += 1
             print(f"{path}: no packaged scene makes this file", file=sys.stderr)
     return 1 if stale else 0

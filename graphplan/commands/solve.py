@@ -19,6 +19,7 @@ from graphplan.commands.choices import add_choices, add_preference, chosen, writ
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
+    from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
 
 
@@ -42,7 +43,17 @@ def run(options: argparse.Namespace) -> int:
     found = report(scene, exact=options.exact, **how)
     if found.complaint:
         print(found.complaint, file=sys.stderr)
-    return _printed(data(found), found.agrees)
+    return _printed(data(found) | _errors(options, found), found.agrees)
+
+
+def _errors(options: argparse.Namespace, found: Report) -> dict[str, Any]:
+    """How far off each result is drawn, where a pencil is given."""
+    if not options.pencil:
+        return {}
+    from graphplan.drafting.drafted import drafted
+    from graphplan.drafting.pencil import pencil
+
+    return {"pencil": drafted(found.drawing, pencil(options.pencil), check=found.check).data}
 
 
 def _certified(options: argparse.Namespace, scene: Scene, how: dict[str, str]) -> int:

@@ -77,7 +77,7 @@ def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping
     """
     n, given = _given(construction, points, guides)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
-    results, faults = construction.blank(n), dict[int, str]()
+    results, faults = construction.blank(n, None), dict[int, str]()
     for place, wrong in zip(stretches, _filled(construction, given, stretches, results, workers, machine), strict=True):
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
@@ -171,7 +171,7 @@ def _poses(z: Any) -> Any:
 
 
 def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
-    return {one: np.ascontiguousarray(z.real), two: np.ascontiguousarray(z.imag)}
+    return {one: z.real, two: z.imag}
 
 
 def _guides(construction: Construction, slide: Slide) -> list[int]:

@@ -149,9 +149,9 @@ def _best(scene: Scene, method: str, chosen: Style) -> Construction:
 
 
 def _uneven(scene: Scene) -> bool:
-    """Whether the distances of joints on links differ too much for one drawing."""
+    """Whether the sides of the moving links differ too much in length for one drawing."""
     places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
-    sides = [abs(places[p] - places[q]) for names in scene.links.values() for p, q in combinations(names, 2)]
+    sides = [abs(places[p] - places[q]) for link in scene.moving for p, q in combinations(scene.links[link], 2)]
     return max(sides, default=0.0) > UNEVEN * min((side for side in sides if side), default=1.0)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
@@ -219,11 +220,17 @@ class Construction:
 
         return batch(self, points, guides or {}, workers, machine, progress)
 
-    def blank(self, n: int) -> dict[str, dict[str, Any]]:
-        """Arrays for the readings in n poses, by kind and name: complex ones for vectors, nan to begin with."""
+    def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
+        """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come."""
         import numpy as np
 
-        return self._named(lambda reading: np.full(n, np.nan, float if reading.kind in NUMBERS else complex))
+        def array(reading: Reading) -> Any:
+            numbers = np.empty(n, float if reading.kind in NUMBERS else complex)
+            if value is not None:
+                numbers[:] = value
+            return numbers
+
+        return self._named(array)
 
     def replay(self, points: Mapping[str, complex] | None = None) -> dict[str, dict[str, Any]]:
         """All readings, by kind and name, with some points elsewhere; made for many poses one after the other."""

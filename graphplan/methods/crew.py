@@ -23,7 +23,7 @@ PATIENCE = "10s"  # for a scheduler to answer
 def errand(construction: Construction, given: Coordinates, machine: bool) -> Found:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
-    results = construction.blank(n)
+    results = construction.blank(n, None)
     return results, stretch(construction, given, results, machine)
 
 

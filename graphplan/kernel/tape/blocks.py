@@ -47,13 +47,17 @@ class Blocks:
         """
         n, left = len(inputs[0]), []
         size = min(n, BLOCK)
-        registers, told = ([np.empty(size) for _ in range(count)] for count in (self._registers, len(outputs)))
+        read, registers, told = ([np.empty(size) for _ in range(count)]
+                                 for count in (len(inputs), self._registers, len(outputs)))
         with np.errstate(all="ignore"):
             for start in range(0, n, BLOCK):
                 part = slice(start, min(start + BLOCK, n))
                 if part.stop - start < size:
-                    registers, told = ([array[: part.stop - start] for array in arrays] for arrays in (registers, told))
-                if self._block([array[part] for array in inputs], told, registers):
+                    read, registers, told = ([array[: part.stop - start] for array in arrays]
+                                             for arrays in (read, registers, told))
+                for numbers, array in zip(read, inputs, strict=True):  # they may stand among others, as real parts do
+                    numbers[:] = array[part]
+                if self._block(read, told, registers):
                     for output, numbers in zip(outputs, told, strict=True):
                         output[part] = numbers
                 else:

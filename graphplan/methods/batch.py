@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
@@ -69,20 +69,29 @@ class Poses:
 
 
 def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
-          workers: int | str = 1, machine: bool = False, progress: Progress | None = None) -> Poses:
-    """The construction replayed over the poses in `points` and `guides`.
+          only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
+          progress: Progress | None = None) -> Poses:
+    """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some.
 
     `workers` is how many processes share the poses out, or the address of a dask scheduler; with `machine` numba
     compiles the replay; `progress` is told after each stretch how many poses are done, of how many.
     """
     n, given = _given(construction, points, guides)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
-    results, faults = construction.blank(n, None), dict[int, str]()
+    results, faults = _wanted(construction, n, only), dict[int, str]()
     for place, wrong in zip(stretches, _filled(construction, given, stretches, results, workers, machine), strict=True):
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
             progress(place.stop, n)
     return Poses(results, faults)
+
+
+def _wanted(construction: Construction, n: int, only: Collection[str] | None) -> Results:
+    """Arrays for the results that are wanted."""
+    for kind in only or ():
+        if kind not in construction.kinds:
+            raise Refused(f"results {kind}", "the scene does not ask for them", f"of {', '.join(construction.kinds)}")
+    return {kind: named for kind, named in construction.blank(n, None).items() if only is None or kind in only}
 
 
 def _filled(construction: Construction, given: Coordinates, stretches: Iterable[slice], results: Results,
@@ -94,7 +103,8 @@ def _filled(construction: Construction, given: Coordinates, stretches: Iterable[
         return
     from graphplan.methods.crew import shared_out
 
-    found = shared_out(construction, (_cut(given, place) for place in stretches), workers, machine)
+    parts = (_cut(given, place) for place in stretches)
+    found = shared_out(construction, parts, tuple(results), workers, machine)
     for place, (values, faults) in zip(stretches, found, strict=True):
         for kind, named in values.items():
             for name, value in named.items():
@@ -110,7 +120,8 @@ def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: slice) -> dict[Any, dic
 def stretch(construction: Construction, given: Coordinates, results: Results, machine: bool) -> Faults:
     """Fill the results of one stretch of poses; its faults, by place."""
     faults: Faults = {}
-    replay = construction.replay_of(tuple((key, name) for key, numbers in given.items() for name in numbers))
+    free = tuple((key, name) for key, numbers in given.items() for name in numbers)
+    replay = construction.replay_of(free, tuple(results))
     left = [slice(None)] if replay is None or not given else replay.run(given, results, machine)
     for part in left:
         _by_rules(construction, _cut(given, part), _cut(results, part), part.start or 0, faults)
@@ -130,9 +141,9 @@ def _by_rules(construction: Construction, given: Coordinates, results: Results, 
 
     with np.errstate(all="ignore"):
         found = construction.read(domain, given, note)
-    for kind, named in found.items():
-        for name, value in named.items():
-            z = results[kind][name]
+    for kind, named in results.items():
+        for name, z in named.items():
+            value = found[kind][name]
             for row, number in [(z.real, value[0]), (z.imag, value[1])] if isinstance(value, tuple) else [(z, value)]:
                 row[:] = number
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -207,18 +207,19 @@ class Construction:
         return READERS[kind](marks, domain.lift(self.tempo.unit), self.turned)
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
-                 workers: int | str = 1, machine: bool = False,
+                 only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
                  progress: Callable[[int, int], None] | None = None) -> Poses:
         """The same steps over n poses: `points` gives complex arrays of shape (n,); points left out stand still.
 
         `guides` gives, by the names of slides, the directions of guides that ride on moving links and whose direction
-        the scene gives as a vector. `workers` processes share the poses out, or those of a dask scheduler by its
-        address; with `machine` numba compiles the replay, which pays for millions of poses; `progress` is told how
-        many are done, of how many.
+        the scene gives as a vector. `only` names the kinds of results that are wanted, such as velocity and
+        acceleration: nothing else is reckoned. `workers` processes share the poses out, or those of a dask scheduler
+        by its address; with `machine` numba compiles the replay, which pays for millions of poses; `progress` is told
+        how many are done, of how many.
         """
         from graphplan.methods.batch import batch
 
-        return batch(self, points, guides or {}, workers, machine, progress)
+        return batch(self, points, guides or {}, only, workers, machine, progress)
 
     def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
         """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come."""
@@ -236,19 +237,27 @@ class Construction:
         """All readings, by kind and name, with some points elsewhere; made for many poses one after the other."""
         given = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
         free = tuple((name, part) for name in given for part in "xy")
-        found = self.replay_of(free)
+        found = self.replay_of(free, self.kinds)
         return self.read(Floats(), given) if found is None else found.read(given)
 
-    def replay_of(self, free: Free) -> Replay | None:
-        """The replay in which these numbers are free, made once; None where what stands still cannot be drawn."""
-        if free not in self._replays:
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of readings that there are."""
+        return tuple(dict.fromkeys(reading.kind for reading in self.readings))
+
+    def replay_of(self, free: Free, kinds: tuple[str, ...]) -> Replay | None:
+        """The replay in which these numbers are free and these kinds of readings wanted, made once.
+
+        None where what stands still cannot be drawn.
+        """
+        if (free, kinds) not in self._replays:
             from graphplan.methods.replay import replay
 
-            self._replays[free] = replay(self, free)
-        return self._replays[free]
+            self._replays[free, kinds] = replay(self, free, kinds)
+        return self._replays[free, kinds]
 
     @cached_property
-    def _replays(self) -> dict[Free, Replay | None]:
+    def _replays(self) -> dict[tuple[Free, tuple[str, ...]], Replay | None]:
         return {}
 
     def __getstate__(self) -> dict[str, Any]:

@@ -20,20 +20,20 @@ AHEAD = 2  # stretches for each worker that wait for it: it never idles, and mem
 PATIENCE = "10s"  # for a scheduler to answer
 
 
-def errand(construction: Construction, given: Coordinates, machine: bool) -> Found:
+def errand(construction: Construction, given: Coordinates, kinds: tuple[str, ...], machine: bool) -> Found:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
-    results = construction.blank(n, None)
+    results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
     return results, stretch(construction, given, results, machine)
 
 
-def shared_out(construction: Construction, parts: Iterable[Coordinates], workers: int | str,
+def shared_out(construction: Construction, parts: Iterable[Coordinates], kinds: tuple[str, ...], workers: int | str,
                machine: bool) -> Iterator[Found]:
     """The results of each part, in order."""
     with _executor(workers) as (executor, hands):
         waiting: deque[Future[Found]] = deque()
         for part in parts:
-            waiting.append(executor.submit(errand, construction, part, machine))
+            waiting.append(executor.submit(errand, construction, part, kinds, machine))
             if len(waiting) > AHEAD * hands:
                 yield waiting.popleft().result()
         while waiting:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Undrawable
@@ -20,12 +20,12 @@ Results = dict[str, dict[str, Any]]
 
 
 class Replay:
-    """The readings of a construction as a function of some of its given numbers, by step (name or index) and parameter.
+    """Readings of a construction as a function of some of its given numbers, by step (name or index) and parameter.
 
     A reading is a number or a pair; `shape` says where each of its numbers stands among the outputs.
     """
 
-    def __init__(self, construction: Construction, free: Free):
+    def __init__(self, construction: Construction, free: Free, kinds: Collection[str]):
         self.construction, self.free = construction, free
         self._blocks: dict[bool, Blocks] = {}
         domain = Symbols()
@@ -37,7 +37,7 @@ class Replay:
         results = construction.read(domain, given)
         self.outputs: list[int] = []
         self.shape = {kind: {name: self._told(value) for name, value in values.items()}
-                      for kind, values in results.items()}
+                      for kind, values in results.items() if kind in kinds}
         self.function = function(self.tape, self.inputs, self.outputs)
 
     def _told(self, value: Any) -> Any:
@@ -80,9 +80,9 @@ def _filled(shape: Any, found: Sequence[Any]) -> Any:
     return tuple(found[k] for k in shape) if isinstance(shape, tuple) else found[shape]
 
 
-def replay(construction: Construction, free: Free) -> Replay | None:
-    """The replay of a construction, or None where what stands still cannot be drawn: then the rules say why."""
+def replay(construction: Construction, free: Free, kinds: Collection[str]) -> Replay | None:
+    """The replay of these kinds of readings, or None where what stands still cannot be drawn: the rules say why."""
     try:
-        return Replay(construction, free)
+        return Replay(construction, free, kinds)
     except (Undrawable, ZeroDivisionError):
         return None

@@ -38,7 +38,7 @@ def shaken(scene: Scene) -> exact.Points:
 
 def ours(drawing: gp.Construction, points: exact.Points) -> exact.Motion:
     """The steps over all poses."""
-    poses = drawing.evaluate(points)
+    poses = drawing.evaluate(points, only=("velocity", "acceleration"))
     return {"velocity": poses.velocity, "acceleration": poses.acceleration}
 
 

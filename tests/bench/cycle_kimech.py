@@ -53,5 +53,5 @@ def moving(scene: gp.Scene) -> exact.Points:
 
 def motion(drawing: gp.Construction, points: exact.Points) -> exact.Motion:
     """The steps over all poses."""
-    poses = drawing.evaluate(points)
+    poses = drawing.evaluate(points, only=("velocity", "acceleration"))
     return {"velocity": poses.velocity, "acceleration": poses.acceleration}

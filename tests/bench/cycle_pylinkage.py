@@ -45,5 +45,5 @@ def moving(scene: gp.Scene) -> exact.Points:
 def motion(drawing: gp.Construction) -> exact.Motion:
     """Positions, and the steps over all of them."""
     points = moving(drawing.scene)
-    poses = drawing.evaluate(points)
+    poses = drawing.evaluate(points, only=("velocity", "acceleration"))
     return {"points": points, "velocity": poses.velocity, "acceleration": poses.acceleration}

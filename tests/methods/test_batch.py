@@ -79,6 +79,18 @@ def test_a_pose_of_its_own_needs_no_points() -> None:
     assert drawing.evaluate({}).velocity["B"][0] == drawing.velocity["B"]
 
 
+def test_only_what_is_wanted_is_reckoned() -> None:
+    """Asked for velocities alone, the replay gives these and nothing else; what the scene does not ask is refused."""
+    drawing = gp.construct(gp.load("jaanimets-10"))
+    points = shaken(drawing.scene, 4)
+    poses = drawing.evaluate(points, only=("velocity",))
+    assert set(poses.results) == {"velocity"}
+    every = drawing.evaluate(points).velocity
+    assert all(np.array_equal(z, every[name]) for name, z in poses.velocity.items())
+    with pytest.raises(Refused, match="does not ask"):
+        drawing.evaluate(points, only=("slide velocity",))
+
+
 @pytest.mark.parametrize("singular", [0, 4095, 4096, 9999])
 def test_one_singular_pose_among_many(singular: int) -> None:
     """A pose that cannot be drawn is nan and says why, wherever it stands; its neighbours are as without it."""

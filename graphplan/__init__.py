@@ -9,13 +9,17 @@ True
 
 from __future__ import annotations
 
-from graphplan import sheet
-from graphplan import solver as analytic
-from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
-from graphplan.mechanism.model import Scene
-from graphplan.mechanism.scene import load, parse
-from graphplan.methods.construct import construct
-from graphplan.methods.construction import Construction
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from graphplan import sheet
+    from graphplan import solver as analytic
+    from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
+    from graphplan.mechanism.model import Scene
+    from graphplan.mechanism.scene import load, parse
+    from graphplan.methods.construct import construct
+    from graphplan.methods.construction import Construction
 
 __version__ = "0.1.0"
 
@@ -23,3 +27,35 @@ __all__ = [
     "Construction", "ConstructionError", "GraphplanError", "Refused", "Scene", "SceneError", "SingularPose",
     "analytic", "construct", "load", "parse", "sheet",
 ]
+
+# The module of every public name, imported when the name is first used: a command loads no more than it needs.
+MODULES = {"analytic": "graphplan.solver", "sheet": "graphplan.sheet"}
+HOMES = {
+    "Construction": "graphplan.methods.construction",
+    "ConstructionError": "graphplan.errors",
+    "GraphplanError": "graphplan.errors",
+    "Refused": "graphplan.errors",
+    "Scene": "graphplan.mechanism.model",
+    "SceneError": "graphplan.errors",
+    "SingularPose": "graphplan.errors",
+    "construct": "graphplan.methods.construct",
+    "load": "graphplan.mechanism.scene",
+    "parse": "graphplan.mechanism.scene",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """A public name, from where it stands; the next time it is here."""
+    if name in MODULES:
+        found = import_module(MODULES[name])
+    elif name in HOMES:
+        found = getattr(import_module(HOMES[name]), name)
+    else:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    """What stands here and what will, when it is asked for."""
+    return sorted({*globals(), *__all__})

@@ -127,6 +127,17 @@ def test_solving_needs_no_drawing_packages() -> None:
     assert done.stderr.strip().endswith("set()"), done.stderr
 
 
+def test_a_command_loads_no_more_than_it_needs() -> None:
+    """Importing graphplan loads no folder of it; solving loads no other command, no sheet and no back end."""
+    code = ("import sys, graphplan; print([m for m in sys.modules if m.startswith('graphplan.')], file=sys.stderr); "
+            "from graphplan.commands import SUBCOMMANDS, main; assert main(['solve', 'four-bar']) == 0; "
+            "others = {f'graphplan.commands.{name}' for name in SUBCOMMANDS} - {'graphplan.commands.solve'}; "
+            "unused = [m for m in sys.modules if m in others or m.startswith(('graphplan.sheet', 'graphplan.back'))]; "
+            "print(unused, file=sys.stderr)")
+    done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
+    assert done.stderr.split() == ["[]", "[]"], done.stderr
+
+
 FORCES = ("methods.loaded", "methods.forces", "methods.statics", "methods.lever", "methods.friction", "check.held",
           "solver.statics", "solver.virtual_power", "solver.friction")
 

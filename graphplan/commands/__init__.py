@@ -26,8 +26,8 @@ exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one subcommand; its exit status."""
-    parser = _parser()
-    options = parser.parse_args(argv)
+    arguments = sys.argv[1:] if argv is None else list(argv)
+    options = _parser(_called(arguments)).parse_args(arguments)
     try:
         status = int(options.run(options))
         sys.stdout.flush()
@@ -43,7 +43,13 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 130
 
 
-def _parser() -> argparse.ArgumentParser:
+def _called(arguments: Sequence[str]) -> Sequence[str]:
+    """The subcommand that is called, as its module alone is needed; all where help is wanted."""
+    return arguments[:1] if arguments and arguments[0] in SUBCOMMANDS else SUBCOMMANDS
+
+
+def _parser(names: Sequence[str]) -> argparse.ArgumentParser:
+    """The command line of these subcommands."""
     parser = argparse.ArgumentParser(
         prog="graphplan",
         description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as ordered "
@@ -52,7 +58,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
-    for name in SUBCOMMANDS:
+    for name in names:
         module = importlib.import_module(f"graphplan.commands.{name}")
         summary, _, details = (module.__doc__ or "").partition("\n")
         command = commands.add_parser(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import argparse
 import os
 import sys
-import tempfile
 from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
@@ -64,6 +63,8 @@ def write(content: str | bytes, path: str | None) -> None:
         return
     assert path is not None
     data = content.encode() if isinstance(content, str) else content
+    import tempfile
+
     temporary = ""
     try:
         folder = os.path.dirname(os.path.abspath(path))

@@ -32,6 +32,6 @@ def run(options: argparse.Namespace) -> int:
     method, told = chosen(options, scene, paper=options.paper)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia)
     found.drawing.notes.extend(told)
-    errors = drafted(found.drawing, hand, options.paper, found.check).deviations
-    write(sheet.svg(found.drawing, paper=options.paper, check=found.check, pencil=errors), options.output)
+    composition = drafted(found.drawing, hand, options.paper, found.check).composition
+    write(sheet.svg(found.drawing, composition=composition), options.output)
     return 0

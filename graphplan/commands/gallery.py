@@ -67,7 +67,7 @@ def _pages() -> Iterator[tuple[str, str]]:
         found = report(load(name))
         scene = found.scene
         errors = drafted(found.drawing, Pencil(), check=found.check)
-        yield f"{name}.svg", sheet.svg(found.drawing, check=found.check, pencil=errors.deviations)
+        yield f"{name}.svg", sheet.svg(found.drawing, composition=errors.composition)
         yield f"{name}.txt", protocol(found.drawing, structure(scene).lines(), errors.lines())
         entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
     if sys.stderr.isatty():

@@ -4,6 +4,9 @@ A form is tried on the board itself, so that it may use what is drawn already; i
 gives the value of the compound's rule from the marks that it reads. Crossings below one degree are for want of
 better; of the others, one on the sheet beats one off it, crossings above 15 degrees beat flatter ones, and then the
 fewest movements win. What no form can draw in this pose stays one step.
+
+Compounds inside a form that is tried are tried in turn, but only their best form counts: there a form is left off as
+soon as it has taken as many movements as one that has nothing against it (branch and bound).
 """
 
 from __future__ import annotations
@@ -57,15 +60,20 @@ CROSSINGS = {"meet", "line_meets_circle", "circles_meet"}
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
 
+class Outdone(Exception):
+    """Raised where a form that is tried can no longer be the best, however well it goes on."""
+
+
 @dataclass(frozen=True)
 class Trial:
-    """How well one form draws in this pose."""
+    """How well one form draws in this pose; of one that was left off, how well it could at best."""
 
     form: str
     movements: int
-    on_sheet: bool
-    sharpest: float
+    on_sheet: bool = True
+    sharpest: float = 1.0
     undrawn: int = 0
+    left_off: bool = False
 
     @property
     def rank(self) -> tuple[int, bool, bool, bool, int]:
@@ -96,6 +104,7 @@ class Expander:
         self.values: list[Any] = []
         self.panel = ""
         self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
+        self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 
     def run(self) -> Program:
         """The expanded program."""
@@ -122,22 +131,38 @@ class Expander:
         return self.values[mark.step.index]
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
-             names: Mapping[str, str] | None = None) -> Mark:
-        """Draw one operation: as one step if it is one, else in its best form."""
-        trials = [] if op.name in self.keep else self._trials(op, args, params)
+             names: Mapping[str, str] | None = None, tried: bool = False) -> Mark:
+        """Draw one operation: as one step if it is one, else in its best form.
+
+        What is only `tried` is taken back, so it gets neither letters nor reasons.
+        """
+        trials = [] if op.name in self.keep else self._trials(op, args, params, tried)
         if not trials:
             return self._record(op, args, params, why)
         before = len(self.board.steps)
-        out: Mark = op.forms[trials[0].form](Pencil(self, dict(names or {})), *args, **params)
+        out: Mark = op.forms[trials[0].form](Pencil(self, None if tried else dict(names or {})), *args, **params)
         self._made.setdefault(out.step.index, (op.name, args))
-        self._explain(op, before, trials, why, out)
+        if not tried:
+            self._explain(op, before, trials, why, out)
         return out
 
-    def _trials(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any]) -> list[Trial]:
-        """The forms that can be drawn, the best first."""
+    def _trials(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
+                tried: bool = False) -> list[Trial]:
+        """The forms that can be drawn, the best first; inside a form that is `tried` only the first is sure."""
         truth = op.rule(FLOATS, *map(self.value, args), **params)
-        trials = [self._try(op, args, params, truth, name) for name in op.forms]
-        return sorted((trial for trial in trials if trial), key=self._rank)
+        found: list[Trial] = []
+        for form in op.forms:
+            trial = self._try(op, args, params, truth, form, self._allowed(form, found) if tried else math.inf)
+            found += [trial] if trial else []
+        found.sort(key=self._rank)
+        if found and found[0].left_off:
+            raise Outdone
+        return found
+
+    def _allowed(self, form: str, found: list[Trial]) -> float:
+        """The movements that a form may take and still be better than those found."""
+        *ideal, _ = self._rank(Trial(form, 0))
+        return min((trial.movements - 1 for trial in found if self._rank(trial)[:-1] <= tuple(ideal)), default=math.inf)
 
     def _rank(self, trial: Trial) -> tuple[Any, ...]:
         return not (self.prefer and trial.form.startswith(self.prefer)), *trial.rank
@@ -146,13 +171,16 @@ class Expander:
         """Record one step and give it its value."""
         mark = self.board.draw(op, args, why=why, **params)
         if mark.step.index == len(self.values):
-            self.values.append(op.rule(FLOATS, *map(self.value, args), **params))
+            self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in mark.step.args], **params))
+            if len(self.values) > self._limit:
+                raise Outdone
         return mark
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             form: str) -> Trial | None:
-        """Draw a form without letters, look at it, take it back."""
-        before, size = len(self.board.steps), self.size
+             form: str, allowed: float) -> Trial | None:
+        """Draw a form without letters, in no more than the movements allowed; look at it, take it back."""
+        before, size, limit = len(self.board.steps), self.size, self._limit
+        self._limit = min(limit, before + allowed)
         try:
             out: Mark | None = op.forms[form](Pencil(self, None), *args, **params)
             if out is None or not self._agrees(op, self.value(out), truth, size):
@@ -160,10 +188,15 @@ class Expander:
             return self._judge(form, before)
         except (Undrawable, ZeroDivisionError):
             return None
+        except Outdone:
+            return Trial(form, int(self._limit) + 1 - before, left_off=True)
         finally:
+            self._limit = limit
+            drawn = len(self.board.steps)
             self.board.rewind(before)
             del self.values[before:]
-            self._made = {index: made for index, made in self._made.items() if index < before}
+            for index in range(before, drawn):
+                self._made.pop(index, None)
 
     @property
     def size(self) -> float:
@@ -198,8 +231,9 @@ class Expander:
 
         Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
         """
-        plans = {self.board.steps[arg].panel for arg in step.args}
-        return "parallel" in self.keep and step.op.name in ("line", "opening") and len(plans) > 1
+        if step.op.name not in ("line", "opening") or "parallel" not in self.keep:
+            return False
+        return len({self.board.steps[arg].panel for arg in step.args}) > 1
 
     def _crossing(self, step: Step) -> float:
         """The sine of the angle under which two curves cross."""
@@ -235,12 +269,12 @@ class Pencil:
 
     def side(self, P: Mark, Q: Mark) -> Mark:
         """The line through two points, whichever way it runs: drawn once for both orders."""
-        one, two = sorted((P, Q), key=lambda mark: mark.step.index)
-        return self._draw(TABLE["line"], (one, two), "", {})
+        in_order = (P, Q) if P.step.index <= Q.step.index else (Q, P)
+        return self._draw(TABLE["line"], in_order, "", {})
 
     def _draw(self, op: Primitive, args: tuple[Mark, ...], name: str, params: dict[str, Any]) -> Mark:
         expander, letter = self._expander, (self._names or {}).get(name, "")
-        mark = expander.draw(op, args, params)
+        mark = expander.draw(op, args, params, tried=self._names is None)
         return expander.board.named(mark, letter) if letter else mark
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
@@ -262,6 +296,11 @@ class Pencil:
         """Whether a point lies on a line of its plan."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
         return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b))
+
+    def way(self, P: Mark, Q: Mark, R: Mark) -> str:
+        """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
+        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
+        return "on" if ((q - p).conjugate() * (r - p)).real >= 0 else "back"
 
     def distance(self, P: Mark, Q: Mark) -> float:
         return math.dist(self._expander.value(P), self._expander.value(Q))

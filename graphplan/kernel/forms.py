@@ -173,6 +173,8 @@ def _ray(way: str) -> Callable[..., Any]:
     """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
 
     def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        if s.way(A, B, C) != way:
+            return None
         PQ = s.side(P, Q)
         ray = s.perpendicular(PQ, P)
         B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
@@ -195,6 +197,8 @@ def _on_the_link(way: str) -> Callable[..., Any]:
     """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
 
     def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        if s.way(A, B, C) != way:
+            return None
         ray = s.perpendicular(s.side(A, B), A)
         Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
         P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)

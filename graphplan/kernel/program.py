@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn
@@ -38,8 +38,12 @@ class Step:
     @property
     def key(self) -> tuple[Any, ...]:
         """What makes two steps the same drawing."""
-        args = tuple(sorted(self.args)) if self.op.symmetric else self.args
-        return self.op.name, args, tuple(sorted(self.params.items()))
+        return _key(self.op, self.args, self.params)
+
+
+def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[Any, ...]:
+    """What an operation draws, whatever it is called: the operands of a symmetric one have no order."""
+    return op.name, tuple(sorted(args)) if op.symmetric else args, tuple(sorted(params.items())) if params else ()
 
 
 class Mark:
@@ -115,25 +119,27 @@ class Board:
         **params: Any,
     ) -> Mark:
         """Record one step; names that are taken get a prime, the first name of a mark stays."""
-        kinds = tuple(arg.kind for arg in args)
-        if kinds != op.reads:
+        read = [arg.step for arg in args]
+        if (kinds := tuple([step.op.gives for step in read])) != op.reads:
             raise TypeError(f"{op.name} reads {op.reads}, was given {kinds}")
-        if set(params) != set(op.params):
+        if params.keys() != set(op.params):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if any(arg.board is not self for arg in args):
             raise ValueError(f"{op.name} was given a mark of another board")
-        panel = args[op.where].step.panel if args else self._context["panel"]
-        step = Step(len(self.steps), "", op, tuple(arg.step.index for arg in args), params,
-                    panel, why, self._context["links"], names or {}, form, reason)
-        same = self._drawn.get(step.key)
+        places = tuple([step.index for step in read])
+        key = _key(op, places, params)
+        same = self._drawn.get(key)
         if same is not None and op.name != "given":  # coincident points of the pose stay apart
             if name and not same.step.name:
                 self._rename(same, name)
             return same
+        panel = read[op.where].panel if read else self._context["panel"]
+        step = Step(len(self.steps), "", op, places, params,
+                    panel, why, self._context["links"], names or {}, form, reason)
         mark = Mark(self, step)
         self.steps.append(step)
         self.marks.append(mark)
-        self._drawn[step.key] = mark
+        self._drawn[key] = mark
         if name:
             self._rename(mark, name)
         return mark
@@ -142,7 +148,7 @@ class Board:
         while name in self._names:
             name += "'"
         self._names.add(name)
-        named = Step(**{**mark.step.__dict__, "name": name})
+        named = replace(mark.step, name=name)
         self.steps[named.index] = mark.step = named
 
     def named(self, mark: Mark, name: str) -> Mark:
@@ -153,8 +159,7 @@ class Board:
 
     def annotate(self, index: int, **notes: str) -> None:
         """Add notes (why, form, reason) to a step that is drawn."""
-        noted = Step(**{**self.steps[index].__dict__, **notes})
-        self.steps[index] = self.marks[index].step = noted
+        self.steps[index] = self.marks[index].step = replace(self.steps[index], **notes)  # type: ignore[arg-type]
 
     def rewind(self, length: int) -> None:
         """Take back all steps after the first `length`: a form was tried and is not used."""

@@ -8,8 +8,7 @@ import sys
 import tomllib
 from collections import Counter
 from fractions import Fraction
-from importlib.resources import files
-from importlib.resources.abc import Traversable
+from pathlib import Path
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
@@ -72,9 +71,8 @@ def packaged() -> list[str]:
     return sorted(entry.name.removesuffix(".toml") for entry in _packaged())
 
 
-def _packaged() -> list[Traversable]:
-    folder = files("graphplan") / "scenes"
-    return [entry for entry in folder.iterdir() if entry.name.endswith(".toml")] if folder.is_dir() else []
+def _packaged() -> list[Path]:
+    return list((Path(__file__).parents[1] / "scenes").glob("*.toml"))
 
 
 def parse(text: str, name: str) -> Scene:

@@ -6,19 +6,19 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from graphplan.sheet.deviations import Deviations
+    from graphplan.sheet.composition import Composition
     from graphplan.sheet.planes import Drawing
 
 
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-        pencil: Deviations | None = None) -> str:
+        composition: Composition | None = None) -> str:
     """The construction sheet as SVG text.
 
     Reads a construction, the name of a sheet (such as `A3` or `A4 portrait`; without it the smallest good one is
-    taken), what the check against the analytic solver found, by kind, and the expected drawing errors at the scales of
-    this sheet. Fails with `Refused` where the words do not fit.
+    taken) and what the check against the analytic solver found, by kind; or the composition of the sheet, if it is
+    composed already, such as with the expected drawing errors. Fails with `Refused` where the words do not fit.
     """
     from graphplan.backends.svg import svg as write
     from graphplan.sheet.layout import layout
 
-    return write(layout(drawing, paper, check, pencil))
+    return write(layout(drawing, paper, check, composition))

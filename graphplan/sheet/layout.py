@@ -9,7 +9,6 @@ from graphplan.sheet import clip, pens
 from graphplan.sheet.captions import captions
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
-from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.display import Item, Polygon, Sheet, Spot
 from graphplan.sheet.labels import Wish, placed
 from graphplan.sheet.letters import Letters
@@ -26,12 +25,12 @@ BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs
 
 
 def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-           pencil: Deviations | None = None) -> Sheet:
-    """The sheet of a construction; `paper` names its size, else the smallest good one is taken.
+           composition: Composition | None = None) -> Sheet:
+    """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    planes, composition = Planes(drawing), compose(drawing, paper, check, pencil)
+    planes, composition = Planes(drawing), composition or compose(drawing, paper, check)
     block = TitleBlock(drawing.scene.title, drawing.scene.source)
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_frame(arrangement))

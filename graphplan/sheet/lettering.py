@@ -45,6 +45,7 @@ class Run:
 
 
 Runs = tuple[Run, ...]
+SPACE: Runs = (Run(" "),)
 
 
 def name_runs(name: str) -> Runs:
@@ -61,20 +62,19 @@ def name_runs(name: str) -> Runs:
 _PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha)\b")
 
 
+@lru_cache(maxsize=1024)  # the words of a sheet are set for every width of column that is tried
 def sentence_runs(sentence: str, names: tuple[str, ...] = ()) -> Runs:
     """A sentence as runs; `names` are marks whose names may stand in it, even run together as in `v_qC`."""
-    if not names:
-        return _spelled(sentence, _PLAIN)
-    return _spelled(sentence, re.compile(_alternatives(names) + "|" + _PLAIN.pattern))
+    return _spelled(sentence, _pattern(names) if names else _PLAIN)
 
 
 @lru_cache(maxsize=8)
-def _alternatives(names: tuple[str, ...]) -> str:
-    """A pattern for the names that need setting, longest first."""
+def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
+    """What needs setting: the names, longest first, and what always does."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
     parts = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) for n in ranked]
-    return "|".join(parts) if parts else r"(?!)"
+    return re.compile("|".join([*parts, _PLAIN.pattern]))
 
 
 def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
@@ -99,26 +99,33 @@ def _joined(runs: Runs) -> Runs:
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:
     """How long the lettering is, in mm."""
-    ems = sum(sum(ADVANCE.get(char, 0.7) for char in run.text) * (SUBSCRIPT if run.level else 1.0) for run in runs)
-    return ems * size * (_BOLD if bold else 1.0)
+    return _ems(runs) * size * (_BOLD if bold else 1.0)
+
+
+@lru_cache(maxsize=4096)
+def _ems(runs: Runs) -> float:
+    """How long the lettering is, beside its size."""
+    return sum(sum([ADVANCE.get(char, 0.7) for char in run.text]) * (SUBSCRIPT if run.level else 1.0) for run in runs)
 
 
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
     """The lettering in lines no longer than `room`, broken at spaces; a word too long for a line is broken anywhere."""
     lines: list[Runs] = []
     line: Runs = ()
+    long, space = 0.0, width(SPACE, size, bold)
     for word in _words(runs):
-        longer = _joined((*line, Run(" "), *word)) if line else word
-        if width(longer, size, bold) <= room:
-            line = longer
+        wide = width(word, size, bold)
+        if line and long + space + wide <= room:
+            line, long = (*line, *SPACE, *word), long + space + wide
             continue
         if line:
-            lines.append(line)
+            lines.append(_joined(line))
         line = word
         while width(line, size, bold) > room and len(_flat(line)) > 1:
             head, line = _broken(line, size, room, bold)
             lines.append(head)
-    return [*lines, line] if line else lines
+        long = width(line, size, bold)
+    return [*lines, _joined(line)] if line else lines
 
 
 def plain(runs: Runs) -> str:
@@ -126,6 +133,7 @@ def plain(runs: Runs) -> str:
     return "".join(run.text for run in runs)
 
 
+@lru_cache(maxsize=1024)
 def _words(runs: Runs) -> list[Runs]:
     words: list[list[Run]] = [[]]
     for run in runs:

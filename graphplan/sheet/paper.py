@@ -91,7 +91,9 @@ def _below(frame: Rect, rows: Measure[Sequence[Row]], title: Measure[float]) -> 
     pitch = frame.width / count
     text, high = rows(pitch - GUTTER), title(pitch)
     block = Rect(frame.right - pitch, frame.bottom, frame.right, frame.bottom + high)
-    strip = max(high, 20.0)
+    strip, needed = max(high, 20.0), sum(row.height for row in text)
+    while count * strip - high < needed:  # whatever the columns, they cannot hold it
+        strip += 4.0
     while strip < 0.75 * frame.height:
         top = frame.bottom + strip
         columns = _columns(Rect(frame.left, frame.bottom, frame.right, top), count, block)

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from graphplan.commands import main
+from graphplan.commands import SUBCOMMANDS, main
 from graphplan.mechanism.scene import packaged
 
 FOUR_BAR = """
@@ -277,6 +277,13 @@ def test_every_command_shows_examples(capsys: pytest.CaptureFixture[str]) -> Non
     for command in ([], ["draw"], ["steps"], ["solve"], ["check"], ["gallery"]):
         assert run(*command, "--help") == 0
         assert "examples:" in capsys.readouterr().out
+
+
+def test_help_lists_every_command(capsys: pytest.CaptureFixture[str]) -> None:
+    """`--help` names every command, though a call loads but one of them."""
+    assert run("--help") == 0
+    said = capsys.readouterr().out
+    assert all(f"\n    {name} " in said for name in SUBCOMMANDS)
 
 
 def test_packaged_scenes_are_named_without_a_path(capsys: pytest.CaptureFixture[str]) -> None:

@@ -88,7 +88,7 @@ def test_steps_tell_cost_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
 def test_the_sheet_tells_every_error(name: str) -> None:
     """Every result's error stands on the sheet, whose scales are those that it was found at."""
     drafted = drafted_of(name)
-    sheet = layout(drafted.drawing, pencil=drafted.deviations)
+    sheet = layout(drafted.drawing, composition=drafted.composition)
     assert sheet.scales == drafted.composition.scales
     words = ["".join(run.text for run in item.runs) for item in sheet.items if isinstance(item, Text)]
     for kind, found in drafted.deviations.results.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 from random import Random
 from typing import Any
 
@@ -63,6 +64,16 @@ def test_form_draws_the_value(name: str, form: str) -> None:
             found = expander._trials(TABLE[name], marks, program.steps[-1].params)
             chosen += any(trial.form == form for trial in found)
     assert chosen
+
+
+@pytest.mark.parametrize("name", COMPOUNDS)
+def test_leaving_off_finds_the_best(name: str) -> None:
+    """Inside a form that is tried, forms are left off that cannot win: the best is the same as of all drawn out."""
+    for program, values in figures(name, corners, 40):
+        expander, marks = laid_out(program, values, name)
+        expander.keep = STRICT
+        ask = partial(expander._trials, TABLE[name], marks, program.steps[-1].params)
+        assert ask(tried=True)[:1] == ask()[:1]
 
 
 @pytest.mark.parametrize(("name", "form"), FORMS)

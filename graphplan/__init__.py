@@ -13,7 +13,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from graphplan import sheet
+    from graphplan import cycle, sheet
     from graphplan import solver as analytic
     from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
     from graphplan.mechanism.model import Scene
@@ -25,11 +25,11 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Construction", "ConstructionError", "GraphplanError", "Refused", "Scene", "SceneError", "SingularPose",
-    "analytic", "construct", "load", "parse", "sheet",
+    "analytic", "construct", "cycle", "load", "parse", "sheet",
 ]
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
-MODULES = {"analytic": "graphplan.solver", "sheet": "graphplan.sheet"}
+MODULES = {"analytic": "graphplan.solver", "cycle": "graphplan.cycle", "sheet": "graphplan.sheet"}
 HOMES = {
     "Construction": "graphplan.methods.construction",
     "ConstructionError": "graphplan.errors",

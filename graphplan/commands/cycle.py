@@ -52,6 +52,8 @@ def run(options: argparse.Namespace) -> int:
     scene = load(options.scene)
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
+    if options.output and not options.output.endswith((".csv", ".npz")):
+        raise Refused(f"{options.output}: output", "it is no table that is known here", "a name in .csv or .npz")
     span = None if options.start is None else (options.start, options.end)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()

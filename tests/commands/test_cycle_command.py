@@ -141,6 +141,7 @@ FAULTS = {
     ("--positions", "5", "--plot", "x.svg", "--of", "9"): "no such thing",
     ("--positions", "5", "--plot", "x.svg", *["--of", "3"] * 5): "at most 4",
     ("--positions", "5", "-o", "missing/table.csv"): "cannot be written",
+    ("--positions", "5", "-o", "table.ods"): ".csv or .npz",
 }
 
 

@@ -156,7 +156,7 @@ def test_a_dask_cluster_gives_what_one_gives() -> None:
     distributed = pytest.importorskip("distributed")
     drawing = gp.construct(gp.load("four-bar"))
     points = shaken(drawing.scene, 100)
-    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, processes=False, dashboard_address=None) as crew:
+    with distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as crew:
         poses = drawing.evaluate(points, workers=crew.scheduler_address)
     assert np.array_equal(poses.velocity["B"], drawing.evaluate(points).velocity["B"])
 

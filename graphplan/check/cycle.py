@@ -105,6 +105,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
         _enter(found, left, drawn.results, gaps, sound | (other is drawing))
         left = left.some(~sound)
     faults = {k: why for k, why in sorted(found.faults.items()) if k not in found.otherwise}
+    _clear(found, list(faults))
     closed = span is None and not turn.faults and _comes_back(scene)
     return replace(found, faults=faults, wrong=tuple(int(k) for k in left.places if k not in faults), closed=closed)
 
@@ -141,6 +142,12 @@ def _enter(found: Cycle, part: _Round, results: Mapping[str, Mapping[str, Any]],
             found.results[kind][name][places] = z[kept]
     for kind, gap in gaps.items():
         found.gaps[kind][places] = gap[kept]
+
+
+def _clear(found: Cycle, places: list[int]) -> None:
+    """Poses with a fault have no results: near a limit there are numbers, and they say nothing."""
+    for z in (*(z for named in found.results.values() for z in named.values()), *found.gaps.values()):
+        z[places] = np.nan
 
 
 def _sound(part: _Round, gaps: Mapping[str, Any]) -> Any:

@@ -233,12 +233,14 @@ class Construction:
 
         return self._named(array)
 
-    def replay(self, points: Mapping[str, complex] | None = None) -> dict[str, dict[str, Any]]:
-        """All readings, by kind and name, with some points elsewhere; made for many poses one after the other."""
+    def replay(self, points: Mapping[str, complex] | None = None, *,
+               only: Collection[str] | None = None) -> dict[str, dict[str, Any]]:
+        """All readings, or `only` those of some kinds, with some points elsewhere: for poses that come one by one."""
         given = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
-        free = tuple((name, part) for name in given for part in "xy")
-        found = self.replay_of(free, self.kinds)
-        return self.read(Floats(), given) if found is None else found.read(given)
+        kinds = self.kinds if only is None else tuple(only)
+        found = self.replay_of(tuple([(name, part) for name in given for part in "xy"]), kinds)
+        return found.read(given) if found is not None else {
+            kind: named for kind, named in self.read(Floats(), given).items() if kind in kinds}
 
     @property
     def kinds(self) -> tuple[str, ...]:

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.source import function
+from graphplan.kernel.tape.source import function, places
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks
@@ -22,7 +22,7 @@ Results = dict[str, dict[str, Any]]
 class Replay:
     """Readings of a construction as a function of some of its given numbers, by step (name or index) and parameter.
 
-    A reading is a number or a pair; `shape` says where each of its numbers stands among the outputs.
+    A reading is a number or a pair; `told` says, by kind and name, where on the tape its numbers stand.
     """
 
     def __init__(self, construction: Construction, free: Free, kinds: Collection[str]):
@@ -35,24 +35,23 @@ class Replay:
             given.setdefault(mark, {})[parameter] = self.tape.input(f"{mark}.{parameter}")
         self.inputs = [given[mark][parameter].place for mark, parameter in free]
         results = construction.read(domain, given)
-        self.outputs: list[int] = []
-        self.shape = {kind: {name: self._told(value) for name, value in values.items()}
-                      for kind, values in results.items() if kind in kinds}
-        self.function = function(self.tape, self.inputs, self.outputs)
+        self.told = {kind: {name: self._place(value) for name, value in values.items()}
+                     for kind, values in results.items() if kind in kinds}
+        self.outputs = list(places(self.told))
+        self.function = function(self.tape, self.inputs, self.told)
 
-    def _told(self, value: Any) -> Any:
-        if isinstance(value, tuple):
-            return tuple(self._told(number) for number in value)
-        self.outputs.append(self.tape.place(value))
-        return len(self.outputs) - 1
+    def _place(self, value: Any) -> Any:
+        return tuple(map(self._place, value)) if isinstance(value, tuple) else self.tape.place(value)
 
     def read(self, given: Given) -> Results:
         """All readings in one pose, in floats; fails as the rules do."""
         try:
-            found = self.function(*[given[mark][parameter] for mark, parameter in self.free])
+            found: Results | None = self.function(*[given[mark][parameter] for mark, parameter in self.free])
         except (ZeroDivisionError, OverflowError):
             found = None
-        return self.construction.read(Floats(), given) if found is None else self.shaped(found)
+        if found is not None:
+            return found
+        return {kind: named for kind, named in self.construction.read(Floats(), given).items() if kind in self.told}
 
     def run(self, given: Given, found: Results, machine: bool = False) -> list[slice]:
         """Fill readings over n poses, vectors as complex numbers; the blocks of poses that are left to the rules."""
@@ -65,19 +64,10 @@ class Replay:
 
     def _rows(self, found: Results) -> Iterator[Any]:
         """The array of each output, in order."""
-        for kind, values in self.shape.items():
-            for name, places in values.items():
+        for kind, values in self.told.items():
+            for name, told in values.items():
                 z = found[kind][name]
-                yield from (z.real, z.imag) if isinstance(places, tuple) else (z,)
-
-    def shaped(self, found: Sequence[Any]) -> Results:
-        """Outputs as readings, by kind and name."""
-        return {kind: {name: _filled(value, found) for name, value in values.items()}
-                for kind, values in self.shape.items()}
-
-
-def _filled(shape: Any, found: Sequence[Any]) -> Any:
-    return tuple(found[k] for k in shape) if isinstance(shape, tuple) else found[shape]
+                yield from (z.real, z.imag) if isinstance(told, tuple) else (z,)
 
 
 def replay(construction: Construction, free: Free, kinds: Collection[str]) -> Replay | None:

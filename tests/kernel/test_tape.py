@@ -35,7 +35,7 @@ class Recorded:
 
     def one(self, pose: list[float]) -> tuple[float, ...] | None:
         try:
-            found: tuple[float, ...] | None = function(self.tape, self.inputs, self.outputs)(*pose)
+            found: tuple[float, ...] | None = function(self.tape, self.inputs, tuple(self.outputs))(*pose)
         except (ZeroDivisionError, OverflowError):
             return None
         return found

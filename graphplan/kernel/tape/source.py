@@ -80,15 +80,33 @@ def _places(question: Question) -> tuple[int, ...]:
     return (question.value,) if question.scale is None else (question.value, question.scale)
 
 
-def function(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., Any]:
-    """A Python function from the inputs (places of the tape) to a tuple of the outputs, or None where a question fails.
+def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]:
+    """A Python function from the inputs (places of the tape) to what is told, or to None where a question fails.
 
-    Floats in, floats out; may raise ZeroDivisionError or OverflowError where the rules would.
+    `told` is a place, or tuples and dictionaries of such; the function gives floats in the same shape. It may raise
+    ZeroDivisionError or OverflowError where the rules would.
     """
     head = f"def replay({', '.join(f'v{place}' for place in inputs)}):"
-    told = ", ".join(spoken(tape, place) for place in outputs)
-    body = [*statements(tape, outputs, "return None"), f"return ({told},)"]
+    body = [*statements(tape, list(places(told)), "return None"), f"return {_shaped(tape, told)}"]
     return compiled("\n    ".join([head, *body]), "replay")
+
+
+def places(told: Any) -> Iterator[int]:
+    """The places in a shape, in order."""
+    if isinstance(told, int):
+        yield told
+    else:
+        for part in told.values() if isinstance(told, dict) else told:
+            yield from places(part)
+
+
+def _shaped(tape: Tape, told: Any) -> str:
+    """The expression for what is told."""
+    if isinstance(told, dict):
+        return "{" + ", ".join(f"{name!r}: {_shaped(tape, part)}" for name, part in told.items()) + "}"
+    if isinstance(told, tuple):
+        return "(" + "".join(f"{_shaped(tape, part)}, " for part in told) + ")"
+    return spoken(tape, told)
 
 
 @lru_cache(maxsize=64)

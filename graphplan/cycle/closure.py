@@ -16,27 +16,28 @@ from graphplan.cycle.linkage import Array, Gliding, Linkage, Turning
 
 
 class Correction(NamedTuple):
-    """Newton's correction of n poses, their motion a unit of travel, both (n, freedoms), and the derivatives."""
+    """Newton's correction of n poses, shape (n, freedoms), and the derivatives that it rests on."""
 
     step: Array
-    motion: Array
     jacobian: Array
 
     @property
     def size(self) -> Array:
         """The largest part of each pose's correction, in radians and reaches; shape (n,)."""
-        return np.max(np.abs(self.step), axis=1)
+        return np.abs(self.step).max(axis=1)
 
 
 class Closure:
     """The closure of some parts of a linkage, what is placed before them being known.
 
-    `blocks` says where the equations and the freedoms of each part lie: no part needs those after it.
+    `blocks` says where the equations and the freedoms of each part lie: no part needs those after it. Equations of one
+    kind are reckoned together: `rows` brings them into order, and `cells` are the places of their derivatives.
     """
 
     def __init__(self, linkage: Linkage, parts: tuple[tuple[str, ...], ...]):
         links = [link for part in parts for link in part]
-        self.columns = np.array([linkage.order[link] for link in links])
+        first = linkage.order[links[0]]
+        self.columns = slice(first, first + len(links))  # the parts follow each other
         ends = np.cumsum([0, *(3 * len(part) for part in parts)])
         self.blocks = [slice(start, end) for start, end in pairwise(ends)]
         bonds = [bond for link in links for bond in linkage.bonds[link]]
@@ -45,78 +46,89 @@ class Closure:
         freedom[self.columns] = np.arange(0, 3 * len(links), 3)
         self._gliding(linkage, freedom, {i: bond for i, bond in enumerate(bonds) if isinstance(bond, Gliding)})
         self._turning(linkage, freedom, {i: bond for i, bond in enumerate(bonds) if isinstance(bond, Turning)})
+        self.rows = np.argsort([*self.glide, *self.swing])
+        self.cells = np.concatenate([self.glide_cells, self.swing_cells])
 
     def _gliding(self, linkage: Linkage, freedom: Array, bonds: dict[int, Gliding]) -> None:
         """A point of one link stays on another, or moves along a direction fixed to a third."""
         self.glide = np.array(list(bonds), dtype=int)
-        self.link, self.on, self.to = (np.array([linkage.order[end] for end in ends], dtype=int) for ends in (
+        link, on, to = (np.array([linkage.order[end] for end in ends], dtype=int) for ends in (
             [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()],
             [bond.to for bond in bonds.values()]))
-        self.arm, self.arm_on = (np.array(arms, dtype=complex) / linkage.reach for arms in (
-            [bond.place - linkage.origins[bond.link] for bond in bonds.values()],
-            [bond.place - linkage.origins[bond.on] for bond in bonds.values()]))
+        self.base_ends, self.turn_ends = np.stack([link, on]), len(linkage.links) + np.stack([link, on, to])
+        self.arms = np.array([[bond.place - linkage.origins[bond.link] for bond in bonds.values()],
+                              [bond.place - linkage.origins[bond.on] for bond in bonds.values()]]) / linkage.reach
         self.direction = np.array([bond.direction for bond in bonds.values()], dtype=complex)
-        self.of_link, self.of_on, self.of_to = freedom[self.link], freedom[self.on], freedom[self.to]
+        row = self.glide * (len(self.drive) + 3)
+        self.glide_cells = np.concatenate([row + freedom[end] + k for end in (link, on) for k in range(3)])
+        self.to_cells = row + freedom[to] + 2
 
     def _turning(self, linkage: Linkage, freedom: Array, bonds: dict[int, Turning]) -> None:
         """One link turns on another as a drive says, or not at all."""
         self.swing = np.array(list(bonds), dtype=int)
-        self.one, self.two = (np.array([linkage.order[end] for end in ends], dtype=int) for ends in (
-            [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()]))
-        self.of_one, self.of_two = freedom[self.one] + 2, freedom[self.two] + 2
+        ends = np.array([[linkage.order[bond.link], linkage.order[bond.on]] for bond in bonds.values()], dtype=int)
+        one, two = ends.reshape(-1, 2).T
+        self.swing_ends = len(linkage.links) + np.stack([one, two])
+        row = self.swing * (len(self.drive) + 3)
+        self.swing_cells = np.concatenate([row + freedom[end] + 2 for end in (one, two)])
 
     def equations(self, pose: Array, travel: Array) -> tuple[Array, Array]:
         """What each equation leaves, shape (n, k), and its derivatives by the freedoms, shape (n, k, k)."""
         n, k = len(travel), len(self.drive)
-        left, slope = np.empty((n, k)), np.zeros((n, k, k + 3))
-        base, turn = pose[:, 0], pose[:, 1]
-        ray = (self.direction * turn[:, self.to]).conj()
-        arm, arm_on = turn[:, self.link] * self.arm, turn[:, self.on] * self.arm_on
-        gap = ray * (base[:, self.link] - base[:, self.on] + arm - arm_on)
-        left[:, self.glide] = gap.real - travel[:, None] * self.drive[self.glide]
-        for sign, column, lever in ((1, self.of_link, arm), (-1, self.of_on, arm_on)):
-            slope[:, self.glide, column] += sign * ray.real
-            slope[:, self.glide, column + 1] -= sign * ray.imag
-            slope[:, self.glide, column + 2] -= sign * (ray * lever).imag
-        slope[:, self.glide, self.of_to + 2] += gap.imag
-        excess = turn[:, self.one] * turn[:, self.two].conj() * np.exp(-1j * travel[:, None] * self.drive[self.swing])
-        left[:, self.swing] = excess.imag
-        slope[:, self.swing, self.of_one] += excess.real
-        slope[:, self.swing, self.of_two] -= excess.real
-        return left, slope[:, :, :k]
+        flat, slope = pose.reshape(n, 2 * pose.shape[2]), np.zeros((n, k * (k + 3)))
+        base, turn, swing = (flat.take(ends, axis=1) for ends in (self.base_ends, self.turn_ends, self.swing_ends))
+        ray = (self.direction * turn[:, 2]).conj()
+        levers = ray[:, None] * turn[:, :2] * self.arms
+        gap = ray * (base[:, 0] - base[:, 1]) + levers[:, 0] - levers[:, 1]
+        excess = swing[:, 0] * swing[:, 1].conj() * np.exp(-1j * travel[:, None] * self.drive[self.swing])
+        left = np.concatenate([gap.real - travel[:, None] * self.drive[self.glide], excess.imag], axis=1)
+        x, y = ray.real, ray.imag
+        slope[:, self.cells] = np.concatenate([x, -y, -levers[:, 0].imag, -x, y, levers[:, 1].imag,
+                                               excess.real, -excess.real], axis=1)
+        slope[:, self.to_cells] += gap.imag
+        return left.take(self.rows, axis=1), slope.reshape(n, k, k + 3)[:, :, :k]
 
     def correction(self, pose: Array, travel: Array) -> Correction:
         """Newton's correction of these poses, to be taken from them; nan where a derivative is singular."""
-        left, slope = self.equations(pose, travel)
-        right = np.stack([left, np.broadcast_to(self.drive, left.shape)], axis=-1)
-        try:
-            found = np.linalg.solve(slope, right)
-        except np.linalg.LinAlgError:
-            regular = np.linalg.slogdet(slope)[0] != 0
-            found = np.full(right.shape, np.nan)
-            found[regular] = np.linalg.solve(slope[regular], right[regular])
-        return Correction(found[..., 0], found[..., 1], slope)
+        left, jacobian = self.equations(pose, travel)
+        return Correction(_solved(jacobian, left), jacobian)
 
     def corrected(self, pose: Array, correction: Correction) -> Array:
         """The poses less their corrections."""
-        x, y, angle = np.moveaxis(correction.step.reshape(len(pose), len(self.columns), 3), -1, 0)
+        shift, angle = self._parted(correction.step)
         pose = pose.copy()
-        pose[:, 0, self.columns] -= x + 1j * y
+        pose[:, 0, self.columns] -= shift
         pose[:, 1, self.columns] *= np.exp(-1j * angle)
         return pose
 
-    def rate(self, pose: Array, correction: Correction) -> Array:
+    def rate(self, pose: Array, jacobian: Array) -> Array:
         """How the poses change with the travel, shape (n, 2, links); known links are taken to rest."""
-        x, y, angle = np.moveaxis(correction.motion.reshape(len(pose), len(self.columns), 3), -1, 0)
+        shift, angle = self._parted(_solved(jacobian, np.tile(self.drive, (len(pose), 1))))
         rate = np.zeros_like(pose)
-        rate[:, 0, self.columns] = x + 1j * y
+        rate[:, 0, self.columns] = shift
         rate[:, 1, self.columns] = 1j * angle * pose[:, 1, self.columns]
         return rate
 
-    def determinants(self, correction: Correction) -> tuple[Array, Array]:
+    def _parted(self, freedoms: Array) -> tuple[Array, Array]:
+        """The changes of n poses in their freedoms, as those of the bases and of the turns' angles, both (n, links)."""
+        x, y, angle = freedoms[:, 0::3], freedoms[:, 1::3], freedoms[:, 2::3]
+        return x + 1j * y, angle
+
+    def determinants(self, jacobian: Array) -> tuple[Array, Array]:
         """The sign of each part's determinant in n poses, and the logarithm of its size; shape (n, parts)."""
-        found = [np.linalg.slogdet(correction.jacobian[:, part, part]) for part in self.blocks]
+        found = [np.linalg.slogdet(jacobian[:, part, part]) for part in self.blocks]
         return np.stack([sign for sign, _ in found], axis=-1), np.stack([size for _, size in found], axis=-1)
+
+
+def _solved(jacobian: Array, right: Array) -> Array:
+    """The freedoms that answer the right sides of n poses; nan where the derivatives are singular."""
+    try:
+        return np.linalg.solve(jacobian, right[..., None])[..., 0]
+    except np.linalg.LinAlgError:
+        regular = np.linalg.slogdet(jacobian)[0] != 0
+        found = np.full(right.shape, np.nan)
+        found[regular] = np.linalg.solve(jacobian[regular], right[regular][..., None])[..., 0]
+        return found
 
 
 def given(linkage: Linkage) -> Array:

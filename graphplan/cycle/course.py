@@ -25,9 +25,10 @@ class Course:
 
     def __init__(self, scene: Scene, path: Path, travel: Array, closed: bool):
         self.scene, self.travel, self.round = scene, travel, TURN if closed else 0.0
-        low = path.lower.travel - path.lower.slack if path.lower else path.knots[0].travel
-        high = path.upper.travel + path.upper.slack if path.upper else path.knots[-1].travel
-        self.at = np.where((travel > high) & (travel - self.round >= low), travel - self.round, travel)
+        low = path.lower.travel - path.lower.slack if path.lower else path.knots.travel[0]
+        high = path.upper.travel + path.upper.slack if path.upper else path.knots.travel[-1]
+        self.at, above = travel.copy(), np.flatnonzero(travel > high)
+        self.at[above[travel[above] - self.round >= low]] -= self.round
         self.reached = (self.at >= low) & (self.at <= high)
         self.limits = [limit for limit in (path.lower, path.upper) if limit]
         self.stops: dict[int, Limit] = {}

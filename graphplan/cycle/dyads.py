@@ -7,13 +7,22 @@ change at a limit.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from typing import Any
 
 from graphplan.cycle.linkage import Linkage, direction
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program
 from graphplan.mechanism.model import Slide
+
+Vector = tuple[Any, Any]
+"""A pair of numbers of any kind, along x and along y."""
+
+Attitude = tuple[Vector, Vector]
+"""How a link lies: its base and its turn."""
 
 
 @dataclass(frozen=True)
@@ -62,17 +71,45 @@ class Pair:
 class Dyad:
     """A dyad's construction: its program, the marks that it needs, those that it gives, and how it can fail.
 
-    `known_points` names the marks of points, `known_links` those of a link's base and of the point one reach from it.
+    `known_points` names the marks of points, `known_links` those of a link's base and of the point one `reach` from it.
     Wanted are, in order, `points`, then for each of `links` a point of it, and the tail and head of a vector that turns
-    with it; beside the link's name stand where that point, and how that vector, were given.
+    with it; beside the link's name stand the vectors, as given, from that point to its base, and from tail to head.
     """
 
     program: Program
     known_points: dict[str, str]
     known_links: dict[str, tuple[str, str]]
+    reach: float
     points: tuple[str, ...]
     links: tuple[tuple[str, complex, complex], ...]
     failure: str
+
+    def read(self, domain: Domain, points: Mapping[str, Vector],
+             carriers: Mapping[str, Attitude]) -> tuple[dict[str, Vector], dict[str, Attitude]]:
+        """The new points, and how both links lie.
+
+        Reads the known points and links that are elsewhere than they were given, in numbers of the domain.
+        """
+        known = {self.known_points[point]: place for point, place in points.items()}
+        for link, ((x, y), (cos, sin)) in carriers.items():
+            tail, head = self.known_links[link]
+            known |= {tail: (x, y), head: (x + self.reach * cos, y + self.reach * sin)}
+        values = evaluate(self.program, domain, {mark: {"x": x, "y": y} for mark, (x, y) in known.items()})
+        found = iter([values[index] for index in self.program.wanted])
+        return (dict(zip(self.points, found, strict=False)),
+                {link: _attitude(next(found), next(found), next(found), *given) for link, *given in self.links})
+
+
+def _attitude(point: Vector, tail: Vector, head: Vector, to_base: complex, vector: complex) -> Attitude:
+    """How a link lies, of which a point is found, and a vector."""
+    turn = _scaled((head[0] - tail[0], head[1] - tail[1]), 1 / vector)
+    x, y = _scaled(turn, to_base)
+    return (point[0] + x, point[1] + y), turn
+
+
+def _scaled(v: Vector, z: complex) -> Vector:
+    """A vector turned and stretched by a complex number."""
+    return v[0] * z.real - v[1] * z.imag, v[0] * z.imag + v[1] * z.real
 
 
 def dyad(linkage: Linkage, part: tuple[str, ...]) -> Dyad | None:
@@ -124,8 +161,9 @@ class _Sketch:
         marks = [mark for figure in figures.values() for mark in (figure.point, figure.tail, figure.head)]
         known = {point: mark.step.name for point, mark in self.points.items()}
         carriers = {link: (at.tail.step.name, at.head.step.name) for link, at in self.carriers.items()}
-        links = tuple((link, figure.place, figure.vector) for link, figure in figures.items())
-        return Dyad(freeze(self.board, [*new.values(), *marks]), known, carriers, tuple(new), links, failure)
+        links = tuple((link, self.linkage.origins[link] - at.place, at.vector) for link, at in figures.items())
+        program = freeze(self.board, [*new.values(), *marks])
+        return Dyad(program, known, carriers, self.linkage.reach, tuple(new), links, failure)
 
     def place(self, pair: Pair) -> complex:
         """Where the point of a pair was given."""

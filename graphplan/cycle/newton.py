@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from graphplan.cycle.closure import Closure, Correction
+from graphplan.cycle.closure import Closure
 from graphplan.cycle.linkage import Array
 
 _NEAR = 1 / 16
@@ -18,12 +18,12 @@ _NEAR = 1 / 16
 _SHRINKING = 1 / 4
 """The largest further correction, of the one before."""
 
-_SETTLED = 2.0**-13
+SETTLED = 2.0**-13
 """A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
 
 
-def settle(closure: Closure, predicted: Array, travel: Array, step: Array) -> tuple[Array, Correction, Array]:
-    """The poses at these travels, the last correction, and the mask of those to be trusted (their senses apart).
+def settle(closure: Closure, predicted: Array, travel: Array, step: Array) -> tuple[Array, Array, Array]:
+    """The poses at these travels, the derivatives last used, and the mask of those to be trusted (their senses apart).
 
     Reads predictions of shape (n, 2, links), travels (n,), and the length (n,) of the step that predicts each.
     """
@@ -35,8 +35,8 @@ def settle(closure: Closure, predicted: Array, travel: Array, step: Array) -> tu
         trusted = trusted & (size <= allowed)
         pose = np.where(trusted[:, None, None], closure.corrected(pose, correction), predicted)
         if np.all(settled | ~trusted):
-            return pose, correction, trusted
-        settled = size <= _SETTLED * step
+            return pose, correction.jacobian, trusted
+        settled = size <= SETTLED * step
         allowed = np.where(settled, _NEAR * step, _SHRINKING * size)
 
 

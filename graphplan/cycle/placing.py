@@ -1,24 +1,27 @@
-"""Placing: the links and points of a block of poses, part after part in the order of motion transfer.
+"""Placing: the links and points of many poses, part after part in the order of motion transfer.
 
 Driving links are turned or shifted as their drives say, dyads constructed by their compass rules, all other groups
-closed by Newton's method from the knots of the path.
+closed by Newton's method from the knots of the path. Poses are placed in blocks that stay in the cache, and of a link
+that carries nothing only its points.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from graphplan.cycle.closure import Closure
 from graphplan.cycle.continuation import Path
-from graphplan.cycle.dyads import Dyad, dyad
+from graphplan.cycle.dyads import Attitude, Dyad, Vector, dyad
 from graphplan.cycle.linkage import Array, Linkage, direction
 from graphplan.cycle.newton import settle
-from graphplan.kernel.evaluate import evaluate
+from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.tape.blocks import BLOCK, Blocks
+from graphplan.kernel.tape.record import Symbols
 from graphplan.mechanism.model import FRAME, SlidingDrive
 
 
@@ -31,143 +34,279 @@ class Failure(NamedTuple):
 
 @dataclass
 class Placed:
-    """A block of n poses: the travels, which poses are on the path, and what is placed; complex arrays of shape (n,).
+    """n poses: the travels, which poses are on the path, and places for what is placed, complex arrays of shape (n,).
 
-    `failures` has, for each part that could not be placed, the mask of poses.
+    `base` and `turn` have the links that carry something. `failures` tells, for each part that could not be placed, in
+    which poses; `first` is where the first one stands among all.
     """
 
     travel: Array
     followed: Array
-    base: dict[str, Array] = field(default_factory=dict)
-    turn: dict[str, Array] = field(default_factory=dict)
-    points: dict[str, Array] = field(default_factory=dict)
+    base: dict[str, Array]
+    turn: dict[str, Array]
+    points: dict[str, Array]
     failures: list[tuple[Failure, Array]] = field(default_factory=list)
+    first: int = 0
+
+    def blocks(self) -> Iterator[Placed]:
+        """The same poses, so many at a time."""
+        for start in range(0, len(self.travel), BLOCK):
+            part = slice(start, start + BLOCK)
+            base, turn, points = ({name: array[part] for name, array in arrays.items()}
+                                  for arrays in (self.base, self.turn, self.points))
+            yield Placed(self.travel[part], self.followed[part], base, turn, points, self.failures, start)
+
+    def fail(self, part: tuple[str, ...], why: str, mask: Array) -> None:
+        """Keeps where a part could not be placed."""
+        self.failures.append((Failure(part, why), self.first + np.flatnonzero(mask)))
+
+    def slots(self, points: Mapping[str, Vector], links: Mapping[str, Attitude]) -> Iterator[tuple[Array, Vector]]:
+        """The arrays for these points, and for those of the links that carry something, each with what belongs there.
+        """
+        yield from ((self.points[point], place) for point, place in points.items())
+        for link, (base, turn) in links.items():
+            if link in self.base:
+                yield from ((self.base[link], base), (self.turn[link], turn))
 
 
-Placer = Callable[[Placed], None]
-"""Places one part of every pose in a block."""
+class Placer(Protocol):
+    """Places one part of every pose in a block."""
+
+    @property
+    def needs(self) -> tuple[str, ...]:
+        """The links placed before whose base and turn it reads."""
+        ...
+
+    def place(self, placed: Placed) -> None:
+        """Fill the arrays of this part."""
+        ...
 
 
 class Placing:
-    """How each part of a linkage is placed, made ready once for all blocks."""
+    """How each part of a linkage is placed: those that are drawn, without a path, are made ready once."""
 
-    def __init__(self, linkage: Linkage, path: Path):
-        self.linkage, self.path = linkage, path
-        self.placers = [self._placer(part) for part in linkage.parts]
+    def __init__(self, linkage: Linkage):
+        self.linkage = linkage
+        self.drawn = [_driven(linkage, part) or _constructed(linkage, part) for part in linkage.parts]
 
-    def place(self, travel: Array, reached: Array, knots: Array) -> Placed:
-        """All links and points at these travels; those that are on no link, or on the frame, stand still.
+    def poses(self, travel: Array) -> Array | None:
+        """The poses at these travels as :mod:`closure` has them, nan where one cannot be drawn; none if a part is not.
+        """
+        placers = [placer for placer in self.drawn if placer]
+        if len(placers) < len(self.drawn):
+            return None
+        placed = self._standing(travel, np.ones(len(travel), dtype=bool), self.linkage.links)
+        for placer in placers:
+            placer.place(placed)
+        return np.stack([[placed.base[link] / self.linkage.reach, placed.turn[link]] for link in self.linkage.links],
+                        axis=-1).transpose(1, 0, 2)
+
+    def place(self, path: Path, travel: Array, reached: Array, knots: Array, links: Iterable[str]) -> Placed:
+        """All points at these travels, and the base and turn of some links.
 
         Reads which poses the path reaches, and which of them are knots of it.
         """
-        placed, n = Placed(travel, reached & ~knots), len(travel)
-        placed.base[FRAME], placed.turn[FRAME] = np.full(n, self.linkage.origins[FRAME]), np.ones(n, dtype=complex)
-        for point, links in self.linkage.scene.links_of.items():
-            if not links or FRAME in links:
-                placed.points[point] = np.full(n, self.linkage.places[point])
+        placers = [placer or _Closed(self.linkage, part, path)
+                   for part, placer in zip(self.linkage.parts, self.drawn, strict=True)]
+        carrying = {*links, *(link for placer in placers for link in placer.needs)}
+        if len(travel) > BLOCK:  # for fewer poses a tape is not worth its recording
+            placers = [_taped(placer, carrying) for placer in placers]
+        placed = self._standing(travel, reached & ~knots, carrying)
         with np.errstate(all="ignore"):
-            for place in self.placers:
-                place(placed)
-        self._stand(placed, knots)
+            for block in placed.blocks():
+                for placer in placers:
+                    placer.place(block)
+        self._stand(placed, path, np.flatnonzero(knots))
         return placed
 
-    def _stand(self, placed: Placed, standing: Array) -> None:
+    def _standing(self, travel: Array, followed: Array, carrying: Iterable[str]) -> Placed:
+        """Poses in which the frame is placed, and the points that are on no other link.
+
+        All are rows of one array: a large piece of memory is handed out faster than many small ones.
+        """
+        linkage, links = self.linkage, [link for link in carrying if link != FRAME]
+        rows = iter(np.empty((len(linkage.places) + 2 * len(links), len(travel)), dtype=complex))
+        points, base, turn = (dict(zip(names, rows, strict=False)) for names in (linkage.places, links, links))
+        base[FRAME], turn[FRAME] = (np.broadcast_to(z, travel.shape) for z in (linkage.origins[FRAME], 1 + 0j))
+        for point, others in linkage.scene.links_of.items():
+            if not others or FRAME in others:
+                points[point].fill(linkage.places[point])
+        return Placed(travel, followed, base, turn, points)
+
+    def _stand(self, placed: Placed, path: Path, standing: Array) -> None:
         """The given pose and those at limits are taken from the path: where one is singular, it cannot be reckoned."""
-        knots = self.path.nearest(placed.travel[standing])
-        for link, i in self.linkage.order.items():
-            placed.base[link][standing] = self.linkage.reach * knots[:, 0, i]
-            placed.turn[link][standing] = knots[:, 1, i]
+        knots, linkage = path.nearest(placed.travel[standing]), self.linkage
+        base, turn = linkage.reach * knots[:, 0], knots[:, 1]
+        for link in placed.base.keys() - {FRAME}:
+            placed.base[link][standing] = base[:, linkage.order[link]]
+            placed.turn[link][standing] = turn[:, linkage.order[link]]
         for point, places in placed.points.items():
-            link = next(iter(self.linkage.scene.links_of[point]), FRAME)
-            lever = self.linkage.places[point] - self.linkage.origins[link]
-            places[standing] = placed.base[link][standing] + placed.turn[link][standing] * lever
-        for _, mask in placed.failures:
-            mask &= ~standing
+            link = next(iter(linkage.scene.links_of[point]), FRAME)
+            lever, i = linkage.places[point] - linkage.origins[link], linkage.order[link]
+            places[standing] = base[:, i] + turn[:, i] * lever
+        placed.failures = [(failure, np.setdiff1d(at, standing)) for failure, at in placed.failures]
 
-    def _placer(self, part: tuple[str, ...]) -> Placer:
-        """The way to place a part."""
-        driven = self._driven(part)
-        if driven is not None:
-            return driven
-        plain = dyad(self.linkage, part)
-        return self._closed(part) if plain is None else self._constructed(part, plain)
 
-    def _driven(self, part: tuple[str, ...]) -> Placer | None:
-        """A link driven alone: turned about a joint with what is placed, or shifted along a slide on it."""
-        link, before = part[0], self.linkage.carriers(part)
-        joints, slides = self.linkage.joints(link, before), self.linkage.slides(link, before)
-        drives = self.linkage.drives(part)
-        if len(part) != 1 or len(drives) != 1 or len(joints) + len(slides) != 1:
-            return None
-        ((drive, pace),) = drives
-        if isinstance(drive, SlidingDrive):
-            ((slide, carrier),) = slides
-            way = direction(slide) * (pace if slide.link == link else -pace)
-            return lambda placed: self._shifted(placed, link, carrier, way)
-        other = drive.relative_to if drive.link == link else drive.link
-        turning = pace if drive.link == link else -pace
-        return lambda placed: self._turned(placed, link, joints[0], other, turning)
+class _Body:
+    """A link as it is written down, one of its points and its turn being known: the points that no link before it has,
+    and its base and turn where it carries something. `place` is where the known point was given.
+    """
 
-    def _turned(self, placed: Placed, link: str, joint: str, other: str, pace: float) -> None:
-        turn = placed.turn[other] * np.exp(1j * pace * placed.travel)
-        lever = self.linkage.places[joint] - self.linkage.origins[link]
-        self._put(placed, link, placed.points[joint] - turn * lever, turn)
+    def __init__(self, linkage: Linkage, link: str, place: complex):
+        self.link, self.to_base = link, linkage.origins[link] - place
+        self.levers = {point: linkage.places[point] - place for point in linkage.points(link)
+                       if link == min(linkage.scene.links_of[point], key=linkage.order.__getitem__)}
 
-    def _shifted(self, placed: Placed, link: str, carrier: str, way: complex) -> None:
-        lever = self.linkage.origins[link] - self.linkage.origins[carrier]
+    def put(self, placed: Placed, at: Array, turn: Array) -> None:
+        """Write it into the poses."""
+        if self.link in placed.base:
+            placed.base[self.link][:] = at + turn * self.to_base
+            placed.turn[self.link][:] = turn
+        for point, lever in self.levers.items():
+            np.multiply(turn, lever, out=placed.points[point])
+            placed.points[point] += at
+
+
+def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
+    """A link driven alone: turned about a joint with what is placed, or shifted along a slide on it."""
+    link, before = part[0], linkage.carriers(part)
+    joints, slides, drives = linkage.joints(link, before), linkage.slides(link, before), linkage.drives(part)
+    if len(part) != 1 or len(drives) != 1 or len(joints) + len(slides) != 1:
+        return None
+    ((drive, pace),) = drives
+    if isinstance(drive, SlidingDrive):
+        ((slide, carrier),) = slides
+        return _Shifted(linkage, link, carrier, direction(slide) * (pace if slide.link == link else -pace))
+    other = drive.relative_to if drive.link == link else drive.link
+    return _Turned(linkage, link, joints[0], other, pace if drive.link == link else -pace)
+
+
+class _Turned:
+    """A link turned about a joint, by `pace` a unit of travel from another link."""
+
+    def __init__(self, linkage: Linkage, link: str, joint: str, other: str, pace: float):
+        self.joint, self.pace, self.needs = joint, pace, (other,)
+        self.body = _Body(linkage, link, linkage.places[joint])
+
+    def place(self, placed: Placed) -> None:
+        """Turn it."""
+        angle, (other,) = self.pace * placed.travel, self.needs
+        turn = np.empty(len(angle), dtype=complex)
+        np.cos(angle, out=turn.real)  # much faster than a complex exponential
+        np.sin(angle, out=turn.imag)
+        if other != FRAME:
+            turn *= placed.turn[other]
+        self.body.put(placed, placed.points[self.joint], turn)
+
+
+class _Shifted:
+    """A link shifted along a slide on its carrier, by the vector `way` a unit of travel."""
+
+    def __init__(self, linkage: Linkage, link: str, carrier: str, way: complex):
+        self.needs, self.way = (carrier,), way
+        self.lever = linkage.origins[link] - linkage.origins[carrier]
+        self.body = _Body(linkage, link, linkage.origins[link])
+
+    def place(self, placed: Placed) -> None:
+        """Shift it."""
+        (carrier,) = self.needs
         turn = placed.turn[carrier]
-        self._put(placed, link, placed.base[carrier] + turn * (lever + way * placed.travel), turn)
+        self.body.put(placed, placed.base[carrier] + turn * (self.lever + self.way * placed.travel), turn)
 
-    def _put(self, placed: Placed, link: str, base: Array, turn: Array) -> None:
-        """A link, and its points that are not placed yet."""
-        placed.base[link], placed.turn[link] = base, turn
-        origin = self.linkage.origins[link]
-        for point in self.linkage.points(link):
-            placed.points.setdefault(point, base + turn * (self.linkage.places[point] - origin))
 
-    def _constructed(self, part: tuple[str, ...], plain: Dyad) -> Placer:
-        """A dyad by its compass rule: one program, replayed over the block."""
+def _constructed(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
+    """A plain dyad."""
+    plain = dyad(linkage, part)
+    return _Constructed(linkage, part, plain) if plain else None
 
-        def place(placed: Placed) -> None:
-            known = {mark: placed.points[point] for point, mark in plain.known_points.items()}
-            for link, marks in plain.known_links.items():
-                base, reach = placed.base[link], self.linkage.reach
-                known |= dict(zip(marks, (base, base + reach * placed.turn[link]), strict=True))
-            given = {mark: {"x": place.real, "y": place.imag} for mark, place in known.items()}
-            values = evaluate(plain.program, Arrays(), given)
-            found = [x + 1j * y for x, y in (values[index] for index in plain.program.wanted)]
-            placed.points |= dict(zip(plain.points, found, strict=False))
-            rest = iter(found[len(plain.points):])
-            for (link, at, vector), point, tail, head in zip(plain.links, rest, rest, rest, strict=True):
-                placed.turn[link] = (head - tail) / vector
-                placed.base[link] = point + placed.turn[link] * (self.linkage.origins[link] - at)
-            missing = np.logical_or.reduce([np.isnan(placed.base[link]) for link in part])
-            reachable = ~np.logical_or.reduce([np.isnan(value) for value in known.values()])
-            placed.failures.append((Failure(part, plain.failure), missing & reachable))
 
-        return place
+class _Constructed:
+    """A dyad by its compass rule: one program, its rules run over the block."""
 
-    def _closed(self, part: tuple[str, ...]) -> Placer:
-        """Any group by Newton's method, in the poses that are on the path."""
-        closure, reach = Closure(self.linkage, (part,)), self.linkage.reach
-        before, links = self.linkage.carriers(part), self.linkage.order
-        sense = self.path.senses[0, self.linkage.parts.index(part)]
+    def __init__(self, linkage: Linkage, part: tuple[str, ...], plain: Dyad):
+        self.part, self.plain = part, plain
+        self.joints = [point for point in plain.known_points if FRAME not in linkage.scene.links_of[point]]
+        self.needs = tuple(link for link in plain.known_links if link != FRAME)
 
-        def place(placed: Placed) -> None:
-            on = placed.followed
-            pose, step = self.path.predicted(placed.travel[on])
-            for link in before:
-                pose[:, 0, links[link]] = placed.base[link][on] / reach
-                pose[:, 1, links[link]] = placed.turn[link][on]
-            pose, correction, trusted = settle(closure, pose, placed.travel[on], step)
-            trusted &= closure.determinants(correction)[0][:, 0] == sense
-            pose[~trusted] = np.nan
-            lost = np.zeros(len(on), dtype=bool)
-            lost[on] = ~trusted
-            placed.failures.append((Failure(part, "Newton's method does not stay on their branch"), lost))
-            for link in part:
-                base, turn = (np.full(len(on), np.nan, dtype=complex) for _ in range(2))
-                base[on], turn[on] = reach * pose[:, 0, links[link]], pose[:, 1, links[link]]
-                self._put(placed, link, base, turn)
+    def known(self, placed: Placed) -> list[Array]:
+        """What moves of that which is known."""
+        arrays = [placed.points[point] for point in self.joints]
+        return arrays + [of[link] for link in self.needs for of in (placed.base, placed.turn)]
 
-        return place
+    def read(self, domain: Arrays | Symbols, known: Iterable[Vector]) -> tuple[dict[str, Vector], dict[str, Attitude]]:
+        """What the construction gives, from vectors for what is known."""
+        rest = iter(known)
+        points = {point: next(rest) for point in self.joints}
+        return self.plain.read(domain, points, {link: (next(rest), next(rest)) for link in self.needs})
+
+    def place(self, placed: Placed) -> None:
+        """Construct it, and tell where it cannot be."""
+        known = self.known(placed)
+        points, links = self.read(Arrays(), [(array.real, array.imag) for array in known])
+        for array, (x, y) in placed.slots(points, links):
+            array.real, array.imag = x, y
+        missing = np.zeros(len(placed.travel), dtype=bool)
+        for x, y in (*points.values(), *(vector for attitude in links.values() for vector in attitude)):
+            missing |= np.isnan(x) | np.isnan(y)
+        for array in known:
+            missing &= ~np.isnan(array)
+        placed.fail(self.part, self.plain.failure, missing)
+
+
+def _taped(placer: Placer, carrying: Iterable[str]) -> Placer:
+    """A placer made faster for many poses, if it is a dyad's and its construction not the same in all of them."""
+    if isinstance(placer, _Constructed) and (placer.joints or placer.needs):
+        try:
+            return _Taped(placer, carrying)
+        except (ConstructionError, ZeroDivisionError):  # in no pose can it be drawn
+            return placer
+    return placer
+
+
+class _Taped:
+    """A dyad by the tape of its construction; a block in which it may fail is left to the rules."""
+
+    def __init__(self, rules: _Constructed, carrying: Iterable[str]):
+        self.rules, self.needs = rules, rules.needs
+        symbols, count = Symbols(), len(rules.joints) + 2 * len(rules.needs)
+        known = [(symbols.tape.input(f"x{i}"), symbols.tape.input(f"y{i}")) for i in range(count)]
+        self.points, links = rules.read(symbols, known)
+        self.links = {link: attitude for link, attitude in links.items() if link in carrying}
+        told = [*self.points.values(), *(vector for attitude in self.links.values() for vector in attitude)]
+        self.blocks = Blocks(symbols.tape, [number.place for vector in known for number in vector],
+                             [symbols.tape.place(number) for vector in told for number in vector])
+
+    def place(self, placed: Placed) -> None:
+        """Run it over the block."""
+        known = [numbers for array in self.rules.known(placed) for numbers in (array.real, array.imag)]
+        slots = placed.slots(self.points, self.links)
+        if self.blocks.run(known, [numbers for array, _ in slots for numbers in (array.real, array.imag)]):
+            self.rules.place(placed)
+
+
+class _Closed:
+    """Any group by Newton's method, in the poses that are on the path."""
+
+    def __init__(self, linkage: Linkage, part: tuple[str, ...], path: Path):
+        self.linkage, self.part, self.path = linkage, part, path
+        self.closure, self.needs = Closure(linkage, (part,)), linkage.carriers(part)
+        self.sense = path.senses[linkage.parts.index(part)]
+        self.bodies = [_Body(linkage, link, linkage.origins[link]) for link in part]
+
+    def place(self, placed: Placed) -> None:
+        """Close it, and tell where that is not certain to stay on the branch."""
+        on, order = placed.followed, self.linkage.order
+        pose, step = self.path.predicted(placed.travel[on])
+        for link in self.needs:
+            pose[:, 0, order[link]] = placed.base[link][on] / self.linkage.reach
+            pose[:, 1, order[link]] = placed.turn[link][on]
+        pose, jacobian, trusted = settle(self.closure, pose, placed.travel[on], step)
+        trusted &= self.closure.determinants(jacobian)[0][:, 0] == self.sense
+        pose[~trusted] = np.nan
+        lost = np.zeros(len(on), dtype=bool)
+        lost[on] = ~trusted
+        placed.fail(self.part, "Newton's method does not stay on their branch", lost)
+        for body in self.bodies:
+            base, turn = (np.full(len(on), np.nan, dtype=complex) for _ in range(2))
+            base[on], turn[on] = self.linkage.reach * pose[:, 0, order[body.link]], pose[:, 1, order[body.link]]
+            body.put(placed, base, turn)

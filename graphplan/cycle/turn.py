@@ -14,9 +14,6 @@ from graphplan.cycle.travel import closes, paces, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.network import Network
 
-_BLOCK = 4096
-"""Poses that are placed at once: their arrays stay in the cache."""
-
 
 @dataclass(frozen=True)
 class Turn:
@@ -45,25 +42,23 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     """
     travel = travels(scene, positions, span)
     linkage = Linkage(scene, paces(scene))
+    placing = Placing(linkage)
     closed = span is None and closes(scene, linkage.paces)
-    path = Continuation(linkage, min(0.0, float(travel.min())), max(0.0, float(travel.max())), progress).path(closed)
-    course, placing = Course(scene, path, travel, closed), Placing(linkage, path)
-    blocks = [slice(start, start + _BLOCK) for start in range(0, len(travel), _BLOCK)]
-    placed = [placing.place(course.at[block], course.reached[block], course.knots[block]) for block in blocks]
-    failures = {block.start + int(i): failure for block, poses in zip(blocks, placed, strict=True)
-                for failure, mask in reversed(poses.failures) for i in np.flatnonzero(mask)}  # the first one stays
+    ends = min(0.0, float(travel.min())), max(0.0, float(travel.max()))
+    path = Continuation(linkage, *ends, placing.poses, progress).path(closed)
+    course = Course(scene, path, travel, closed)
+    slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
+    placed = placing.place(path, course.at, course.reached, course.knots, [slide.along for slide in slides])
+    failures = {int(i): failure for failure, at in reversed(placed.failures) for i in at}  # the first one stays
     reached = course.reached.copy()
     reached[list(failures)] = False
-    points = {name: _joined([poses.points[name] for poses in placed], reached) for name in scene.points}
-    guides = {slide.name: number(*slide.direction) * _joined([poses.turn[slide.along] for poses in placed], reached)
-              for slide in scene.slides if slide.through is None and slide.along != FRAME}
+    lost = np.flatnonzero(~reached)
+    for array in (*placed.points.values(), *(placed.turn[slide.along] for slide in slides)):
+        array[lost] = complex(np.nan, np.nan)
+    points = {name: placed.points[name] for name in scene.points}
+    guides = {slide.name: number(*slide.direction) * placed.turn[slide.along] for slide in slides}
     points |= {name: points[at] for name, at in _under(scene).items()}
     return Turn(travel, points, guides, course.faults(failures))
-
-
-def _joined(blocks: list[Array], reached: Array) -> Array:
-    """The blocks as one array, nan where a pose is not reached."""
-    return np.where(reached, np.concatenate(blocks), complex(np.nan, np.nan))
 
 
 def _under(scene: Scene) -> dict[str, str]:

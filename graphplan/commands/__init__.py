@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 import importlib
 import os
 import sys
@@ -10,7 +11,9 @@ from collections.abc import Sequence
 
 from graphplan.errors import GraphplanError
 
-SUBCOMMANDS = ("draw", "steps", "solve", "check", "cycle", "cost", "gallery")
+SUBCOMMANDS = ("draw", "steps", "solve", "check", "cycle", "cost", "chart", "gallery")
+
+GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 
 EXAMPLES = """\
 examples:
@@ -26,6 +29,8 @@ exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose
 
 def main(argv: Sequence[str] | None = None) -> int:
     """Run one subcommand; its exit status."""
+    if argv is None:
+        gc.set_threshold(GARBAGE)
     arguments = sys.argv[1:] if argv is None else list(argv)
     options = _parser(_called(arguments)).parse_args(arguments)
     try:
@@ -68,7 +73,7 @@ def _parser(names: Sequence[str]) -> argparse.ArgumentParser:
             epilog=details.strip() or None,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name != "gallery":
+        if name not in ("chart", "gallery"):
             what = "a scene file, - for standard input, or a packaged scene"
             command.add_argument("scene", metavar="SCENE", help=what)
         module.options(command)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.evaluate import error_at
@@ -45,8 +45,7 @@ REVERSED: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
 }
 
 
-@dataclass(frozen=True)
-class Window:
+class Window(NamedTuple):
     """What counts as on the sheet of a panel: a circle, in plan units."""
 
     centre: tuple[float, float]

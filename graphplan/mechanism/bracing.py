@@ -8,10 +8,9 @@ the same question of the transposed equations finds those that only repeat what 
 from __future__ import annotations
 
 from collections.abc import Hashable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
 from heapq import heapify, heappop, heappush
 from random import Random
-from typing import TypeVar
+from typing import NamedTuple, TypeVar
 
 from graphplan.mechanism.equations import PRIME, System, Unknown
 from graphplan.mechanism.model import Scene
@@ -19,8 +18,7 @@ from graphplan.mechanism.model import Scene
 K = TypeVar("K", bound=Hashable)
 
 
-@dataclass(frozen=True)
-class Bracing:
+class Bracing(NamedTuple):
     """The links that can move though every drive stands still, and the links that are held more than once."""
 
     loose: tuple[str, ...]

@@ -11,6 +11,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from random import Random
+from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, SlidingDrive, TurningDrive
 
@@ -26,8 +27,7 @@ Unknown = tuple[Thing, str]
 Terms = dict[Unknown, int]
 
 
-@dataclass(frozen=True)
-class Equation:
+class Equation(NamedTuple):
     """One condition on the freedoms: its terms, the links that it binds, and the drive that makes it, if one does."""
 
     terms: Terms

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from difflib import get_close_matches
 
 from graphplan.errors import Fault
 
@@ -45,6 +44,8 @@ class Faults:
 
 def perhaps(name: str, known: Iterable[str], kind: str) -> str:
     """What was probably meant by `name`: the nearest known names, or else the whole choice."""
+    from difflib import get_close_matches  # few scenes have faults
+
     choice = list(known)
     near = get_close_matches(name[:60], choice, n=2, cutoff=0.6)
     folded = [word for word in choice if word.lower() == name.lower()]

@@ -8,7 +8,6 @@ import sys
 import tomllib
 from collections import Counter
 from fractions import Fraction
-from pathlib import Path
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
@@ -61,7 +60,8 @@ def _bytes(source: str) -> bytes:
         return sys.stdin.buffer.read()
     for entry in _packaged():
         if entry.name == f"{source}.toml" and not os.path.exists(source):
-            return entry.read_bytes()
+            source = os.fspath(entry)
+            break
     with open(source, "rb") as file:
         return file.read()
 
@@ -71,8 +71,9 @@ def packaged() -> list[str]:
     return sorted(entry.name.removesuffix(".toml") for entry in _packaged())
 
 
-def _packaged() -> list[Path]:
-    return list((Path(__file__).parents[1] / "scenes").glob("*.toml"))
+def _packaged() -> list[os.DirEntry[str]]:
+    folder = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
+    return [entry for entry in os.scandir(folder) if entry.name.endswith(".toml")]
 
 
 def parse(text: str, name: str) -> Scene:

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.bracing import bracing
@@ -27,8 +27,7 @@ _MODIFICATIONS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The dyads, numbered from 1: outer, inner and outer pair, R revolute, P sliding."""
 
 
-@dataclass(frozen=True)
-class Group:
+class Group(NamedTuple):
     """Links that are solved together: an Assur group, or a driving link (class I)."""
 
     links: tuple[str, ...]
@@ -46,8 +45,7 @@ class Group:
         return f"class {roman(self.class_)} group, order {self.order}: links {names}{kind}"
 
 
-@dataclass(frozen=True)
-class Structure:
+class Structure(NamedTuple):
     """A mechanism's mobility and its parts in the order of motion transfer, driving links among them."""
 
     mobility: int
@@ -74,8 +72,7 @@ class Structure:
         return (*(part.line for part in self.parts), whole)
 
 
-@dataclass(frozen=True)
-class _Bond:
+class _Bond(NamedTuple):
     """A pair of a group: its kind (R, P, or T for a prescribed turning) and its bodies; an outer pair has but one."""
 
     kind: str

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
@@ -26,8 +26,7 @@ if TYPE_CHECKING:
 VELOCITY, ACCELERATION = "velocity", "acceleration"
 
 
-@dataclass(frozen=True)
-class Arrow:
+class Arrow(NamedTuple):
     """A vector on the sheet: from one mark to another of the drawn program (indices), on a panel.
 
     `kind` is velocity or acceleration; `point` is the point of the mechanism it belongs to; `label` is the letter
@@ -42,8 +41,7 @@ class Arrow:
     end: int
 
 
-@dataclass(frozen=True)
-class Reading:
+class Reading(NamedTuple):
     """What is read from the program: of what kind, of which thing, between which wanted marks (by position)."""
 
     kind: str

@@ -6,7 +6,7 @@ whose end it carries and by its source: the body, slide or seed that gives it, o
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import NamedTuple
 
 from graphplan.mechanism.model import Slide
 from graphplan.methods.network import Place
@@ -14,22 +14,19 @@ from graphplan.methods.network import Place
 Locus = tuple[Place, str]
 
 
-@dataclass(frozen=True)
-class Rest:
+class Rest(NamedTuple):
     """A point of the frame or of a link that a drive ties to it: its end is known."""
 
     place: Place
 
 
-@dataclass(frozen=True)
-class Seed:
+class Seed(NamedTuple):
     """A point whose motion the scene gives."""
 
     place: Place
 
 
-@dataclass(frozen=True)
-class Swing:
+class Swing(NamedTuple):
     """The body knows the end of K: the end of X lies on a line."""
 
     body: str
@@ -37,8 +34,7 @@ class Swing:
     X: Place
 
 
-@dataclass(frozen=True)
-class Slip:
+class Slip(NamedTuple):
     """The body's turning is known (that of `like`) and A has a locus: the end of X lies on the shifted locus."""
 
     body: str
@@ -48,8 +44,7 @@ class Slip:
     source: str = ""
 
 
-@dataclass(frozen=True)
-class Carry:
+class Carry(NamedTuple):
     """A and B of the body have loci: the end of X lies on a line, found by an auxiliary point or a trial figure."""
 
     body: str
@@ -59,8 +54,7 @@ class Carry:
     source: str = ""
 
 
-@dataclass(frozen=True)
-class Settle:
+class Settle(NamedTuple):
     """The body knows K, and X and B have loci: the end of X."""
 
     body: str
@@ -69,8 +63,7 @@ class Settle:
     B: Locus
 
 
-@dataclass(frozen=True)
-class Figure:
+class Figure(NamedTuple):
     """The body is known, by the ends of K and R, or of K and the turning of `like`: the end of X.
 
     With `copy` it is entered there, to be compared with what else is known of X.
@@ -84,8 +77,7 @@ class Figure:
     copy: Place | None = None
 
 
-@dataclass(frozen=True)
-class Guide:
+class Guide(NamedTuple):
     """The end of X is known in the plane of `known`: in the plane of `new` it lies on a line set by the guide."""
 
     slide: Slide
@@ -94,8 +86,7 @@ class Guide:
     new: str
 
 
-@dataclass(frozen=True)
-class Meet:
+class Meet(NamedTuple):
     """Two loci of one place meet in its end; with `copy` it is entered there, to be compared with a third."""
 
     place: Place
@@ -103,8 +94,7 @@ class Meet:
     copy: Place | None = None
 
 
-@dataclass(frozen=True)
-class Auxiliary:
+class Auxiliary(NamedTuple):
     """A and B of the body have loci: the auxiliary point where they cross, taken as a point of the body."""
 
     body: str
@@ -113,8 +103,7 @@ class Auxiliary:
     place: Place
 
 
-@dataclass(frozen=True)
-class Pole:
+class Pole(NamedTuple):
     """Two bodies joined by two bars: the bars' intersection is a joint of both (Aronhold-Kennedy)."""
 
     bodies: tuple[str, str]
@@ -122,8 +111,7 @@ class Pole:
     place: Place
 
 
-@dataclass(frozen=True)
-class Trial:
+class Trial(NamedTuple):
     """False position: the end of a place is assumed on its locus, twice, and the moves are drawn for both; in the end
     `end` should lie on `locus` and does not; the third time it does."""
 

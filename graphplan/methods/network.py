@@ -8,6 +8,7 @@ the point of another link's plane that coincides with X, which sliding pairs nee
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
 
@@ -15,8 +16,7 @@ Place = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
 
 
-@dataclass(frozen=True)
-class Weld:
+class Weld(NamedTuple):
     """A drive between two links that share a pair: `link` moves as `to` does, but for what the drive prescribes.
 
     `at` is the common joint of a turning drive; a sliding drive has its slide instead.

@@ -7,14 +7,13 @@ drawn ratio is a plain ratio of rates.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 from graphplan.mechanism.model import Number, Scene, SlidingDrive, TurningDrive
 
 
-@dataclass(frozen=True)
-class Tempo:
+class Tempo(NamedTuple):
     """The angular velocity that is drawn as one; kappa is its inverse."""
 
     unit: Number

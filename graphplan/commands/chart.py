@@ -1,0 +1,138 @@
+"""Chart speed against accuracy: each chart as a picture, and as a table beside it.
+
+charts:
+  machine        time for a pose against error, of every form in every arithmetic
+  draughtsman    drawing operations against pencil error, of every form
+  stability      error near the places where methods fail
+  forms          which form is best where in the cycle
+  growth         time and steps against the number of links
+
+examples:
+  graphplan chart charts                                  all of them; this takes minutes
+  graphplan chart growth charts                           NAME.svg and NAME.csv into the folder
+  graphplan chart machine charts --scenes shaper triad    of these scenes alone, with all that takes long
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_pencil, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.drafting.pencil import Pencil
+    from graphplan.mechanism.model import Scene
+    from graphplan.survey.picture import Chart
+
+Made = tuple["Chart", str]  # a picture and its table
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("names", metavar="NAME", nargs="*", help=f"{', '.join(CHARTS)}; without a name all of them")
+    command.add_argument("folder", metavar="FOLDER", type=Path, help="where pictures and tables are written")
+    command.add_argument("--scenes", metavar="SCENE", nargs="+", default=[],
+                         help="the scenes of machine, draughtsman and forms, with what is left out of all of them as "
+                         "it takes long")
+    add_pencil(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.backends.charts import drawn
+    from graphplan.drafting.pencil import pencil
+    from graphplan.mechanism.scene import load
+
+    for name in options.names:
+        if name not in CHARTS:
+            raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
+    if not options.folder.is_dir():
+        raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
+    scenes, hand = [load(name) for name in options.scenes], pencil(options.pencil)
+    for name in options.names or CHARTS:
+        chart, table = CHARTS[name](scenes, hand)
+        _tell("")
+        write(drawn(chart), str(options.folder / f"{name}.svg"))
+        write(table, str(options.folder / f"{name}.csv"))
+    return 0
+
+
+def _machine(scenes: Sequence[Scene], hand: Pencil) -> Made:
+    from graphplan.survey.machine import Measure, measures
+    from graphplan.survey.pictures.machine import picture
+    from graphplan.survey.table import table
+
+    rows = [row for scene in _each("machine", scenes or _packaged())
+            for row in measures(scene, compiled=bool(scenes) or scene.name == BIG)]
+    return picture(rows), table(Measure, rows)
+
+
+def _draughtsman(scenes: Sequence[Scene], hand: Pencil) -> Made:
+    from graphplan.survey.draughtsman import Draft, drafts
+    from graphplan.survey.pictures.draughtsman import picture
+    from graphplan.survey.table import table
+
+    rows = [row for scene in _each("draughtsman", scenes or _packaged())
+            for row in drafts(scene, hand, long=bool(scenes))]
+    return picture(rows, str(hand)), table(Draft, rows)
+
+
+def _stability(scenes: Sequence[Scene], hand: Pencil) -> Made:
+    from graphplan.survey.pictures.stability import picture
+    from graphplan.survey.stability import Sample, everything
+    from graphplan.survey.table import table
+
+    rows = []
+    for row in everything():
+        _tell(f"stability: {row.degeneracy}")
+        rows.append(row)
+    return picture(rows), table(Sample, rows)
+
+
+def _forms(scenes: Sequence[Scene], hand: Pencil) -> Made:
+    from graphplan.mechanism.scene import load
+    from graphplan.survey.best_forms import SCENES, Sample, samples
+    from graphplan.survey.pictures.forms import picture
+    from graphplan.survey.table import table
+
+    rows = [row for scene in _each("forms", scenes or [load(name) for name in SCENES]) for row in samples(scene, hand)]
+    return picture(rows), table(Sample, rows)
+
+
+def _growth(scenes: Sequence[Scene], hand: Pencil) -> Made:
+    from graphplan.survey.growth import Stage, stages
+    from graphplan.survey.pictures.growth import picture
+    from graphplan.survey.table import table
+
+    rows = []
+    for row in stages():
+        _tell(f"growth: {row.links} links")
+        rows.append(row)
+    return picture(rows), table(Stage, rows)
+
+
+BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
+CHARTS: dict[str, Callable[[Sequence[Scene], Pencil], Made]] = {
+    "machine": _machine, "draughtsman": _draughtsman, "stability": _stability, "forms": _forms, "growth": _growth,
+}
+
+
+def _packaged() -> list[Scene]:
+    from graphplan.mechanism.scene import load, packaged
+
+    return [load(name) for name in packaged()]
+
+
+def _each(chart: str, scenes: Sequence[Scene]) -> Iterator[Scene]:
+    """The scenes one after the other, told to whoever waits."""
+    for count, scene in enumerate(scenes, 1):
+        _tell(f"{chart}: {count}/{len(scenes)} {scene.name}")
+        yield scene
+
+
+def _tell(progress: str) -> None:
+    if sys.stderr.isatty():
+        print(f"\r{progress:<60}\r", end="", file=sys.stderr, flush=True)

@@ -1,0 +1,93 @@
+"""What a chart is made of: panels with axes, marks and lines, in numbers and colours that know no mechanics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+Place = float | str  # a number on an axis, or the name of one of its rails
+Spot = tuple[Place, Place]
+
+
+@dataclass(frozen=True)
+class Look:
+    """How marks and lines look: a marker of a size in mm, filled or hollow, and a line of a width in mm, dashed in mm,
+    perhaps in steps; an area is filled with the colour, or hatched with it."""
+
+    colour: str
+    marker: str = ""
+    hollow: bool = False
+    size: float = 1.6
+    width: float = 0.0
+    dash: tuple[float, ...] = ()
+    steps: bool = False
+    area: bool = False
+    hatch: str = ""
+
+
+@dataclass(frozen=True)
+class Series:
+    """Spots of one look, and for each of them the corners of its spread, where it is told."""
+
+    look: Look
+    spots: tuple[Spot, ...]
+    spreads: tuple[tuple[Spot, Spot], ...] = ()
+
+
+@dataclass(frozen=True)
+class Band:
+    """A stretch of the first axis, on a rail of the second."""
+
+    look: Look
+    rail: str
+    start: float
+    end: float
+
+
+@dataclass(frozen=True)
+class Rail:
+    """A line beside the numbers of an axis, for what has no number there; its label, possibly empty."""
+
+    name: str
+    label: str
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, the step from
+    reading to reading (of 0 it is free), and its rails before and after the numbers, the outermost first."""
+
+    label: str
+    log: bool = True
+    falling: bool = False
+    step: float = 0.0
+    before: tuple[Rail, ...] = ()
+    after: tuple[Rail, ...] = ()
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One pair of axes and what is drawn on it."""
+
+    title: str
+    x: Axis
+    y: Axis
+    series: tuple[Series, ...] = ()
+    bands: tuple[Band, ...] = ()
+
+
+@dataclass(frozen=True)
+class Chart:
+    """Panels of one size in mm, in rows of so many, under a title and remarks; the key tells what each look means."""
+
+    name: str
+    title: str
+    remarks: str
+    panels: tuple[Panel, ...]
+    columns: int
+    size: tuple[float, float]
+    key: tuple[tuple[str, Look], ...]
+
+    @property
+    def marks(self) -> int:
+        """How many marks stand on it."""
+        return sum(len(series.spots) for panel in self.panels for series in panel.series if series.look.marker)

@@ -1,0 +1,1 @@
+"""The surveys as pictures: which row stands where, and how it looks."""

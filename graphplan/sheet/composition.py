@@ -65,13 +65,13 @@ def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float]
     best: Composition | None = None
     for name in papers:
         found = list(arrangements(name, needs, rows, title))
-        good = [arrangement for arrangement in found if _roomy(arrangement, needs)] or (found if paper else [])
+        good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
         if good:
             best = max((_windows(a, figures, needs, planes) for a in good), key=lambda c: c.score)
             if _legible(planes, best.views, name):
                 return best
     if best is None:
-        raise Refused(f"paper {paper}", "the words do not fit on it in legible letters", "a larger sheet, or no name")
+        raise Refused(f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
     return best
 
 
@@ -79,6 +79,12 @@ def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
     """Whether every panel has its least size."""
     least = {panel: SMALLEST[0 if panel == MECHANISM else 1 if need > FEW else 2] for panel, need in needs.items()}
     return all(rect.width >= least[p][0] and rect.height >= least[p][1] for p, rect in arrangement.panels.items())
+
+
+def _open(arrangement: Arrangement) -> bool:
+    """Whether every panel has any room for its figure."""
+    rooms = [inside(room(rect)) for rect in arrangement.panels.values()]
+    return all(rect.width > 0 and rect.height > 0 for rect in rooms)
 
 
 def _windows(

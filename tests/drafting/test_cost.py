@@ -14,6 +14,7 @@ from graphplan.check.report import report
 from graphplan.commands import main
 from graphplan.drafting.drafted import drafted
 from graphplan.drafting.pencil import Pencil
+from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.passes import freeze
@@ -104,3 +105,10 @@ def test_instruments_are_changed_as_they_are_needed() -> None:
     p, q = board.parallel(k, C), board.parallel(l, B)
     arc = board.circle(A, board.opening(A, board.meet(p, q)))
     assert counts(freeze(board, [arc])).changes == 2
+
+
+def test_paper_without_room_for_every_plan_is_refused() -> None:
+    """Where words with their errors leave some plan no room on the paper named, that is refused in one line."""
+    drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
+    with pytest.raises(Refused, match="words and plans do not fit"):
+        drafted(drawing, Pencil(), "A2")

@@ -116,12 +116,6 @@ def test_paper_that_cannot_serve_is_refused(paper: str, why: str) -> None:
         layout(gp.construct(gp.load("ozols-5-4")), paper)
 
 
-def test_paper_without_room_for_every_plan_is_refused() -> None:
-    """Where the words fit the paper named and leave some plan no room, that is refused too."""
-    with pytest.raises(Refused, match="do not fit"):
-        layout(gp.construct(gp.load("walschaerts-loaded"), plan="polar"), "A2")
-
-
 def test_lettering_is_never_below_its_size() -> None:
     """The words of the step list keep their size whatever the paper."""
     for paper in ("A3", "A2"):

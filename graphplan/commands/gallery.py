@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
         raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
     stale = 0
     written = set()
-    for name, text in _pages():
+    for name, text in _pages(options.folder):
         path = options.folder / name
         written.add(name)
         if options.check:
@@ -48,8 +48,9 @@ def _differs(path: Path, text: str) -> bool:
     return not same
 
 
-def _pages() -> Iterator[tuple[str, str]]:
-    """Every file of the gallery: a sheet and a protocol for each scene, and the index."""
+def _pages(folder: Path) -> Iterator[tuple[str, str]]:
+    """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts that are there.
+    """
     from graphplan import sheet
     from graphplan.backends.text import protocol
     from graphplan.check.printed import data
@@ -72,7 +73,12 @@ def _pages() -> Iterator[tuple[str, str]]:
         entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
     if sys.stderr.isatty():
         print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
-    yield "index.html", INDEX.format(entries="\n".join(entries))
+    charts = [_chart(path.stem) for path in sorted((folder / "charts").glob("*.svg"))]
+    yield "index.html", INDEX.format(entries="\n".join(entries), charts="\n".join(charts))
+
+
+def _chart(name: str) -> str:
+    return f'<figure><a href="charts/{name}.svg"><img src="charts/{name}.svg" alt="{name}" loading="lazy"></a></figure>'
 
 
 def _entry(name: str, title: str, source: str, steps: int) -> str:
@@ -95,6 +101,12 @@ img {{ width: 100%; border: 1px solid #bbb; background: #fff; }}
 <p>Every packaged scene as graphplan constructs it: the sheet, and the construction in words.</p>
 <main>
 {entries}
+</main>
+<h2>Measured and followed round</h2>
+<p>Speed against accuracy (<code>graphplan chart</code>) and kinematic diagrams (<code>graphplan cycle</code>); times are
+ratios within one run.</p>
+<main>
+{charts}
 </main>
 </html>
 """

@@ -32,8 +32,6 @@ FRONT = {"__init__", "__main__", "commands"}
 
 # Who may import what does not come with Python.
 OUTSIDE = {
-    "shapely": {"sheet/labels.py", "sheet/clip.py"},
-    "svgwrite": {"backends"},
     "matplotlib": {"backends"},
     "numba": {"kernel/tape/compiled.py"},
     "distributed": {"methods/crew.py"},
@@ -99,7 +97,7 @@ def test_no_circles() -> None:
 
 @pytest.mark.parametrize("path", FILES, ids=named)
 def test_outside_packages(path: Path) -> None:
-    """shapely serves labels and clipping, svgwrite and matplotlib back ends; numpy and flint number domains."""
+    """matplotlib serves back ends alone; what the kernel reckons with beyond Python stands in its number domains."""
     found = outside(path)
     for package, users in OUTSIDE.items():
         assert package not in found or users & {folder(path), named(path)}
@@ -116,13 +114,13 @@ def test_files_are_short(path: Path) -> None:
 
 
 def test_solving_needs_no_drawing_packages() -> None:
-    """Solving a scene loads neither shapely nor svgwrite nor matplotlib."""
+    """Solving a scene does not load matplotlib."""
     scenes = sorted((PACKAGE / "scenes").glob("*.toml"))
     if not scenes:
         pytest.skip("no scenes yet")
     code = ("import sys; from graphplan.commands import main; "
             f"assert main(['solve', {str(scenes[0])!r}]) in (0, None); "
-            "print({'shapely', 'svgwrite', 'matplotlib'} & set(sys.modules), file=sys.stderr)")
+            "print({'matplotlib'} & set(sys.modules), file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.strip().endswith("set()"), done.stderr
 

@@ -103,8 +103,8 @@ img {{ width: 100%; border: 1px solid #bbb; background: #fff; }}
 {entries}
 </main>
 <h2>Measured and followed round</h2>
-<p>Speed against accuracy (<code>graphplan chart</code>) and kinematic diagrams (<code>graphplan cycle</code>); times are
-ratios within one run.</p>
+<p>Speed against accuracy (<code>graphplan chart</code>) and kinematic diagrams (<code>graphplan cycle</code>); times
+are ratios within one run.</p>
 <main>
 {charts}
 </main>

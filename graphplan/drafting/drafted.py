@@ -5,18 +5,20 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from graphplan.drafting.cost import Cost, cost
 from graphplan.drafting.first_order import Result, first_order
 from graphplan.drafting.hand import Hand, hand
 from graphplan.drafting.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.sheet.compose import compose
+from graphplan.sheet.compose import Composer
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.deviations import Deviation, Deviations
 from graphplan.sheet.scales import digits
+
+if TYPE_CHECKING:
+    from graphplan.drafting.cost import Cost
 
 ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
 
@@ -38,6 +40,8 @@ class Drafted:
     @cached_property
     def cost(self) -> Cost:
         """What drawing it costs."""
+        from graphplan.drafting.cost import cost  # a sheet does not tell it
+
         return cost(self.drawing, self.composition)
 
     @property
@@ -127,11 +131,12 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     The errors hang on the scales, the scales on the room that words leave, the words on the errors: the sheet is
     composed until its scales stay. Fails with `Refused` where they do not, or the words do not fit the paper named.
     """
-    composition = compose(drawing, paper, check)
+    composer = Composer(drawing, paper, check)
+    composition = composer.compose()
     for _ in range(ATTEMPTS):
         results = first_order(drawing, hand(drawing, composition.scales, pencil), composition.scales)
         found = Drafted(drawing, pencil, composition, results)
-        again = compose(drawing, paper, check, found.deviations)
+        again = composer.compose(found.deviations)
         if again.scales == composition.scales:
             return Drafted(drawing, pencil, again, results)
         composition = again

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 from graphplan.sheet.composition import Composition, composed
@@ -19,6 +19,18 @@ def compose(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any]
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    planes, block = Planes(drawing), TitleBlock(drawing.scene.title, drawing.scene.source)
-    words = Words(planes, check or {}, pencil or Deviations())
-    return composed(planes, cache(words.rows), block.height, paper)
+    return Composer(drawing, paper, check).compose(pencil)
+
+
+class Composer:
+    """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
+
+    def __init__(self, drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None):
+        self.planes, self.paper = Planes(drawing), paper
+        self.words = Words(self.planes, check or {})
+        self.title = TitleBlock(drawing.scene.title, drawing.scene.source)
+
+    def compose(self, pencil: Deviations | None = None) -> Composition:
+        """The composition with these drawing errors told on it."""
+        rows = cache(partial(self.words.rows, pencil=pencil or Deviations()))
+        return composed(self.planes, rows, cache(self.title.height), self.paper)

@@ -10,10 +10,11 @@ from graphplan.sheet.captions import captions
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.display import Item, Polygon, Sheet, Spot
-from graphplan.sheet.labels import Wish, placed
+from graphplan.sheet.labels import placed
 from graphplan.sheet.letters import Letters
 from graphplan.sheet.linkage import Linkage
 from graphplan.sheet.paper import Arrangement
+from graphplan.sheet.places import Wish
 from graphplan.sheet.planes import MECHANISM, Drawing, Planes
 from graphplan.sheet.rows import fill, lettered
 from graphplan.sheet.strokes import Strokes

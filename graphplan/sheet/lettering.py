@@ -7,8 +7,10 @@ thousandths of an em; it is wider than Arial or Helvetica, so what fits here fit
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Iterable
 from functools import lru_cache
+from itertools import groupby
+from typing import NamedTuple
 
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
 SIZE = 2.5  # mm; the cap height is 0.729 of it, so 1.8 mm
@@ -36,8 +38,7 @@ GREEK = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Run:
+class Run(NamedTuple):
     """A stretch of text on one level: 0 on the base line, -1 subscript."""
 
     text: str
@@ -86,15 +87,16 @@ def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
     return _joined((*runs, Run(sentence[done:])))
 
 
-def _joined(runs: Runs) -> Runs:
+def _joined(runs: Iterable[Run]) -> Runs:
     """Without empty runs, and neighbours on one level made one."""
-    out: list[Run] = []
-    for run in runs:
-        if out and out[-1].level == run.level:
-            out[-1] = Run(out[-1].text + run.text, run.level)
-        elif run.text:
-            out.append(run)
-    return tuple(out)
+    levels = groupby((run for run in runs if run.text), key=lambda run: run.level)
+    return tuple([Run("".join([run.text for run in group]), level) for level, group in levels])
+
+
+def listed(names: Iterable[str], lead: str = "") -> Runs:
+    """Names side by side, after the words that lead to them."""
+    runs = [run for name in names for run in (Run(", "), *name_runs(name))]
+    return _joined((Run(lead), *runs[1:]))
 
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:
@@ -113,8 +115,8 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
     lines: list[Runs] = []
     line: Runs = ()
     long, space = 0.0, width(SPACE, size, bold)
-    for word in _words(runs):
-        wide = width(word, size, bold)
+    for word, ems in _words(runs):
+        wide = ems * size * (_BOLD if bold else 1.0)
         if line and long + space + wide <= room:
             line, long = (*line, *SPACE, *word), long + space + wide
             continue
@@ -134,7 +136,8 @@ def plain(runs: Runs) -> str:
 
 
 @lru_cache(maxsize=1024)
-def _words(runs: Runs) -> list[Runs]:
+def _words(runs: Runs) -> list[tuple[Runs, float]]:
+    """The words, each with its length beside the size of the letters."""
     words: list[list[Run]] = [[]]
     for run in runs:
         for i, part in enumerate(run.text.split(" ")):
@@ -142,7 +145,7 @@ def _words(runs: Runs) -> list[Runs]:
                 words.append([])
             if part:
                 words[-1].append(Run(part, run.level))
-    return [tuple(word) for word in words if word]
+    return [(tuple(word), _ems(tuple(word))) for word in words if word]
 
 
 def _flat(runs: Runs) -> Runs:

@@ -11,8 +11,8 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step
 from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Spot
-from graphplan.sheet.labels import Wish
-from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.lettering import listed, name_runs, sentence_runs
+from graphplan.sheet.places import Wish
 from graphplan.sheet.planes import MECHANISM, Vector, corner
 from graphplan.sheet.strokes import Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
@@ -51,8 +51,8 @@ class Letters:
             clear = RADIUS + 0.4 if self.strokes.panel == MECHANISM and self._at_joint(spot) else 0.6
             lettered = [step for step in steps if step.name]
             if lettered:
-                label, bold = ",".join(step.name for step in lettered), all(map(corner, lettered))
-                yield Wish(_listed(lettered), (spot,), clear, step=lettered[0].index, label=label, bold=bold)
+                names, bold = [step.name for step in lettered], all(map(corner, lettered))
+                yield Wish(listed(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold)
             numbered = [step for step in steps if not step.name]
             if numbered:
                 said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)
@@ -94,8 +94,8 @@ class Letters:
             yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
         for tip, tail, mark in stretch.breaks:
             name, near = drawn.text(mark), (towards(tip, tail, 2.0),)
-            runs = sentence_runs(f"to {name}", (name,))
-            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
+            label = f"to {name} {step.index}"
+            yield Wish(listed((name,), "to "), near, 0.6, 2.2, pens.FAINT, step.index, label)
 
     def _spans(self) -> dict[Span, list[Vector]]:
         """The vectors by where they begin and end: some lie on each other."""
@@ -117,14 +117,7 @@ class Letters:
             start, end = self.strokes.spots[first.start], self.strokes.spots[first.end]
             spots = tuple(clip.between(start, end, t) for t in (NEAR_HEAD if answered else MIDDLE))
             pen = replace(pens.VECTORS[first.kind], width=0.0)
-            runs = name_runs(names[0]) if len(names) == 1 else sentence_runs(", ".join(names), names)
-            yield Wish(runs, spots, 0.7, pen=pen, step=first.end, label=" ".join(names), free=True)
-
-
-def _listed(steps: list[Step]) -> Runs:
-    """Several names side by side."""
-    names = tuple(step.name for step in steps)
-    return sentence_runs(", ".join(names), names)
+            yield Wish(listed(names), spots, 0.7, pen=pen, step=first.end, label=" ".join(names), free=True)
 
 
 def _same(one: Span, other: Span) -> bool:

@@ -10,8 +10,8 @@ from functools import cached_property
 from graphplan.mechanism.model import FRAME, Scene, Slide, TurningDrive
 from graphplan.sheet import symbols
 from graphplan.sheet.display import Item, Spot
-from graphplan.sheet.labels import Wish
 from graphplan.sheet.lettering import Run, sentence_runs
+from graphplan.sheet.places import Wish
 from graphplan.sheet.symbols import LONG, Vector, off, turn, unit
 from graphplan.sheet.view import View
 

@@ -9,6 +9,7 @@ scale, and says so.
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -30,7 +31,7 @@ def round_up(least: float) -> float:
 
 def multiple_below(most: float) -> Fraction:
     """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
-    return max((m for m in MULTIPLES if float(m) <= most * (1 + 1e-9)), default=MULTIPLES[0])
+    return MULTIPLES[max(bisect_right(MULTIPLES, most * (1 + 1e-9), key=float) - 1, 0)]
 
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

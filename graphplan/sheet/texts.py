@@ -10,7 +10,6 @@ from typing import Any
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.sheet.captions import spoken
 from graphplan.sheet.deviations import Deviations
-from graphplan.sheet.force_tables import ForceTables
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.rows import Cell, Row
@@ -20,14 +19,16 @@ from graphplan.sheet.tables import ROUNDING, joined_tables, largest_size, rows, 
 HEADING, INDENT = 3.0, 8.5
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Words:
-    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind, `pencil` the
-    expected drawing errors where they are told."""
+    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind.
+
+    A sheet is composed more than once, with other drawing errors: what does not hang on them is set once for a width.
+    """
 
     planes: Planes
     check: Mapping[str, Any] = field(default_factory=dict)
-    pencil: Deviations = field(default_factory=Deviations)
+    _set: dict[float, tuple[list[Row], list[Row]]] = field(default_factory=dict)
 
     @property
     def drawing(self) -> Drawing:
@@ -38,10 +39,17 @@ class Words:
         """The letters that may stand in a sentence."""
         return tuple(step.name for step in self.drawing.drawn.steps if step.name)
 
-    def rows(self, wide: float) -> list[Row]:
-        """Everything, for a column of this width."""
-        sections = (self._steps(wide), self._results(wide), self._errors(wide), self._check(wide), self._forms(wide))
-        return [row for section in sections for row in section]
+    @cached_property
+    def values(self) -> Mapping[str, Mapping[str, Any]]:
+        """What the construction reads off, by kind and name."""
+        return self.drawing.read(Floats())
+
+    def rows(self, wide: float, pencil: Deviations) -> list[Row]:
+        """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
+        if wide not in self._set:
+            self._set[wide] = [*self._steps(wide)], [*self._check(wide), *self._forms(wide)]
+        before, after = self._set[wide]
+        return [*before, *self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
 
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
         """A paragraph, hanging from its number."""
@@ -65,9 +73,9 @@ class Words:
             told.add(step.why)
             yield from self._said(drawn.sentence(step.index) + why, wide, step.index, str(drawn.number(step.index)))
 
-    def _results(self, wide: float) -> Iterator[Row]:
-        values = self.drawing.read(Floats())
-        scene, unit, off = self.drawing.scene, self.drawing.scene.units.length, self.pencil.of
+    def _results(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+        values, off = self.values, pencil.of
+        scene, unit = self.drawing.scene, self.drawing.scene.units.length
         yield heading("Results")
         velocity = vectors("v", f"{unit}/s", values.get("velocity", {}), scene.points, off("velocity"))
         acceleration = vectors("a", f"{unit}/s²", values.get("acceleration", {}), scene.points, off("acceleration"))
@@ -75,28 +83,34 @@ class Words:
         omega = scalars("omega", "1/s", values.get("omega", {}), scene.links, off("omega"))
         alpha = scalars("alpha", "1/s²", values.get("alpha", {}), scene.links, off("alpha"))
         yield from joined_tables(omega, alpha, wide)
-        yield from self._sliding(values, wide)
-        yield from self._forces(ForceTables(self.drawing, values, self.pencil), wide)
+        if scene.slides:
+            yield from self._sliding(wide, pencil)
+        if scene.loads:
+            yield from self._forces(wide, pencil)
 
-    def _sliding(self, values: Mapping[str, Mapping[str, Any]], wide: float) -> Iterator[Row]:
+    def _sliding(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         """The motion of slides, beside the fastest and the sharpest of all."""
-        unit, slides, off = self.drawing.scene.units.length, [s.name for s in self.drawing.scene.slides], self.pencil.of
+        unit, slides = self.drawing.scene.units.length, [slide.name for slide in self.drawing.scene.slides]
+        values, off = self.values, pencil.of
         fastest, sharpest = (largest_size(values.get(kind, {})) for kind in ("velocity", "acceleration"))
         moving, speeding = (values.get(kind, {}) for kind in ("slide velocity", "slide acceleration"))
         velocity = vectors("v", f"{unit}/s", moving, slides, off("slide velocity"), "slide", fastest)
         acceleration = vectors("a", f"{unit}/s²", speeding, slides, off("slide acceleration"), "slide", sharpest)
         yield from joined_tables(velocity, acceleration, wide)
 
-    def _forces(self, tables: ForceTables, wide: float) -> Iterator[Row]:
+    def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+        from graphplan.sheet.force_tables import ForceTables  # most scenes have no loads
+
+        tables = ForceTables(self.drawing, self.values, pencil)
         yield from rows(tables.reactions())
         for sentence in tables.seats():
             yield from self._said(sentence, wide)
         yield from rows(tables.balance())
 
-    def _errors(self, wide: float) -> Iterator[Row]:
-        if self.pencil.told:
+    def _errors(self, wide: float, told: str) -> Iterator[Row]:
+        if told:
             yield heading("Drawing errors")
-            yield from self._said(self.pencil.told, wide)
+            yield from self._said(told, wide)
 
     def _check(self, wide: float) -> Iterator[Row]:
         if self.check:

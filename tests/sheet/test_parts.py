@@ -14,8 +14,9 @@ from graphplan.sheet.captions import caption, listed, spoken
 from graphplan.sheet.clip import clipped, segment
 from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect, Text
 from graphplan.sheet.divisions import divisions
-from graphplan.sheet.labels import Wish, placed
+from graphplan.sheet.labels import placed
 from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
+from graphplan.sheet.places import Wish
 from graphplan.sheet.rows import Cell, Row, fill
 from graphplan.sheet.scales import Scales, digits, multiple_below, round_up
 from graphplan.sheet.title import ratio

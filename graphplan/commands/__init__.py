@@ -28,10 +28,16 @@ exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose
 
 
 def main(argv: Sequence[str] | None = None) -> int:
-    """Run one subcommand; its exit status."""
-    if argv is None:
-        gc.set_threshold(GARBAGE)
-    arguments = sys.argv[1:] if argv is None else list(argv)
+    """Run one subcommand; its exit status. Without arguments it is the whole process, whose words are its own."""
+    if argv is not None:
+        return _run(list(argv))
+    gc.set_threshold(GARBAGE)
+    status = _run(sys.argv[1:])
+    gc.freeze()  # the process ends here: nothing is looked through once more
+    return status
+
+
+def _run(arguments: Sequence[str]) -> int:
     options = _parser(_called(arguments)).parse_args(arguments)
     try:
         status = int(options.run(options))

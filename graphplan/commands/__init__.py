@@ -68,7 +68,7 @@ def _parser(names: Sequence[str]) -> argparse.ArgumentParser:
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True)
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
     for name in names:
         module = importlib.import_module(f"graphplan.commands.{name}")
         summary, _, details = (module.__doc__ or "").partition("\n")

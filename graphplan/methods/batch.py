@@ -186,6 +186,14 @@ def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
 
 
 def _guides(construction: Construction, slide: Slide) -> list[int]:
-    """The steps that draw the guide of a slide in its given direction."""
+    """The steps that draw the guide of a slide in its given direction, which no other guide may share.
+
+    In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
+    """
+    for other in construction.scene.slides:
+        alike = other.at == slide.at and other.direction == slide.direction and other.through is None
+        if alike and other.along != slide.along:
+            raise Refused(f"guides {slide.name} and {other.name}", "they are drawn as one line, and turn apart",
+                          "two points of its link for the direction of each")
     return [step.index for step in construction.program.steps
             if step.op.name == "guide" and step.links == (slide.link, slide.along)]

@@ -130,8 +130,8 @@ def test_guides_that_are_one_line_only_in_this_pose_are_refused() -> None:
     """Two guides drawn as one line on different links turn apart: the second is asked for by points."""
     other = '[[slides]]\nlink = "4"\nalong = "frame"\nat = "A"\ndirection = [3, 1]\n'
     other += '[[drive]]\nlink = "2"\nomega = 1\n'
-    text = GUIDED.replace('3 = "A"', '3 = "A"\n4 = "A"').replace('"O P"', '"P"').replace("[[drive]]", other + "[[drive]]")
-    scene = gp.parse(text, "one-line")
+    text = GUIDED.replace('3 = "A"', '3 = "A"\n4 = "A"').replace('"O P"', '"P"')
+    scene = gp.parse(text.replace("[[drive]]", other + "[[drive]]"), "one-line")
     with pytest.raises(Refused, match="turn apart"):
         gp.construct(scene).evaluate({}, guides={"3 along 2": [3 + 1j]})
 

@@ -5,19 +5,18 @@ Every scene that is read holds each link just once, so both systems, for the rat
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
 from flint import arb_mat
 
 from graphplan.kernel.numbers.enclosures import Enclosure, Undecided, ball
-from graphplan.mechanism.model import Scene, TurningDrive
+from graphplan.mechanism.model import Scene, Slide
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Along, Fact, facts, supports
-from graphplan.solver.plane import dot, times
-from graphplan.solver.rates import Rates, read
+from graphplan.solver.facts import facts, supports
+from graphplan.solver.plane import dot
+from graphplan.solver.rates import Rates, motion
 
 if TYPE_CHECKING:
     from graphplan.solver.loads import Load
@@ -26,11 +25,9 @@ if TYPE_CHECKING:
 
 def enclosed_rates(scene: Scene) -> Rates:
     """The rates of a scene in enclosures; `Undecided` where the pose is singular as far as the bits tell."""
-    equations = Equations(scene, tuple(_facts(scene)))
+    equations = Equations(scene, facts(scene, _length))
     zero: Any = Enclosure(0)
-    first = equations.rates(_solved(equations.rows, equations.velocities), zero)
-    second = equations.rates(_solved(equations.rows, equations.accelerations(first)), zero)
-    return read(equations, first, second)
+    return motion(equations, lambda right: _solved(equations.rows, right), zero)
 
 
 def enclosed_reactions(scene: Scene, motion: Rates, besides: tuple[Load, ...] = ()) -> Reactions:
@@ -43,16 +40,9 @@ def enclosed_reactions(scene: Scene, motion: Rates, besides: tuple[Load, ...] = 
     return read_forces(equations, _solved(transpose(equations.rows, equations.width), right), motion)
 
 
-def _facts(scene: Scene) -> Iterator[Fact]:
-    """The scene's facts; an actuator's speed counts along a direction whose length is a root."""
-    turning = tuple(drive for drive in scene.drives if isinstance(drive, TurningDrive))
-    yield from facts(replace(scene, drives=turning))
-    for drive in scene.drives:
-        if not isinstance(drive, TurningDrive):
-            slide = next(s for s in scene.slides if (s.link, s.along) == (drive.link, drive.along))
-            length: Any = Enclosure(dot(slide.direction, slide.direction)).root
-            rate, change = times(length, (drive.speed, drive.acceleration))
-            yield Along(slide.link, slide.along, slide.at, slide.direction, rate, change)
+def _length(slide: Slide) -> Any:
+    """The length of a direction, which is a root."""
+    return Enclosure(dot(slide.direction, slide.direction)).root
 
 
 def _solved(rows: Sequence[Mapping[int, Any]], right: Sequence[Any]) -> list[Any]:

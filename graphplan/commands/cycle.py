@@ -85,8 +85,8 @@ def _table(found: Cycle, path: str | None, plotted: bool) -> None:
 
 def _say(found: Cycle) -> None:
     """What there is to say of the poses, on standard error."""
-    for line in (*_told(found, found.faults), *_told(found, {k: f"drawn by {how}" for k, how in
-                                                             found.otherwise.items()})):
+    otherwise = {k: f"drawn by {how}" for k, how in found.otherwise.items()}
+    for line in (*_told(found.faults), *_told(otherwise)):
         print(line, file=sys.stderr)
     for k in found.wrong:
         print(f"pose {k}: the construction and the analytic solver disagree", file=sys.stderr)
@@ -96,12 +96,13 @@ def _say(found: Cycle) -> None:
           file=sys.stderr)
 
 
-def _told(found: Cycle, notes: Mapping[int, str]) -> Iterator[str]:
+def _told(notes: Mapping[int, str]) -> Iterator[str]:
     """Notes on poses, those of neighbours that say the same as one line."""
     stretches: list[list[int]] = []
     for k in notes:
-        same = stretches and k == stretches[-1][-1] + 1 and _reason(notes[k]) == _reason(notes[k - 1])
-        stretches[-1].append(k) if same else stretches.append([k])
+        if not stretches or k != stretches[-1][-1] + 1 or _reason(notes[k]) != _reason(notes[k - 1]):
+            stretches.append([])
+        stretches[-1].append(k)
     for first, *rest in stretches:
         poses = f"pose {first}" if not rest else f"poses {first} to {rest[-1]} ({len(rest) + 1})"
         yield f"{poses}: {notes[first]}"

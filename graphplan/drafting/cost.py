@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.kernel.expand import CROSSINGS
-from graphplan.kernel.kinds import CIRCLE, DIVIDERS, SET_SQUARES
+from graphplan.kernel.expand import CROSSINGS, crossing
+from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
-from graphplan.kernel.program import Step
 from graphplan.methods.construction import Construction
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.planes import Planes
@@ -72,7 +70,7 @@ class Cost:
 def cost(drawing: Construction, composition: Composition) -> Cost:
     """What drawing a construction costs on its sheet."""
     drawn = drawing.drawn
-    crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), _sine(step, drawing.values))
+    crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
                  for step in drawn.steps if step.op.name in CROSSINGS]
     return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(drawing, composition))
 
@@ -83,16 +81,3 @@ def _off_sheet(drawing: Construction, composition: Composition) -> tuple[int, ..
     off = [index for panel, view in composition.views.items() for index in planes.points(panel)
            if not view.rect.holds(view(planes.spot(index)))]
     return tuple(drawing.drawn.number(index) for index in sorted(off))
-
-
-def _sine(step: Step, values: Sequence[Any]) -> float:
-    """The sine of the angle under which the two curves of a crossing meet."""
-    X = complex(*values[step.index])
-    one, two = (_normal(kind, values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
-    return abs((one.conjugate() * two).imag)
-
-
-def _normal(kind: str, curve: Any, X: complex) -> complex:
-    """The unit normal of a line, or of a circle at X."""
-    normal = X - complex(*curve[:2]) if kind == CIRCLE else complex(*curve[:2])
-    return normal / (abs(normal) or 1.0)

@@ -16,6 +16,11 @@ from graphplan.sheet.paper import sheet_size
 FORMS = ("", *METHODS)  # first the one that the pose chooses
 
 
+def called(methods: Sequence[str]) -> str:
+    """What the form is called to which these methods lead."""
+    return "every method" if tuple(methods) == FORMS else ", ".join(method or "pose's own" for method in methods)
+
+
 @dataclass(frozen=True)
 class Form:
     """One drawing, by all the methods that lead to it; or a method that does not, and why."""
@@ -27,9 +32,7 @@ class Form:
     @property
     def name(self) -> str:
         """What it is called."""
-        if self.methods == FORMS:
-            return "every method"
-        return ", ".join(method or "pose's own" for method in self.methods)
+        return called(self.methods)
 
     def __str__(self) -> str:
         if self.drafted is None:

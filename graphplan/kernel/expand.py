@@ -12,7 +12,7 @@ soon as it has taken as many movements as one that has nothing against it (branc
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -221,7 +221,7 @@ class Expander:
             return None
         on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
                        for step in steps if step.op.gives == POINT)
-        crossings = [self._crossing(step) for step in steps if step.op.name in CROSSINGS]
+        crossings = [crossing(step, self.values) for step in steps if step.op.name in CROSSINGS]
         undrawn = sum(step.op.name not in self.keep for step in steps)
         return Trial(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
 
@@ -234,11 +234,6 @@ class Expander:
             return False
         return len({self.board.steps[arg].panel for arg in step.args}) > 1
 
-    def _crossing(self, step: Step) -> float:
-        """The sine of the angle under which two curves cross."""
-        X = complex(*self.values[step.index])
-        one, two = (_normal(kind, self.values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
-        return abs((one.conjugate() * two).imag)
 
     def _explain(self, op: Primitive, before: int, ranked: list[Trial], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is and why; at its last what it is good for."""
@@ -330,6 +325,13 @@ def _along(point: tuple[float, float], x: float, y: float) -> float:
 def _runs_against(one: Any, two: Any) -> bool:
     """Whether two lines run opposite ways."""
     return bool(_along(one[:2], *two[:2]) < 0)
+
+
+def crossing(step: Step, values: Sequence[Any]) -> float:
+    """The sine of the angle under which the two curves of a crossing meet."""
+    X = complex(*values[step.index])
+    one, two = (_normal(kind, values[arg], X) for kind, arg in zip(step.op.reads, step.args, strict=True))
+    return abs((one.conjugate() * two).imag)
 
 
 def _normal(kind: str, curve: Any, X: complex) -> complex:

@@ -8,7 +8,7 @@ velocities; what is left over, from centripetal and Coriolis accelerations, is k
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from typing import NamedTuple
@@ -101,11 +101,15 @@ class Along:
 
 
 Fact = Turning | Along
+Length = Callable[[Slide], Number]
 
 
-def facts(scene: Scene) -> tuple[Fact, ...]:
-    """Every fact that the scene states, in its order: joints, slides, drives, given motions."""
-    return (*pairs(scene), *drives(scene), *motions(scene))
+def facts(scene: Scene, length: Length | None = None) -> tuple[Fact, ...]:
+    """Every fact that the scene states, in its order: joints, slides, drives, given motions.
+
+    `length` gives the length of a slide's direction in other numbers than fractions and floats.
+    """
+    return (*pairs(scene), *drives(scene, length or reach), *motions(scene))
 
 
 def supports(scene: Scene) -> tuple[Fact, ...]:
@@ -134,7 +138,7 @@ def slides(scene: Scene) -> Iterator[Fact]:
         yield Along(slide.link, slide.along, slide.at, turned(slide.direction), 0, 0)
 
 
-def drives(scene: Scene) -> Iterator[Fact]:
+def drives(scene: Scene, length: Length) -> Iterator[Fact]:
     """What the drives prescribe; an actuator's speed is counted along its slide's direction."""
     for drive in scene.drives:
         if isinstance(drive, TurningDrive):
@@ -160,7 +164,7 @@ def held(balance: Balance) -> Fact:
     return Along(balance.link, FRAME, balance.at, balance.direction, 0, 0)
 
 
-def length(slide: Slide) -> Number:
+def reach(slide: Slide) -> Number:
     """The length of the slide's direction: a fraction where it has a rational one, else a float."""
     square = dot(slide.direction, slide.direction)
     if isinstance(square, float):

@@ -5,19 +5,19 @@ Every scene that is read holds each link just once, so both systems, for the rat
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import Number, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import Drive, Number, Scene, Slide, SlidingDrive
 from graphplan.solver import rates, statics
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, Row
-from graphplan.solver.facts import Along, Fact, facts, supports
+from graphplan.solver.facts import facts, supports
 from graphplan.solver.loads import acting, resultants
-from graphplan.solver.plane import dot, times
+from graphplan.solver.plane import dot
 
 
 def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Scene:
@@ -36,16 +36,21 @@ def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) ->
         return _pair(guides[slide.name]) if slide.name in guides else tuple(map(float, slide.direction))
 
     slides = tuple(replace(slide, direction=direction(slide)) for slide in scene.slides)
-    return replace(scene, points={name: where(name) for name in scene.points}, slides=slides)
+    drives = tuple(_in_floats(drive) for drive in scene.drives)
+    return replace(scene, points={name: where(name) for name in scene.points}, slides=slides, drives=drives)
+
+
+def _in_floats(drive: Drive) -> Drive:
+    if isinstance(drive, SlidingDrive):
+        return replace(drive, speed=float(drive.speed), acceleration=float(drive.acceleration))
+    return replace(drive, omega=float(drive.omega), alpha=float(drive.alpha))
 
 
 def solve(scene: Scene, n: int) -> rates.Rates:
     """The rates of a scene in n poses, as arrays of shape (n,); nan where a system has no solution."""
-    equations = Equations(scene, tuple(_facts(scene)))
+    equations = Equations(scene, facts(scene, _length))
     zero: Any = np.zeros(n)
-    first = equations.rates(_solved(equations.rows, equations.velocities, n), zero)
-    second = equations.rates(_solved(equations.rows, equations.accelerations(first), n), zero)
-    return rates.read(equations, first, second)
+    return rates.motion(equations, lambda right: _solved(equations.rows, right, n), zero)
 
 
 def reactions(scene: Scene, motion: rates.Rates, n: int) -> statics.Reactions:
@@ -55,15 +60,10 @@ def reactions(scene: Scene, motion: rates.Rates, n: int) -> statics.Reactions:
     return statics.read(equations, _solved(transpose(equations.rows, equations.width), right, n), motion)
 
 
-def _facts(scene: Scene) -> Iterator[Fact]:
-    """The scene's facts, with the lengths of directions over all poses."""
-    turning = tuple(drive for drive in scene.drives if isinstance(drive, TurningDrive))
-    yield from facts(replace(scene, drives=turning))
-    for drive in (drive for drive in scene.drives if isinstance(drive, SlidingDrive)):
-        slide = next(s for s in scene.slides if (s.link, s.along) == (drive.link, drive.along))
-        square: Any = dot(slide.direction, slide.direction)
-        rate, change = times(np.sqrt(square), (float(drive.speed), float(drive.acceleration)))
-        yield Along(slide.link, slide.along, slide.at, slide.direction, rate, change)
+def _length(slide: Slide) -> Any:
+    """The length of a direction in all poses."""
+    square: Any = dot(slide.direction, slide.direction)
+    return np.sqrt(square)
 
 
 def _solved(rows: Sequence[Row], right: Sequence[Number], n: int) -> Sequence[Any]:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
@@ -45,9 +45,13 @@ def solve(scene: Scene, exact: bool = False) -> Rates:
     """
     equations = Equations(scene, facts(scene))
     linear = for_rates(equations, exact)
-    zero: Number = Fraction(0) if exact else 0.0
-    first = equations.rates(solved(equations, linear, equations.velocities), zero)
-    second = equations.rates(solved(equations, linear, equations.accelerations(first)), zero)
+    return motion(equations, partial(solved, equations, linear), Fraction(0) if exact else 0.0)
+
+
+def motion(equations: Equations, solve: Callable[[Sequence[Number]], Sequence[Number]], zero: Number) -> Rates:
+    """The rates by two solutions of the same rows, for the velocities and then for the accelerations."""
+    first = equations.rates(solve(equations.velocities), zero)
+    second = equations.rates(solve(equations.accelerations(first)), zero)
     return read(equations, first, second)
 
 

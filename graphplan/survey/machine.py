@@ -16,13 +16,14 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.drafting.preference import FORMS, called
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import METHODS, construct
+from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.solver import Rates, poses, solve
 from graphplan.survey.binary import binary, placed, truth
@@ -34,7 +35,6 @@ SAMPLED = 5
 LARGER = 1.02
 DIGITS_IN_BITS = 164  # 30 digits, with bits to spare as `solve --digits` takes
 PLANS = ("orthogonal", "polar")
-FORMS = ("", *METHODS)  # first the one that the pose chooses
 
 SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
 COMPILED = "loop compiled by numba"
@@ -143,11 +143,11 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanErro
             one = _constructed(scene, method, plan)
             same = next((names for names, other in found if _alike(one, other)), None)
             if same is None:
-                found.append(([method or "pose's own"], one))
+                found.append(([method], one))
             else:
                 same.append(method)
         for names, one in found:
-            yield "every method" if len(names) == len(FORMS) else ", ".join(names), plan, one
+            yield called(names), plan, one
 
 
 def _constructed(scene: Scene, method: str, plan: str) -> Construction | GraphplanError:

@@ -104,14 +104,14 @@ class _Writer:
         self._write(sorted(self.marks))
 
     def text(self) -> str:
-        """The function `block(inputs, outputs, registers)`: whether every question was answered."""
+        """What makes the function `block(inputs, outputs, registers)`: whether every question was answered."""
         unpack = [f"{', '.join(names)}, = {array}" for array, names in (
             ("I", [name for name in self.names.values() if name[0] == "i"]),
             ("O", [f"o{k}" for k in range(self._count())]),
             ("R", [f"r{k}" for k in range(self.registers)])) if names]
         copies = [f"o{k}[:] = {self._name(place)}" for k, place in self.copies]
-        body = [*HEAD, *unpack, *self.lines, *copies, "return True"]
-        return "\n    ".join(["def block(I, O, R):", *body])
+        body = [*unpack, *self.lines, *copies, "return True"]
+        return "\n".join([*HEAD, "\n    ".join(["def block(I, O, R):", *body])])
 
     def _count(self) -> int:
         return max([*self.told.values(), *(k for k, _ in self.copies)], default=-1) + 1

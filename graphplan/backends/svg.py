@@ -36,7 +36,8 @@ class _Writer:
     def __init__(self, sheet: Sheet):
         self.sheet = sheet
         wide, high = _round(sheet.width), _round(sheet.height)
-        size = {"width": f"{wide}mm", "height": f"{high}mm", "viewBox": f"0 0 {wide} {high}"}
+        size = {"width": f"{wide}mm", "height": f"{high}mm", "viewBox": f"0 0 {wide} {high}",
+                "xml:lang": sheet.language}
         self.root = _element("svg", DOCUMENT | size)
         _titled(self.root, sheet.title)
         SubElement(self.root, "desc").text = sheet.description

@@ -130,7 +130,7 @@ def _forms(drawing: Construction, method: str, plan: str, inertia: str) -> Itera
         except GraphplanError:
             continue
         if other.ways != drawing.ways:
-            yield other.ways, other
+            yield ", ".join(other.ways), other
 
 
 def _enter(found: Cycle, part: _Round, results: Mapping[str, Mapping[str, Any]], gaps: Mapping[str, Any],

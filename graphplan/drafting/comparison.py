@@ -43,7 +43,7 @@ class Comparison:
         costs = [head, *(self._cost(name, one) for name, one in self.drawn)]
         errors = [(*OFF, *(("hands", "missed") if self.hands else ())),
                   *(self._errors(name, one) for name, one in self.drawn)]
-        refused = [str(form) for form in self.forms if form.drafted is None]
+        refused = [form.told for form in self.forms if form.drafted is None]
         return ["", f"{self.plan.capitalize()} plans, with {tools}:", *(aligned(costs) if self.drawn else ()),
                 *(["", *aligned(errors)] if self.drawn else ()),
                 *(line for reason in refused for line in textwrap.wrap(reason, WIDTH, subsequent_indent="  "))]
@@ -76,7 +76,7 @@ class Comparison:
         if worst is None:
             return name, *[""] * (len(OFF) - 1 + 2 * bool(self.hands))
         own, mm = worst.deviation.value, worst.deviation.mm
-        row = (name, str(worst), percent(one.error), f"{digits(own, 2)} {worst.unit(self.scene)}",
+        row = (name, worst.named, percent(one.error), f"{digits(own, 2)} {worst.unit(self.scene)}",
                "" if mm is None else digits(mm, 2), one.named(worst.worst_step))
         if not self.hands:
             return row

@@ -10,6 +10,7 @@ from graphplan.kernel.expand import CROSSINGS, crossing
 from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
+from graphplan.phrases import Said, said
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.planes import Planes
 
@@ -48,7 +49,7 @@ class Cost:
         """All of it, as data; simplicity and exactitude, which know no set squares, of a strict drawing alone."""
         found = self.counts
         return {
-            "said": str(found), "steps": self.steps, "operations": found.operations, "lines": found.R2,
+            "said": found.told, "steps": self.steps, "operations": found.operations, "lines": found.R2,
             "arcs": found.C3, "scale": found.scale, "set squares": found.others.get(SET_SQUARES, 0),
             "dividers": found.others.get(DIVIDERS, 0), "instrument changes": found.changes,
             "simplicity": found.simplicity if found.strict else None,
@@ -57,13 +58,14 @@ class Cost:
             "off the sheet": list(self.off_sheet),
         }
 
-    def lines(self) -> list[str]:
+    def lines(self) -> list[Said]:
         """The cost in words, a line each."""
-        told = [f"Changes of instrument: {self.counts.changes}."]
+        told = [said("Changes of instrument: {0}.", self.counts.changes)]
         if self.flattest:
-            told.append(f"Flattest crossing: {self.flattest.degrees:.0f} degrees, step {self.flattest.number}.")
+            angle = f"{self.flattest.degrees:.0f}"
+            told.append(said("Flattest crossing: {0}°, step {1}.", angle, self.flattest.number))
         if self.off_sheet:
-            told.append(f"Outside the paper of their plans: steps {', '.join(map(str, self.off_sheet))}.")
+            told.append(said("Outside the paper of their plans: steps {0}.", ", ".join(map(str, self.off_sheet))))
         return told
 
 

@@ -12,10 +12,13 @@ from graphplan.drafting.hand import Hand, hand
 from graphplan.drafting.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
+from graphplan.methods.readings import kind_named
+from graphplan.phrases import Said, joined, said
 from graphplan.sheet.compose import Composer
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.deviations import Deviation, Deviations
 from graphplan.sheet.scales import digits
+from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:
     from graphplan.drafting.cost import Cost
@@ -65,10 +68,12 @@ class Drafted:
         """The worst result's error beside the largest value of its kind."""
         return (self.worst.relative or 0.0) if self.worst else 0.0
 
-    def named(self, index: int) -> str:
+    def named(self, index: int) -> Said:
         """A step by its number, a point of the pose by its name."""
         drawn = self.drawing.drawn
-        return f"step {drawn.number(index)}" if index >= drawn.givens else f"the given point {drawn.text(index)}"
+        if index >= drawn.givens:
+            return said("step {0}", drawn.number(index))
+        return said("the given point {0}", drawn.text(index))
 
     @property
     def deviations(self) -> Deviations:
@@ -79,19 +84,20 @@ class Drafted:
         return Deviations(results, self.told)
 
     @property
-    def told(self) -> str:
+    def told(self) -> Said:
         """The drawing model and the worst step, in a sentence or two."""
-        model = f"± is the standard deviation of a drawing with {self.pencil}; in brackets mm of paper."
+        model = said("± is the standard deviation of a drawing with {0}; in brackets mm of paper.", self.pencil.told)
         if self.worst is None or not self.error:
             return model
-        return (f"{model} Worst: {self.worst}, {percent(self.error)} of the largest; most of it comes from "
-                f"{self.named(self.worst.worst_step)}.")
+        worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.named,
+                     percent(self.error), self.named(self.worst.worst_step))
+        return joined((model, worst), " ")
 
-    def lines(self) -> list[str]:
+    def lines(self) -> list[Said]:
         """Cost and errors in words, a line each."""
-        off = [f"{kind}: " + ", ".join(f"{name} ±{deviation}" for name, deviation in found.items())
+        off = [joined((kind_named(kind), joined(f"{name} ±{deviation}" for name, deviation in found.items())), ": ")
                for kind, found in self.deviations.results.items()]
-        return [*self.cost.lines(), f"Drawing errors on {self.paper}: {self.told}", *off]
+        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *off]
 
     @property
     def data(self) -> dict[str, Any]:
@@ -125,13 +131,13 @@ def percent(part: float) -> str:
 
 
 def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
-            check: Mapping[str, Any] | None = None) -> Drafted:
+            check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it.
 
     The errors hang on the scales, the scales on the room that words leave, the words on the errors: the sheet is
     composed until its scales stay. Fails with `Refused` where they do not, or the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check)
+    composer = Composer(drawing, paper, check, tongue)
     composition = composer.compose()
     for _ in range(ATTEMPTS):
         results = first_order(drawing, hand(drawing, composition.scales, pencil), composition.scales)

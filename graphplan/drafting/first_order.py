@@ -20,7 +20,9 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, Reading
+from graphplan.methods.readings import kind_named
 from graphplan.methods.tempo import extent
+from graphplan.phrases import Said, joined, said
 from graphplan.sheet.deviations import Deviation
 from graphplan.sheet.planes import Planes
 from graphplan.sheet.scales import Scales
@@ -40,9 +42,13 @@ class Result:
     relative: float | None
     shares: tuple[float, ...]
 
-    def __str__(self) -> str:
-        whose = f"link {self.of}" if self.kind in RATES else self.of
-        return f"{self.kind} {whose}" if self.of.isdigit() and self.kind not in RATES else f"{self.kind} of {whose}"
+    @property
+    def named(self) -> Said:
+        """The reading in words."""
+        kind = kind_named(self.kind)
+        if self.kind in RATES:
+            return said("{0} of link {1}", kind, self.of)
+        return joined((kind, self.of), " ") if self.of.isdigit() else said("{0} of {1}", kind, self.of)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""

@@ -12,6 +12,7 @@ import math
 from dataclasses import asdict, dataclass, fields
 
 from graphplan.errors import Refused
+from graphplan.phrases import Said, said
 from graphplan.sheet.scales import digits
 
 
@@ -38,9 +39,11 @@ class Pencil:
         """The model as data."""
         return asdict(self)
 
-    def __str__(self) -> str:
-        point, edge, opening = (digits(size) for size in (self.point, self.edge, self.opening))
-        return f"points ±{point} mm, edges ±{edge} mm, set squares ±{digits(self.angle)}°, openings ±{opening} mm"
+    @property
+    def told(self) -> Said:
+        """The model in words."""
+        sizes = (self.point, self.edge, self.angle, self.opening)
+        return said("points ±{0} mm, edges ±{1} mm, set squares ±{2}°, openings ±{3} mm", *map(digits, sizes))
 
 
 UNITS = {"point": "mm", "edge": "mm", "angle": "degrees", "opening": "mm"}

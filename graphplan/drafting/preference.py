@@ -11,6 +11,7 @@ from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import METHODS, construct
 from graphplan.methods.construction import Construction
+from graphplan.phrases import Said, arranged, said
 from graphplan.sheet.paper import sheet_size
 
 FORMS = ("", *METHODS)  # first the one that the pose chooses
@@ -34,11 +35,13 @@ class Form:
         """What it is called."""
         return called(self.methods)
 
-    def __str__(self) -> str:
+    @property
+    def told(self) -> Said:
+        """What speaks for it, or against it, in words."""
         if self.drafted is None:
-            return f"{self.name}: cannot be drawn: {self.refusal}"
-        worst = f" ({self.drafted.worst})" if self.drafted.worst else ""
-        return f"{self.name}: {self.drafted.operations} operations, error {percent(self.drafted.error)}{worst}"
+            return said("{0}: cannot be drawn: {1}", self.name, str(self.refusal))
+        told = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations, percent(self.drafted.error))
+        return arranged("{0} ({1})", told, self.drafted.worst.named) if self.drafted.worst else told
 
 
 @dataclass(frozen=True)
@@ -46,7 +49,7 @@ class Preference:
     """The form preferred, by the name of its method, and what is told of the choice: a line each."""
 
     method: str
-    told: tuple[str, ...] = ()
+    told: tuple[Said, ...] = ()
 
 
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
@@ -91,8 +94,8 @@ def weighed(found: Sequence[Form], prefer: str) -> Preference:
     """The best of some forms, of which one at least is drawn; of equals the first."""
     drawn = [(form, form.drafted) for form in found if form.drafted is not None]
     best, on = min(drawn, key=lambda pair: WEIGHED[prefer](pair[1]))
-    return Preference(best.methods[0], (f"{prefer} form preferred: {best.name}; weighed on {on.paper}:",
-                                        *map(str, found)))
+    head = said("{0} form preferred: {1}; weighed on {2}:", prefer, best.name, on.paper)
+    return Preference(best.methods[0], (head, *(form.told for form in found)))
 
 
 def _on_one_paper(found: list[Form]) -> list[Form]:

@@ -21,6 +21,7 @@ from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Program, Step
+from graphplan.phrases import Said, joined, said
 
 SHARP = math.sin(math.radians(15))
 BLUNT = math.sin(math.radians(1))
@@ -55,6 +56,7 @@ class Window(NamedTuple):
         return math.dist(point, self.centre) <= self.radius
 
 
+RATHER = "{0} rather than {1}"
 CROSSINGS = {"meet", "line_meets_circle", "circles_meet"}
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
@@ -78,10 +80,13 @@ class Trial:
     def rank(self) -> tuple[int, bool, bool, bool, int]:
         return self.undrawn, self.sharpest < BLUNT, not self.on_sheet, self.sharpest < SHARP, self.movements
 
-    def __str__(self) -> str:
+    @property
+    def told(self) -> Said:
+        """What speaks for it, in words."""
         angle = math.degrees(math.asin(min(1.0, self.sharpest)))
-        place = "on the sheet" if self.on_sheet else "off the sheet"
-        return f"{self.form} ({self.movements} steps, {place}, flattest crossing {angle:.0f} degrees)"
+        place = said("on the sheet") if self.on_sheet else said("off the sheet")
+        return said("{0} ({1} steps, {2}, flattest crossing {3}°)", form_named(self.form), self.movements, place,
+                    f"{angle:.0f}")
 
 
 @dataclass
@@ -242,8 +247,9 @@ class Expander:
         if why:
             self.board.annotate(out.step.index, why=why)
         if len(op.forms) > 1:
-            others = ", ".join(str(trial) for trial in ranked[1:])
-            reason = str(ranked[0]) + (f" rather than {others}" if others else ", the only form that can be drawn here")
+            best, *others = [trial.told for trial in ranked]
+            reason = said(RATHER, best, joined(others)) if others else said(
+                "{0}, the only form that can be drawn here", best)
             self.board.annotate(before, form=f"{op.name}: {ranked[0].form}", reason=reason)
 
 
@@ -316,6 +322,11 @@ class Pencil:
         points = [mark for mark in points if mark.step.panel == P.step.panel] or points
         far = max(points, key=lambda X: self.distance(P, X), default=P)
         return None if self.one(P, far) else far
+
+
+def form_named(form: str) -> Said:
+    """A form of a compound by its name, in any tongue."""
+    return said(form)
 
 
 def _along(point: tuple[float, float], x: float, y: float) -> float:

@@ -17,6 +17,7 @@ from dataclasses import dataclass, field
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.kernel.program import Program, Step
+from graphplan.phrases import Said, joined, phrase, said
 
 
 @dataclass(frozen=True)
@@ -51,19 +52,21 @@ class Counts:
         """Lines, arcs and lengths drawn, and movements of set squares and dividers."""
         return self.R2 + self.C3 + self.scale + sum(self.others.values())
 
-    def __str__(self) -> str:
-        laid = [f"{self.scale} by the scale"] if self.scale else []
+    @property
+    def told(self) -> Said:
+        """The counts in words."""
+        laid = [said("by the scale {0}", self.scale)] if self.scale else []
         if not self.strict:
-            moved = [f"{number} by {instrument}" for instrument, number in self.others.items()]
-            drawn = [_many(self.R2, "line"), _many(self.C3, "arc"), *moved, *laid]
-            return f"{_many(self.operations, 'operation')}: {', '.join(drawn)}"
+            moved = [BY[instrument](number) for instrument, number in self.others.items()]
+            drawn = [said("lines {0}", self.R2), said("arcs {0}", self.C3), *moved, *laid]
+            return said("{0} operations: {1}", self.operations, joined(drawn))
         terms = [f"{n} {name}" for name in ("R1", "R2", "C1", "C2", "C3") if (n := getattr(self, name))]
-        simple = f"simplicity {self.simplicity}, exactitude {self.exactitude}"
-        return ", ".join([f"{' + '.join(terms) or '0'}: {simple}", *laid])
+        simple = said("simplicity {0}, exactitude {1}", self.simplicity, self.exactitude)
+        return joined([joined((" + ".join(terms) or "0", simple), ": "), *laid])
 
 
-def _many(number: int, what: str) -> str:
-    return f"{number} {what}" if number == 1 else f"{number} {what}s"
+BY = {SET_SQUARES: phrase("by set squares {0}"), DIVIDERS: phrase("by dividers {0}"),
+      COMPASSES: phrase("by compasses {0}")}
 
 
 class Hand:

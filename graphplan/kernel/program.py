@@ -12,7 +12,14 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn
 
-from graphplan.kernel.kinds import CIRCLE, TABLE, Primitive
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Primitive
+from graphplan.phrases import Said, arranged, phrase, said, sentence
+
+NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
+            CIRCLE: phrase("arc {0}")}
+# What stands in a sentence for a choice that a step is given.
+CHOICES: dict[str, Said] = {str(word): word for word in (
+    said("on"), said("back"), said("left"), said("right"), said("parallel"), said("perpendicular"))}
 
 
 @dataclass(frozen=True, eq=False)
@@ -202,8 +209,8 @@ class Program:
         if step.name:
             return step.name
         if step.op.name == "line" and all(self.steps[arg].name for arg in step.args):
-            return "".join(self.text(arg) for arg in step.args)
-        return f"{'arc' if step.op.gives == CIRCLE else step.op.gives} {self.number(index)}"
+            return "".join(self.steps[arg].name for arg in step.args)
+        return NUMBERED[step.op.gives](self.number(index))
 
     def described(self, index: int) -> str:
         """How a mark is spoken of away from the sheet, where its number says nothing: a line by how it runs."""
@@ -227,15 +234,23 @@ class Program:
         """The number of a step as printed: the pose's own points are not counted."""
         return index + 1 - self.givens
 
-    def sentence(self, index: int) -> str:
+    def sentence(self, index: int) -> Said:
         """A step in words, in the letters of the sheet."""
         step = self.steps[index]
         params = {name: _plain(value) for name, value in step.params.items()}
-        return step.op.sentence.format(*(self.text(arg) for arg in step.args), out=self.text(index), **params)
+        marks = [self.text(arg) for arg in step.args]
+        return sentence(step.op.name, step.op.sentence, marks, {"out": self.text(index), **params})
+
+    def told(self, index: int) -> Said:
+        """A step in words, with the law or purpose where there is one."""
+        step = self.steps[index]
+        return arranged("{0} ({1:capital}.)", self.sentence(index), step.why) if step.why else self.sentence(index)
 
 
 def _plain(value: Any) -> str:
     """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
+    if isinstance(value, str):
+        return CHOICES.get(value, value)
     if not isinstance(value, Fraction | float) or 1000 % Fraction(value).denominator == 0:
         return f"{float(value):g}" if isinstance(value, Fraction | float) else str(value)
     return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{float(value):.6g}"

@@ -22,6 +22,7 @@ from graphplan.mechanism.contours import loop_lengths
 from graphplan.mechanism.equations import System, ends
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
 from graphplan.mechanism.transfer import stages
+from graphplan.phrases import Said, phrase, said
 
 _MODIFICATIONS = ("RRR", "RRP", "RPR", "PRP", "RPP")
 """The dyads, numbered from 1: outer, inner and outer pair, R revolute, P sliding."""
@@ -36,13 +37,18 @@ class Group(NamedTuple):
     kind: str
 
     @property
-    def line(self) -> str:
+    def line(self) -> Said:
         """The group in words."""
-        names = " ".join(self.links)
+        names, class_ = " ".join(self.links), roman(self.class_)
         if self.class_ == 1:
-            return f"class I: {self.kind} {names}"
-        kind = "" if self.kind.startswith("class") else f" ({self.kind.replace(' (', ', ').removesuffix(')')})"
-        return f"class {roman(self.class_)} group, order {self.order}: links {names}{kind}"
+            return said("class I: driving link {0}", names)
+        if self.kind.startswith("dyad"):
+            form, modification = self.kind.split()[1], _MODIFICATIONS.index(self.kind.split()[1]) + 1
+            return said("class {0} group, order {1}: links {2} (dyad {3}, modification {4})", class_, self.order, names,
+                        form, modification)
+        pattern = phrase("class {0} group, order {1}: links {2} (triad)" if self.kind == "triad"
+                         else "class {0} group, order {1}: links {2}")
+        return pattern(class_, self.order, names)
 
 
 class Structure(NamedTuple):
@@ -66,9 +72,9 @@ class Structure(NamedTuple):
         """The mechanism's class: that of its highest group."""
         return max((part.class_ for part in self.parts), default=1)
 
-    def lines(self) -> tuple[str, ...]:
+    def lines(self) -> tuple[Said, ...]:
         """One line for each part, in order, and one for the whole."""
-        whole = f"mechanism of class {roman(self.class_)}, mobility {self.mobility}"
+        whole = said("mechanism of class {0}, mobility {1}", roman(self.class_), self.mobility)
         return (*(part.line for part in self.parts), whole)
 
 

@@ -15,9 +15,11 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Slide, TurningDrive
 from graphplan.methods.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
 from graphplan.methods.network import Network, Place, Weld
+from graphplan.methods.panels import slide_named, spoken
 from graphplan.methods.plan import Plan, Vector
 from graphplan.methods.poses import Pose
 from graphplan.methods.velocity import Velocity
+from graphplan.phrases import said
 
 GREEK = {
     "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
@@ -26,13 +28,13 @@ GREEK = {
 }
 
 LAWS: dict[type, str] = {
-    Swing: "what is left of the relative acceleration is tangential, square to the line of the points",
-    Slip: "the link's angular acceleration is known, so its points' ends differ by a known vector",
-    Carry: "the end lies on a line through the auxiliary point's end, square to the line joining the points",
-    Settle: "what is left of the relative acceleration is tangential, square to the line of the points",
-    Figure: "the ends of a link's points form a figure similar to the link's, a quarter turned",
-    Guide: "beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide",
-    Meet: "the end lies on both",
+    Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
+    Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
+    Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Figure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
+    Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
+    Meet: said("the end lies on both"),
 }
 
 
@@ -160,7 +162,8 @@ class Normal(Plan):
         if not anchor.link:
             with self.board.on(self.panel):
                 begun = sum(step.op.name == "begin" and step.panel == self.panel for step in self.board.steps)
-                return self.board.begin(plan=self.panel, number=begun + 1, name=self.figure_name(link, anchor.point))
+                name = self.figure_name(link, anchor.point)
+                return self.board.begin(plan=spoken(self.panel), number=begun + 1, name=name)
         if anchor.slide is None:
             return self.figure(anchor.link, anchor.point)
         return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
@@ -179,7 +182,7 @@ class Normal(Plan):
         points = self.pose.points
         if side == X:
             m, w = self.velocity.relative(link, K, X)
-            why = f"the relative normal acceleration of {X} about {K}"
+            why = said("the relative normal acceleration of {0} about {1}", X, K)
             return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
         ends = self.figure(link, K), self.figure(link, side)
         return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
@@ -232,7 +235,7 @@ class Normal(Plan):
         link, P = self._pivot(known, new, B)
         turning = self.velocity.about(link, P, B)
         slip = self.velocity.slip(known, new, B)
-        why = f"the Coriolis acceleration of the pair {slide.name}, twice the half-vector"
+        why = said("the Coriolis acceleration of the pair {0}, twice the half-vector", slide_named(slide))
         return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
@@ -278,7 +281,7 @@ class PolarAcceleration(Normal):
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         with board.on(self.panel):
-            self.pole = board.begin(plan=self.panel, number=1, name="pi")
+            self.pole = board.begin(plan=spoken(self.panel), number=1, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 
     def home(self, place: Place) -> Mark:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from itertools import combinations
 
@@ -21,6 +21,7 @@ from graphplan.methods.styles import Style, style
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.ways import best_way, growth_of_rates
+from graphplan.phrases import Said, said
 
 
 class Draughtsman:
@@ -47,7 +48,8 @@ class Draughtsman:
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction."""
         program = freeze(self.board, self.marks)
-        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar, _ways(self.moves))
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
+                            tuple(_ways(self.moves)))
 
     def accelerations(self, velocity: Velocity) -> Normal:
         """The plan of accelerations, and what is asked of it."""
@@ -98,16 +100,14 @@ class Draughtsman:
                 self.read(kind, slide.name, plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end)
 
 
-def _ways(moves: Iterable[Move]) -> str:
+def _ways(moves: Iterable[Move]) -> Iterator[Said]:
     """How the rings of links are broken, if there are any."""
-    ways = []
     for move in moves:
         if isinstance(move, Pole):
-            ways.append(f"relative pole of links {move.bodies[0]} and {move.bodies[1]}")
+            yield said("relative pole of links {0} and {1}", *move.bodies)
         elif isinstance(move, Trial):
-            ways.append(f"false position of {move.at[0][0]}")
-            ways.extend(filter(None, [_ways(move.moves)]))
-    return ", ".join(ways)
+            yield said("false position of {0}", move.at[0][0])
+            yield from _ways(move.moves)
 
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
@@ -142,8 +142,9 @@ def _best(scene: Scene, method: str, chosen: Style) -> Construction:
         polar = _by_best_way(scene, method, replace(chosen, polar=True))
         one, other = growth_of_rates(best), growth_of_rates(polar)
         if other < one:
-            polar.notes.append(f"polar plans, as links differ so much in length: errors of the steps grow {other:.2g}-"
-                               f"fold, with orthogonal velocities {one:.2g}-fold")
+            polar.notes.append(said(
+                "polar plans, as links differ so much in length: errors of the steps grow {0}-fold, with orthogonal "
+                "velocities {1}-fold", f"{other:.2g}", f"{one:.2g}"))
             return polar
     return best
 

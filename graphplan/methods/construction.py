@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.kernel.evaluate import evaluate
-from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.expand import BY_SET_SQUARE, RATHER, STRICT, Expander, Window, form_named
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
@@ -18,6 +18,7 @@ from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Number, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.tempo import Tempo
+from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
@@ -63,7 +64,7 @@ class Construction:
     program: Program
     readings: tuple[Reading, ...]
     turned: bool
-    ways: str = ""
+    ways: tuple[Said, ...] = ()
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
@@ -105,46 +106,43 @@ class Construction:
 
     def sentences(self) -> list[str]:
         """Each drawn step in words, with the law or purpose where there is one."""
-        return [self.drawn.sentence(s.index) + (f" ({s.why[0].upper()}{s.why[1:]}.)" if s.why else "")
-                for s in self.drawn.steps]
+        return [self.drawn.told(step.index) for step in self.drawn.steps]
 
     @property
     def forms(self) -> list[str]:
         """The forms chosen for this pose, each with the reason, by step number."""
-        weighed = ("carry", "coriolis")
-        chosen = [s for s in self.drawn.steps if s.form.partition(":")[0] in weighed and " rather than " in s.reason]
-        return self.notes + [f"step {self.drawn.number(s.index)}: {s.reason}" for s in chosen]
+        chosen = [s for s in self.drawn.steps if s.form.partition(":")[0] in WEIGHED and _compared(s.reason)]
+        return self.notes + [said("step {0}: {1}", self.drawn.number(s.index), s.reason) for s in chosen]
 
     @cached_property
     def method(self) -> dict[str, list[str]]:
-        """How velocities and accelerations are found, in a few words each."""
+        """How velocities, accelerations and forces are found, in a few words each."""
         found: dict[str, list[str]] = {}
-        for step in self.drawn.steps:
-            kind = ACCELERATION if step.panel in ("N-plan", "acceleration plan") else VELOCITY
-            names = found.setdefault(kind, [])
-            op, _, form = step.form.partition(": ")
-            if op == "carry":
-                names.append("auxiliary points" if form == "auxiliary point" else form.partition(" on ")[0])
         for kind in (VELOCITY, ACCELERATION):
             if any(reading.kind == kind for reading in self.readings):
-                names = found.setdefault(kind, [])
-                names.extend(filter(None, [self.ways]))
-                if "auxiliary points" in names:
-                    names[names.index("auxiliary points")] = "auxiliary points " + ", ".join(self._letters())
-                once = list(dict.fromkeys(name for name in names if name != "auxiliary points"))
-                found[kind] = once or [PLAIN[self.turned, kind]]
-            else:
-                found.pop(kind, None)
+                ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self.ways]))
+                found[kind] = ways or [PLAIN[self.turned, kind]]
         return found | self._force_method()
+
+    def _loci(self, kind: str) -> Iterator[Said]:
+        """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""
+        letters = self._letters()
+        for step in self.drawn.steps:
+            op, _, form = step.form.partition(": ")
+            if op == "carry" and (step.panel in ("N-plan", "acceleration plan")) == (kind == ACCELERATION):
+                if form != "auxiliary point":
+                    yield form_named(form.partition(" on ")[0])
+                elif letters:
+                    yield said("auxiliary points {0}", ", ".join(letters))
 
     def _force_method(self) -> dict[str, list[str]]:
         """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
         plans = {step.panel for step in self.drawn.steps if step.panel.startswith("force plan")}
         steps = [step for step in self.program.steps if step.panel in plans or step.op.name == "towards"]
-        names = ["force polygons"] if plans else []
-        names += ["auxiliary points"] if any(step.op.name in ("towards", "weigh") for step in steps) else []
-        names += ["false position"] if any(step.op.name == "false_position" for step in steps) else []
-        names += ["Zhukovsky's lever"] if any(step.panel.startswith("lever") for step in self.drawn.steps) else []
+        names: list[str] = [said("force polygons")] if plans else []
+        names += [said("auxiliary points")] if any(step.op.name in ("towards", "weigh") for step in steps) else []
+        names += [said("false position")] if any(step.op.name == "false_position" for step in steps) else []
+        names += [said("Zhukovsky's lever")] if any(s.panel.startswith("lever") for s in self.drawn.steps) else []
         return {"force": names} if names else {}
 
     def _letters(self) -> list[str]:
@@ -293,11 +291,17 @@ class Construction:
 
 
 PLAIN = {
-    (True, VELOCITY): "parallels on the mechanism plan",
-    (True, ACCELERATION): "plan of relative normal accelerations",
-    (False, VELOCITY): "polar velocity plan",
-    (False, ACCELERATION): "polar acceleration plan",
+    (True, VELOCITY): said("parallels on the mechanism plan"),
+    (True, ACCELERATION): said("plan of relative normal accelerations"),
+    (False, VELOCITY): said("polar velocity plan"),
+    (False, ACCELERATION): said("polar acceleration plan"),
 }
+WEIGHED = ("carry", "coriolis")  # the compounds whose choice of form is told
+
+
+def _compared(reason: str) -> bool:
+    """Whether there was a choice of form."""
+    return isinstance(reason, Said) and reason.key == RATHER
 
 
 def _difference(one: Any, two: Any) -> Any:

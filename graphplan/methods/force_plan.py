@@ -14,8 +14,8 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.force_letters import pair_letter, reaction_letter
 from graphplan.methods.loading import Acting
+from graphplan.methods.panels import MECHANISM, listed
 from graphplan.methods.parts import Part, Parts
-from graphplan.methods.poses import MECHANISM
 from graphplan.methods.reactions import Known, Pair, Shown, Span, signed
 from graphplan.methods.sites import Joint, Site
 from graphplan.methods.statics import (
@@ -32,6 +32,7 @@ from graphplan.methods.statics import (
     StaticMove,
     Where,
 )
+from graphplan.phrases import said
 
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
 
@@ -116,9 +117,8 @@ class ForcePlan(Parts):
     def _why(self, part: Part, about: About) -> str:
         """The law: of which links, and about what, the moments are taken."""
         links = [link for link in self.group.links if link in part]
-        names = f"link {links[0]}" if len(links) == 1 else f"links {', '.join(links)}"
-        where = about.point if isinstance(about, AtPoint) else "the auxiliary point"
-        return f"moments of {names} about {where}"
+        where = about.point if isinstance(about, AtPoint) else said("the auxiliary point")
+        return said("moments of {0} about {1}", listed(links), where)
 
     def _weighed(self, about: About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
         if isinstance(about, AtPoint):

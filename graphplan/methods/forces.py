@@ -9,11 +9,13 @@ from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.force_plan import ForcePlan
 from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
 from graphplan.methods.loading import Acting, Loading
-from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.panels import MECHANISM, slide_named
+from graphplan.methods.poses import Pose
 from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.sites import Group, groups
 from graphplan.methods.statics import Equilibrium, StaticMove
 from graphplan.methods.velocity import Velocity
+from graphplan.phrases import said
 
 REACTION, SLIDE_REACTION, SLIDE_MOMENT, SLIDE_ARM = "reaction", "slide reaction", "slide moment", "slide arm"
 BALANCE, BALANCE_MOMENT = "balance", "balance moment"
@@ -151,7 +153,7 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
         with board.on(MECHANISM, (slide.link, slide.along)):
             H = seat if pair is None else board.resultant(
                 seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head, name=f"H_{slide.link}",
-                why=f"the reaction of the slide {slide.name} acts here")
+                why=said("the reaction of the slide {0} acts here", slide_named(slide)))
             at, guide = pose.points[slide.at], pose.guide(slide)
             if seat is not at:
                 H = board.foot(guide, H)

@@ -14,9 +14,10 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Friction, Slide
 from graphplan.methods.forces import reaction_on
 from graphplan.methods.loading import Acting, Lay, Loading
-from graphplan.methods.poses import MECHANISM
+from graphplan.methods.panels import MECHANISM, link_named, slide_named
 from graphplan.methods.reactions import Forces
 from graphplan.methods.velocity import Velocity
+from graphplan.phrases import said
 
 
 class Rubbed:
@@ -38,7 +39,7 @@ class Rubbed:
         """The friction force of a slide on the sliding link, or its answer on the guide's."""
         with self.board.on(MECHANISM, (slide.link, slide.along)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)
-        why = f"F_{slide.link}, the friction of the slide {slide.name}"
+        why = said("{0}, the friction of the slide {1}", f"F_{slide.link}", slide_named(slide))
         tip = self.board.drag(self.points[slide.at], slip, *self.forces.slides[slide], start,
                               coefficient=friction.coefficient, why=why)
         if not same:
@@ -63,7 +64,7 @@ class Rubbed:
         P, R = self.points[friction.at], self.points[name]
         with self.board.on(MECHANISM, (link, pin)):
             slip = self.velocity.slip(pin, link, name)
-        why = f"the friction of the journal {friction.at}, of link {link} in link {pin}"
+        why = said("the friction of the journal {0}, of {1} in {2}", friction.at, *map(link_named, (link, pin)))
         radius = friction.radius * friction.coefficient
         reaction = reaction_on(self.scene, self.forces, self.board, friction.at, link)
         tip = self.board.journal(P, R, slip, *reaction, start, radius=radius, why=why)

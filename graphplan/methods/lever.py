@@ -28,11 +28,13 @@ from graphplan.mechanism.model import (
 )
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.network import Network
+from graphplan.methods.panels import MECHANISM, spoken
 from graphplan.methods.planner import Planner
-from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.poses import Pose
 from graphplan.methods.reactions import Shown
 from graphplan.methods.tempo import Tempo, extent, round_number
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
+from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))
@@ -47,7 +49,7 @@ class Lever:
         self.renamed = renamed or {}
         self.shown: list[Shown] = []
         with board.on(panel):
-            self.pole = board.begin(plan=panel, number=1, name="o")
+            self.pole = board.begin(plan=spoken(panel), number=1, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
 
@@ -93,7 +95,7 @@ class Lever:
         for force in self.forces():
             self.shown.append(Shown("load", force.name, force.tail, force.head))
             mark = self.board.balance(self.pole, X, force.at, force.tail, force.head, mark,
-                                      why="moments about the pole balance, since powers do")
+                                      why=said("moments about the pole balance, since powers do"))
         return mark
 
     def moment(self, link: str) -> tuple[Mark, ...]:

@@ -28,6 +28,7 @@ from graphplan.methods.styles import Style
 from graphplan.methods.tempo import extent
 from graphplan.methods.velocity import Velocity
 from graphplan.methods.ways import EQUAL, best_way, growth
+from graphplan.phrases import said
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
 SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
@@ -139,6 +140,7 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
     drawn.notes = found.notes + [
-        f"slide {name}: its reaction is small beside its moment; it is told as a force and a couple, not by its line"
+        said("slide {0}: its reaction is small beside its moment; it is told as a force and a couple, not by its line",
+             name)
         for name in sizes if name not in near and abs(moments[name]) > least * reach]
     return drawn

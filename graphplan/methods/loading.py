@@ -15,8 +15,10 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.network import Network
-from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.panels import MECHANISM, link_named
+from graphplan.methods.poses import Pose
 from graphplan.methods.tempo import extent, round_number, tempo
+from graphplan.phrases import said
 
 
 @dataclass(frozen=True)
@@ -80,13 +82,13 @@ class Loading:
         for nth, force in enumerate((f for f in self.loads.forces if f.on == link), 1):
             if any(force.value):
                 name = f"P_{link}" + "'" * (nth - 1)
-                why = f"{name}, the given force on link {link} at {force.at}"
+                why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
                 yield force.at, partial(self._given, force.at, force.value, name, why)
         mass = self.loads.masses.get(link)
         if mass and mass.mass:
             heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
             if any(heaviness):
-                why = f"G_{link}, the weight of link {link}, at {mass.centre}"
+                why = said("{0}, the weight of {1}, at {2}", f"G_{link}", link_named(link), mass.centre)
                 yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
             yield from self._inertia_forces(link, mass)
         if self.rubbing is not None:
@@ -130,7 +132,7 @@ class Loading:
             tip = self.board.inertia_pair(points[one], points[two], *ends, end, ratio=radius2)
             points[name] = self.board.resultant(
                 points[mass.centre], end, home, points[one], points[two], end, tip, name=name,
-                why=f"the inertia force of link {link}, shifted by its couple over it")
+                why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
         return name
 
     def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
@@ -140,7 +142,7 @@ class Loading:
             with self.board.on(MECHANISM, (link,)):
                 points[name] = self.board.step_off(
                     points[pivot], points[centre], points[centre], ratio=part, name=name,
-                    why=f"the radius of gyration is the mean of the distances from {centre}")
+                    why=said("the radius of gyration is the mean of the distances from {0}", centre))
         return name
 
     def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
@@ -154,7 +156,8 @@ class Loading:
         shifted = self._form(link, self.loads.masses[link]) == "shifted"
         home, end = self.motion.figure(link, point), self.motion.end_in(link, point)
         ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
-        why = f"{name}, the inertia force of link {link}, against the acceleration of {self.pose.spoken(point)}"
+        why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
+                   self.pose.spoken(point))
         head = self.board.step_off(home, end, start, ratio=ratio, why=why)
         return Acting(self.pose.points[f"K_{link}" if shifted else point], start, head, name)
 
@@ -167,7 +170,8 @@ class Loading:
             if moment.value:
                 P, R = self.arm(link)
                 value = moment.value * self.phi * metre(self.scene.units)
-                head = self.board.couple(P, R, start, moment=value, why=f"the given moment on link {link}")
+                head = self.board.couple(P, R, start, moment=value,
+                                         why=said("the given moment on {0}", link_named(link)))
                 yield Acting(R, start, head, f"M_{link}"), Acting(P, head, start, f"M_{link}")
         mass = self.loads.masses.get(link)
         if mass and self._form(link, mass) == "couple":
@@ -181,7 +185,7 @@ class Loading:
         ends = self.motion.end_in(link, one), self.motion.end_in(link, two)
         P, R = self.pose.points[one], self.pose.points[two]
         ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
-        why = f"the inertia couple of link {link}, against its angular acceleration"
+        why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))
         head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why)
         return Acting(R, start, head, f"W_{link}"), Acting(P, head, start, f"W_{link}")
 

@@ -8,7 +8,8 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide
 from graphplan.methods.force_letters import pair_letter, reaction_letter
 from graphplan.methods.loading import Acting, Loading
-from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.panels import FORCE_PLAN, MECHANISM, spoken
+from graphplan.methods.poses import Pose
 from graphplan.methods.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
 from graphplan.methods.sites import Group, Joint, Site
 
@@ -20,7 +21,7 @@ class Parts:
 
     def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = "force plan " + ", ".join(group.links) + forces.suffix
+        self.panel = FORCE_PLAN + ", ".join(group.links) + forces.suffix
         self.known: dict[Site, Known] = {}
         self.ends: dict[Site, Span] = {}
         self.pairs: dict[Site, Pair | None] = {}
@@ -28,8 +29,7 @@ class Parts:
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
         with board.on(self.panel, group.links):
-            links = f"link{'' if len(group.links) == 1 else 's'} {', '.join(group.links)}"
-            self.origin = self.numbered(board.begin(plan=f"force plan of {links}{forces.suffix}", number=1))
+            self.origin = self.numbered(board.begin(plan=spoken(self.panel), number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None

@@ -7,8 +7,7 @@ from collections.abc import Mapping
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.network import Place
-
-MECHANISM = "mechanism"
+from graphplan.methods.panels import MECHANISM
 
 
 class Pose:

@@ -14,6 +14,7 @@ from graphplan.kernel.program import Board, Mark, Program
 from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import Placement, Scene
 from graphplan.mechanism.placements import exactly, needs
+from graphplan.phrases import said
 
 
 def layout(scene: Scene) -> Program:
@@ -40,7 +41,7 @@ def _put(board: Board, scene: Scene, name: str, placement: Placement, marks: dic
         case "polar":
             start = scene.points[data["from"]]
             dx, dy = (p - q for p, q in zip(scene.points[name], start, strict=True))
-            why = f"{float(data['distance']):g} long, at {float(data['angle']):g} degrees from +x"
+            why = said("{0} long, at {1} degrees from +x", *(f"{float(data[key]):g}" for key in ("distance", "angle")))
             return board.lay_off(marks[data["from"]], dx=dx, dy=dy, why=why)
         case "compass":
             one, two = (_arc(board, marks[centre], r) for centre, r in data["distances"].items())

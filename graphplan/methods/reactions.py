@@ -7,7 +7,8 @@ from dataclasses import dataclass
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.loading import Acting
-from graphplan.methods.poses import MECHANISM
+from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]
 Pair = tuple[Acting, Acting]
@@ -51,7 +52,7 @@ class Shown:
 def applied(board: Board, force: Acting) -> Shown:
     """A load drawn where it acts, on the mechanism plan."""
     with board.on(MECHANISM):
-        why = f"{force.name}, where it acts"
+        why = said("{0}, where it acts", force.name)
         head = board.transfer(force.tail, force.head, force.at, why=why)
         return Shown("load", force.name, force.at, head, force.head)
 

@@ -8,18 +8,20 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide, TurningDrive
 from graphplan.methods.moves import Carry, Figure, Guide, Meet, Move, Settle, Slip, Swing
 from graphplan.methods.network import Network, Place, Weld
+from graphplan.methods.panels import MECHANISM, spoken
 from graphplan.methods.plan import Plan, Vector
-from graphplan.methods.poses import MECHANISM, Pose
+from graphplan.methods.poses import Pose
 from graphplan.methods.tempo import Tempo
+from graphplan.phrases import said
 
 LAWS: dict[type, str] = {
-    Swing: "the ends of two points of a link lie on a parallel to their line",
-    Slip: "the link's turning is known, so its points' ends differ by a known vector",
-    Carry: "the end lies on a line through the auxiliary point's end, parallel to the line joining the points",
-    Settle: "the ends of two points of a link lie on a parallel to their line",
-    Figure: "the ends of a link's points form a figure similar to the link's, with parallel sides",
-    Guide: "the sliding pair leaves only a velocity along the guide, drawn turned square to it",
-    Meet: "the end lies on both",
+    Swing: said("the ends of two points of a link lie on a parallel to their line"),
+    Slip: said("the link's turning is known, so its points' ends differ by a known vector"),
+    Carry: said("the end lies on a line through the auxiliary point's end, parallel to the line joining the points"),
+    Settle: said("the ends of two points of a link lie on a parallel to their line"),
+    Figure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
+    Guide: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
+    Meet: said("the end lies on both"),
 }
 
 
@@ -104,7 +106,7 @@ class Polar(Velocity):
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
         with board.on(self.panel):
-            self.pole = board.begin(plan=self.panel, number=1, name="p")
+            self.pole = board.begin(plan=spoken(self.panel), number=1, name="p")
 
     def home(self, place: Place) -> Mark:
         return self.pole
@@ -149,13 +151,13 @@ class Polar(Velocity):
 
 
 POLAR_LAWS: dict[type, str] = {
-    Swing: "the velocity of one point of a link about another is square to their line",
+    Swing: said("the velocity of one point of a link about another is square to their line"),
     Slip: LAWS[Slip],
-    Carry: "the end lies on a line through the auxiliary point's end, square to the line joining the points",
-    Settle: "the velocity of one point of a link about another is square to their line",
-    Figure: "the ends of a link's points form a figure similar to the link's, a quarter turned",
-    Guide: "the sliding pair leaves only a velocity along the guide",
-    Meet: "the end lies on both",
+    Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
+    Settle: said("the velocity of one point of a link about another is square to their line"),
+    Figure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
+    Guide: said("the sliding pair leaves only a velocity along the guide"),
+    Meet: said("the end lies on both"),
 }
 
 

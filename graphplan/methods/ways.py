@@ -19,6 +19,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
 from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
+from graphplan.phrases import joined, said
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -46,8 +47,8 @@ def best_way(network: Network, method: str, draw: Callable[[Planner], Constructi
         raise taken.refusal or Refused("the mechanism", "no construction reaches it", "check the drives")
     if weighed:
         taken.construction.notes.append(
-            f"rings of links: {taken.construction.ways or 'travelling facts'}; errors of the steps grow "
-            f"{taken.growth:.2g}-fold, the best of {weighed + 1} ways")
+            said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
+                 joined(taken.construction.ways or [said("travelling facts")]), f"{taken.growth:.2g}", weighed + 1))
     return taken.construction, taken.planner
 
 

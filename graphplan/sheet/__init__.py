@@ -11,8 +11,8 @@ if TYPE_CHECKING:
 
 
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-        composition: Composition | None = None) -> str:
-    """The construction sheet as SVG text.
+        composition: Composition | None = None, language: str = "en") -> str:
+    """The construction sheet as SVG text, in a language: en, de, lv, et, ru or uk.
 
     Reads a construction, the name of a sheet (such as `A3` or `A4 portrait`; without it the smallest good one is
     taken) and what the check against the analytic solver found, by kind; or the composition of the sheet, if it is
@@ -20,5 +20,6 @@ def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
     """
     from graphplan.backends.svg import svg as write
     from graphplan.sheet.layout import layout
+    from graphplan.words.tongue import tongue
 
-    return write(layout(drawing, paper, check, composition))
+    return write(layout(drawing, paper, check, composition, tongue(language)))

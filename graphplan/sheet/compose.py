@@ -11,24 +11,26 @@ from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.texts import Words
 from graphplan.sheet.title import TitleBlock
+from graphplan.words.tongue import ENGLISH, Tongue
 
 
 def compose(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-            pencil: Deviations | None = None) -> Composition:
+            pencil: Deviations | None = None, tongue: Tongue = ENGLISH) -> Composition:
     """Where everything goes: on the paper named, or on the smallest good one.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    return Composer(drawing, paper, check).compose(pencil)
+    return Composer(drawing, paper, check, tongue).compose(pencil)
 
 
 class Composer:
     """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
 
-    def __init__(self, drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None):
-        self.planes, self.paper = Planes(drawing), paper
+    def __init__(self, drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+                 tongue: Tongue = ENGLISH):
+        self.planes, self.paper = Planes(drawing, tongue), paper
         self.words = Words(self.planes, check or {})
-        self.title = TitleBlock(drawing.scene.title, drawing.scene.source)
+        self.title = TitleBlock(drawing.scene.title, drawing.scene.source, tongue)
 
     def compose(self, pencil: Deviations | None = None) -> Composition:
         """The composition with these drawing errors told on it."""

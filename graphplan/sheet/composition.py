@@ -8,8 +8,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
+from graphplan.methods.panels import FRICTION, MECHANISM
 from graphplan.sheet.paper import SIZES, Arrangement, Measure, arrangements, inside, room
-from graphplan.sheet.planes import FRICTION, MECHANISM, Figure, Planes, around
+from graphplan.sheet.planes import Figure, Planes, around
 from graphplan.sheet.rows import Row
 from graphplan.sheet.scales import Scales
 from graphplan.sheet.view import View, plan_box, plan_multiple, plan_scale, view, whole
@@ -23,13 +24,14 @@ LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which
 
 @dataclass(frozen=True)
 class Composition:
-    """An arrangement with the scale and the window of each panel."""
+    """An arrangement with the scale and the window of each panel, and what they show."""
 
     arrangement: Arrangement
     scales: Scales
     views: dict[str, View]
     needs: Mapping[str, float]
     figures: Mapping[str, Figure]
+    planes: Planes
 
     @property
     def score(self) -> tuple[float, float]:
@@ -100,7 +102,7 @@ def _windows(
         views[panel] = view(plan_box(figures[panel], inside(rooms[panel]), units), rooms[panel], units)
     drawing, names = planes.drawing, planes.drawing.scene.units
     scales = Scales(k_s, drawing.kappa, names.length, multiples, float(drawing.phi), names.force)
-    return Composition(arrangement, scales, views, needs, figures)
+    return Composition(arrangement, scales, views, needs, figures, planes)
 
 
 def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:

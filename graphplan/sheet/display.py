@@ -148,3 +148,4 @@ class Sheet:
     description: str
     sentences: tuple[str, ...]
     scales: Scales
+    language: str = "en"

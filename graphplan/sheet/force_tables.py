@@ -3,33 +3,47 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.model import Balance
 from graphplan.methods.force_letters import pair_letter
+from graphplan.methods.panels import slide_named
+from graphplan.phrases import Said, joined, phrase, said, unit
 from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import Drawing
 from graphplan.sheet.scales import digits
 from graphplan.sheet.tables import Table, figure, largest_size, with_deviations
+from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
-WAYS = {"by force plans": "balance{}", "with friction": "balance{} with friction", "by the lever": "lever{}"}
+Way = Callable[[], Said]
+WAYS = {  # the ways to find a balance, and the kinds of reading that tell it
+    phrase("by force plans"): "balance{}", phrase("with friction"): "balance{} with friction",
+    phrase("by the lever"): "lever{}",
+}  # fmt: skip
 
 
 @dataclass(frozen=True)
 class ForceTables:
-    """What a construction says of forces; `values` are its readings by kind and name, `pencil` their deviations."""
+    """What a construction says of forces, in a tongue; `values` are its readings by kind and name, `pencil` their
+    deviations."""
 
     drawing: Drawing
     values: Mapping[str, Mapping[str, Any]]
     pencil: Deviations = field(default_factory=Deviations)
+    tongue: Tongue = ENGLISH
 
     @property
     def unit(self) -> str:
-        return self.drawing.scene.units.force
+        return self.tongue(unit(self.drawing.scene.units.force))
+
+    @property
+    def moment(self) -> str:
+        """The unit of moments."""
+        return self.tongue(unit(f"{self.drawing.scene.units.force}·m"))
 
     # ---- reactions -------------------------------------------------------------------------------------------------
 
@@ -37,7 +51,7 @@ class ForceTables:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
         joints, slides = (self.values.get(kind, {}) for kind in ("reaction", "slide reaction"))
         largest = max(largest_size(joints), largest_size(slides))
-        head = [sentence_runs(word) for word in ("reaction", "R_x", "R_y", f"|R| {self.unit}")]
+        head = [sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]
         table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
         table += [self._row(*self._of_slide(name), force, largest) for name, force in slides.items()]
         off = self.pencil.of("reaction", "slide reaction")
@@ -46,7 +60,7 @@ class ForceTables:
 
     def _with_moments(self, table: Table, names: list[str], largest: float) -> Table:
         """The same with a last column for the moments of slides."""
-        column = [sentence_runs(f"M {self.unit}·m")]
+        column = [sentence_runs(f"M {self.moment}")]
         for name in names:
             moment = self.values.get("slide moment", {}).get(name)
             told = () if moment is None else figure(self._of_slide(name)[1] * moment, largest)
@@ -76,17 +90,17 @@ class ForceTables:
         drawn = {vector.label for vector in self.drawing.arrows}
         letter, answer = pair_letter(one, other), pair_letter(other, one)
         sign = -1 if answer in drawn and letter not in drawn else 1
-        return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" at {point}", (point,))), sign
+        place = self.tongue(said("at {0}", point))
+        return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" {place}", (point,))), sign
 
-    def seats(self) -> Iterator[str]:
+    def seats(self) -> Iterator[Said]:
         """Where the reactions of slides act, in words."""
         for name, (x, y) in self.values.get("slide arm", {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
-            spot = f"({digits(at[0] + x)}, {digits(at[1] + y)}) {self.drawing.scene.units.length}"
-            off = self.pencil.of("slide arm").get(name)
-            within = f", ±{off}" if off else ""
-            yield f"The reaction of the slide {name} acts at {spot}{within}."
+            spot, off = f"({digits(at[0] + x)}, {digits(at[1] + y)})", self.pencil.of("slide arm").get(name)
+            told = [spot, unit(self.drawing.scene.units.length), *([f"±{off}"] if off else [])]
+            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
 
     # ---- balance ---------------------------------------------------------------------------------------------------
 
@@ -99,16 +113,17 @@ class ForceTables:
             found = {way: self.values.get(kind.format(moment), {}).get(str(number)) for way, kind in WAYS.items()}
             ways = {way: value for way, value in found.items() if value is not None}
             off = [self._off(WAYS[way].format(moment), str(number)) for way in ways]
-            table = table or [[sentence_runs(word) for word in ("balance", *ways)]]
+            heads = (said("balance"), *(way() for way in ways))
+            table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
             table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
         return table if table and len(table[0]) > 1 else []
 
-    def _moment(self, balance: Balance, ways: Mapping[str, float], off: list[Runs]) -> Table:
-        name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.unit}·m"))
+    def _moment(self, balance: Balance, ways: Mapping[Way, float], off: list[Runs]) -> Table:
+        name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.moment}"))
         values = (sentence_runs(digits(value)) for value in ways.values())
         return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
-    def _force(self, balance: Balance, ways: Mapping[str, Pair], off: list[Runs]) -> Table:
+    def _force(self, balance: Balance, ways: Mapping[Way, Pair], off: list[Runs]) -> Table:
         largest = largest_size(ways)
         letter = f"F_{balance.link}"
         rows = {f"{letter}x": 0, f"{letter}y": 1}

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from graphplan.methods.panels import MECHANISM, spoken
+from graphplan.phrases import joined, said
 from graphplan.sheet import clip, pens
 from graphplan.sheet.captions import captions
 from graphplan.sheet.compose import compose
@@ -15,24 +17,26 @@ from graphplan.sheet.letters import Letters
 from graphplan.sheet.linkage import Linkage
 from graphplan.sheet.paper import Arrangement
 from graphplan.sheet.places import Wish
-from graphplan.sheet.planes import MECHANISM, Drawing, Planes
+from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.rows import fill, lettered
 from graphplan.sheet.strokes import Strokes
 from graphplan.sheet.symbols import RADIUS
 from graphplan.sheet.title import TitleBlock, ratio
 from graphplan.sheet.view import View
+from graphplan.words.tongue import ENGLISH, Tongue
 
 BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
 
 
 def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-           composition: Composition | None = None) -> Sheet:
+           composition: Composition | None = None, tongue: Tongue = ENGLISH) -> Sheet:
     """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    planes, composition = Planes(drawing), composition or compose(drawing, paper, check)
-    block = TitleBlock(drawing.scene.title, drawing.scene.source)
+    composition = composition or compose(drawing, paper, check, tongue=tongue)
+    planes = composition.planes
+    block = TitleBlock(drawing.scene.title, drawing.scene.source, planes.tongue)
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_frame(arrangement))
     for panel, window in composition.views.items():
@@ -43,7 +47,8 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     items += block.items(arrangement.title, arrangement.paper.split()[0], ratio(scales.k_s, scales.length))
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(_stacked(items)),
-        drawing.scene.title, _description(composition, planes), tuple(drawing.sentences()), scales,
+        drawing.scene.title, _description(composition, planes), tuple(map(planes.tongue, drawing.sentences())), scales,
+        planes.tongue.code,
     )  # fmt: skip
 
 
@@ -76,5 +81,6 @@ def _stacked(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, planes: Planes) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
-    said = [f"{panel}: {', '.join(composition.scales.said(panel, planes.kinds(panel)))}" for panel in composition.views]
-    return f"Graphical construction in {steps} steps. Scales: {'; '.join(said)}."
+    told = [joined((spoken(panel), joined(composition.scales.said(panel, planes.kinds(panel)))), ": ")
+            for panel in composition.views]
+    return planes.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))

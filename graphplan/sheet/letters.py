@@ -9,11 +9,13 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step
+from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import said
 from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Spot
 from graphplan.sheet.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.places import Wish
-from graphplan.sheet.planes import MECHANISM, Vector, corner
+from graphplan.sheet.planes import Vector, corner
 from graphplan.sheet.strokes import Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
 
@@ -94,8 +96,8 @@ class Letters:
             yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
         for tip, tail, mark in stretch.breaks:
             name, near = drawn.text(mark), (towards(tip, tail, 2.0),)
-            label = f"to {name} {step.index}"
-            yield Wish(listed((name,), "to "), near, 0.6, 2.2, pens.FAINT, step.index, label)
+            runs = sentence_runs(self.strokes.planes.tongue(said("to {0}", name)), (name,))
+            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
 
     def _spans(self) -> dict[Span, list[Vector]]:
         """The vectors by where they begin and end: some lie on each other."""

@@ -15,11 +15,11 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import Number, Scene, TurningDrive
+from graphplan.methods.panels import LEVER, MECHANISM
 from graphplan.sheet import laid_off
 from graphplan.sheet.display import Rect, Spot
 from graphplan.sheet.pens import FORCES
-
-MECHANISM, LEVER, FRICTION = "mechanism", "lever", " with friction"  # plans by name; what a name may end in
+from graphplan.words.tongue import ENGLISH, Tongue
 
 
 class Vector(Protocol):
@@ -79,9 +79,10 @@ class Figure:
 
 @dataclass(frozen=True)
 class Planes:
-    """A construction seen plan by plan."""
+    """A construction seen plan by plan, and the tongue in which its sheet speaks."""
 
     drawing: Drawing
+    tongue: Tongue = ENGLISH
 
     @cached_property
     def homes(self) -> list[str]:

@@ -13,6 +13,7 @@ from bisect import bisect_right
 from dataclasses import dataclass
 from fractions import Fraction
 
+from graphplan.phrases import Said, joined, said, unit
 from graphplan.sheet.pens import FORCES
 
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
@@ -81,14 +82,14 @@ class Scales:
         """Force for one mm of a vector on a panel."""
         return self.of(panel) / self.phi
 
-    def said(self, panel: str, kinds: set[str]) -> list[str]:
+    def said(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
         length = self.length
-        lines = [f"k_s = {digits(self.k_s)} {length}/mm"] if panel not in self.multiples else []
+        lines = [joined(("k_s =", digits(self.k_s), unit(f"{length}/mm")), " ")] if panel not in self.multiples else []
         if kinds & {"velocity", "relative"}:
-            lines.append(f"k_v = {digits(self.speed(panel))} {length}/s per mm")
+            lines.append(said("k_v = {0} {1} per mm", digits(self.speed(panel)), unit(f"{length}/s")))
         if kinds & {"acceleration", "normal"}:
-            lines.append(f"k_a = {digits(self.acceleration(panel))} {length}/s² per mm")
+            lines.append(said("k_a = {0} {1} per mm", digits(self.acceleration(panel)), unit(f"{length}/s²")))
         if kinds & FORCES:
-            lines.append(f"k_F = {digits(self.force(panel))} {self.unit}/mm")
+            lines.append(joined(("k_F =", digits(self.force(panel)), unit(f"{self.unit}/mm")), " "))
         return lines

@@ -13,9 +13,10 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet import clip, laid_off, pens
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polyline, Spot
-from graphplan.sheet.planes import MECHANISM, Planes, Vector, corner
+from graphplan.sheet.planes import Planes, Vector, corner
 from graphplan.sheet.view import View
 
 LAYER = "construction"

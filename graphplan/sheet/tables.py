@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from graphplan.sheet.deviations import Deviation
@@ -19,13 +19,16 @@ Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
 
 
-def vectors(letter: str, unit: str, values: Mapping[str, Any], order: Any, off: Off, what: str = "point",
-             beside: float = 0.0) -> Table:
-    """Components, magnitudes and deviations, each row with its name first; nothing if there are none."""
+def vectors(what: str, letter: str, unit: str, values: Mapping[str, Any], order: Any, off: Off, beside: float = 0.0,
+            spoken: Callable[[str], str] = str) -> Table:
+    """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
+
+    The head tells what has them, their letter and their unit; names may be `spoken` in another way.
+    """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     largest = max(largest_size(values), beside)
     names = [n for n in order if n in values]
-    rows = [[name_runs(n), *(figure(x, largest) for x in (*values[n], math.hypot(*values[n])))] for n in names]
+    rows = [[name_runs(spoken(n)), *(figure(x, largest) for x in (*values[n], math.hypot(*values[n])))] for n in names]
     return with_deviations([head, *rows], names, off) if rows else []
 
 
@@ -39,14 +42,14 @@ def with_deviations(table: Table, names: Sequence[str], off: Off) -> Table:
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 
 
-def largest_size(values: Mapping[str, Any]) -> float:
+def largest_size(values: Mapping[Any, Any]) -> float:
     """The size of the largest vector."""
     return max((math.hypot(*value) for value in values.values()), default=0.0)
 
 
-def scalars(name: str, unit: str, values: Mapping[str, Any], order: Any, off: Off) -> Table:
+def scalars(what: str, name: str, unit: str, values: Mapping[str, Any], order: Any, off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
-    head = [sentence_runs("link"), (*name_runs(name), *sentence_runs(f" {unit}"))]
+    head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     largest = max((abs(value) for value in values.values()), default=0.0)
     names = [n for n in order if n in values]
     rows = [[name_runs(n), figure(values[n], largest)] for n in names]

@@ -8,7 +8,9 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.sheet.captions import spoken
+from graphplan.methods.panels import slide_named, spoken
+from graphplan.methods.readings import kind_named
+from graphplan.phrases import Said, arranged, joined, said, unit
 from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.planes import Drawing, Planes
@@ -54,34 +56,39 @@ class Words:
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
         """A paragraph, hanging from its number."""
         indent = INDENT if number else 0.0
-        lines = wrap(sentence_runs(text, self.names), SIZE, wide - indent)
+        lines = wrap(sentence_runs(self.planes.tongue(text), self.names), SIZE, wide - indent)
         for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
             yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
 
+    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0) -> Row:
+        return Row((Cell(0.0, sentence_runs(self.planes.tongue(text)), bold=True),), size=size, gap=gap, keep=2)
+
     def _steps(self, wide: float) -> Iterator[Row]:
         drawn, told = self.drawing.drawn, set[str]()
-        yield heading("Construction")
+        yield self._heading(said("Construction"))
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
-        yield from self._said(f"Given, on the mechanism plan: {given}.", wide)
+        yield from self._said(said("Given, on the mechanism plan: {0}.", given), wide)
         panel = ""
         for step in drawn.steps[drawn.givens :]:
             if step.panel != panel:
                 panel = step.panel
-                yield heading(f"On the {spoken(panel)}", SIZE, 1.2)
-            why = "" if not step.why or step.why in told else f" ({step.why[0].upper()}{step.why[1:]}.)"
+                yield self._heading(said("On the {0}", spoken(panel)), SIZE, 1.2)
+            sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
             told.add(step.why)
-            yield from self._said(drawn.sentence(step.index) + why, wide, step.index, str(drawn.number(step.index)))
+            yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         values, off = self.values, pencil.of
-        scene, unit = self.drawing.scene, self.drawing.scene.units.length
-        yield heading("Results")
-        velocity = vectors("v", f"{unit}/s", values.get("velocity", {}), scene.points, off("velocity"))
-        acceleration = vectors("a", f"{unit}/s²", values.get("acceleration", {}), scene.points, off("acceleration"))
+        scene, say, length = self.drawing.scene, self.planes.tongue, self.drawing.scene.units.length
+        point, link, speed, rate = say(said("point")), say(said("link")), say(unit(f"{length}/s")), say(unit("1/s"))
+        yield self._heading(said("Results"))
+        velocity = vectors(point, "v", speed, values.get("velocity", {}), scene.points, off("velocity"))
+        acceleration = vectors(point, "a", f"{speed}²", values.get("acceleration", {}), scene.points,
+                               off("acceleration"))
         yield from joined_tables(velocity, acceleration, wide)
-        omega = scalars("omega", "1/s", values.get("omega", {}), scene.links, off("omega"))
-        alpha = scalars("alpha", "1/s²", values.get("alpha", {}), scene.links, off("alpha"))
+        omega = scalars(link, "omega", rate, values.get("omega", {}), scene.links, off("omega"))
+        alpha = scalars(link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, off("alpha"))
         yield from joined_tables(omega, alpha, wide)
         if scene.slides:
             yield from self._sliding(wide, pencil)
@@ -90,18 +97,20 @@ class Words:
 
     def _sliding(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         """The motion of slides, beside the fastest and the sharpest of all."""
-        unit, slides = self.drawing.scene.units.length, [slide.name for slide in self.drawing.scene.slides]
-        values, off = self.values, pencil.of
+        values, off, say, scene = self.values, pencil.of, self.planes.tongue, self.drawing.scene
+        slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
+        what, speed = say(said("slide")), say(unit(f"{scene.units.length}/s"))
         fastest, sharpest = (largest_size(values.get(kind, {})) for kind in ("velocity", "acceleration"))
         moving, speeding = (values.get(kind, {}) for kind in ("slide velocity", "slide acceleration"))
-        velocity = vectors("v", f"{unit}/s", moving, slides, off("slide velocity"), "slide", fastest)
-        acceleration = vectors("a", f"{unit}/s²", speeding, slides, off("slide acceleration"), "slide", sharpest)
+        velocity = vectors(what, "v", speed, moving, slides, off("slide velocity"), fastest, slides.__getitem__)
+        acceleration = vectors(what, "a", f"{speed}²", speeding, slides, off("slide acceleration"), sharpest,
+                               slides.__getitem__)
         yield from joined_tables(velocity, acceleration, wide)
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         from graphplan.sheet.force_tables import ForceTables  # most scenes have no loads
 
-        tables = ForceTables(self.drawing, self.values, pencil)
+        tables = ForceTables(self.drawing, self.values, pencil, self.planes.tongue)
         yield from rows(tables.reactions())
         for sentence in tables.seats():
             yield from self._said(sentence, wide)
@@ -109,34 +118,32 @@ class Words:
 
     def _errors(self, wide: float, told: str) -> Iterator[Row]:
         if told:
-            yield heading("Drawing errors")
+            yield self._heading(said("Drawing errors"))
             yield from self._said(told, wide)
 
     def _check(self, wide: float) -> Iterator[Row]:
         if self.check:
-            yield heading("Check")
-            parts = ", ".join(f"{kind} {_within(float(gap))}" for kind, gap in self.check.items())
-            yield from self._said("Largest difference from the analytic solver, beside the largest value of its kind: "
-                                  f"{parts}.", wide)  # fmt: skip
+            yield self._heading(said("Check"))
+            parts = joined(joined((kind_named(kind), _within(float(gap))), " ") for kind, gap in self.check.items())
+            yield from self._said(said("Largest difference from the analytic solver, beside the largest value of its "
+                                       "kind: {0}.", parts), wide)
 
     def _forms(self, wide: float) -> Iterator[Row]:
-        yield heading("Method and forms")
+        yield self._heading(said("Method and forms"))
         for kind, ways in self.drawing.method.items():
-            yield from self._said(f"{kind.capitalize()}: {', '.join(ways)}.", wide)
+            yield from self._said(arranged("{0:capital}: {1}.", kind_named(kind), joined(ways)), wide)
         for form in self.drawing.forms:
             yield from self._said(_shortened(form), wide)
 
 
 def _shortened(form: str) -> str:
     """A form and its reason, beside its nearest rival only."""
-    head, rather, rivals = form.replace(" degrees", "°").partition(" rather than ")
-    return head + rather + (rivals.split("), ")[0].rstrip(")") + ")" if rivals else "")
-
-
-def heading(text: str, size: float = HEADING, gap: float = 3.0) -> Row:
-    return Row((Cell(0.0, sentence_runs(text), bold=True),), size=size, gap=gap, keep=2)
+    match form:
+        case Said(put=[number, Said(key=RATHER, put=[best, Said(put=[nearest, *_])])]):
+            return said(form.key, number, said(RATHER, best, nearest))
+    return form
 
 
 def _within(gap: float) -> str:
     """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
-    return "below 10⁻¹²" if gap <= ROUNDING else digits(gap, 2)
+    return said("below 10⁻¹²") if gap <= ROUNDING else digits(gap, 2)

@@ -5,10 +5,12 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphplan.phrases import said
 from graphplan.sheet.display import Item, Polyline, Rect, Text
 from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.pens import BORDER, FAINT, FRAME, LETTERS
 from graphplan.sheet.scales import digits
+from graphplan.words.tongue import ENGLISH, Tongue
 
 TITLE, FOOT, PAD, HEADING = 3.5, 9.0, 2.0, 1.8
 MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
@@ -20,6 +22,7 @@ class TitleBlock:
 
     title: str
     source: str
+    tongue: Tongue = ENGLISH
 
     def lines(self, wide: float) -> list[tuple[Runs, float, bool]]:
         """The wrapped title and source with their sizes."""
@@ -41,12 +44,13 @@ class TitleBlock:
         for runs, size, bold in self.lines(rect.width):
             y -= 1.45 * size
             yield Text(LETTERS, "text", None, (rect.left + PAD, y + 0.45 * size), runs, size, "start", bold)
-        words = (("Scale", scale), ("Sheet", paper), ("Drawn by", "graphplan"))
+        words = ((said("Scale"), scale), (said("Sheet"), paper), (said("Drawn by"), "graphplan"))
         for i, (heading, word) in enumerate(words):
             x = rect.left + i * rect.width / len(words)
             if i:
                 yield _stroke((x, rect.bottom), (x, foot))
-            yield Text(FAINT, "text", None, (x + PAD, foot - HEADING - 1.0), sentence_runs(heading), HEADING)
+            head = sentence_runs(self.tongue(heading))
+            yield Text(FAINT, "text", None, (x + PAD, foot - HEADING - 1.0), head, HEADING)
             yield Text(LETTERS, "text", None, (x + PAD, rect.bottom + 1.9), sentence_runs(word), SIZE)
 
 

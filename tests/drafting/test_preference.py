@@ -67,7 +67,7 @@ def test_a_form_that_cannot_be_drawn_says_why() -> None:
     """On paper too small for its words a form is not drawn and keeps the reason; where none is drawn that is raised."""
     refused = forms(SCENE, Pencil(), paper="A4")
     assert {form.name for form in refused} == {"pose's own", "auxiliary", "trial", "poles"}
-    assert all(re.search("cannot be drawn: .* words and plans do not fit", str(form)) for form in refused)
+    assert all(re.search("cannot be drawn: .* words and plans do not fit", form.told) for form in refused)
     with pytest.raises(Refused, match="words and plans do not fit"):
         preferred(SCENE, "quick", Pencil(), paper="A4")
 

@@ -9,8 +9,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from graphplan.methods.panels import caption, listed, spoken
 from graphplan.sheet import pens, symbols
-from graphplan.sheet.captions import caption, listed, spoken
 from graphplan.sheet.clip import clipped, segment
 from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect, Text
 from graphplan.sheet.divisions import divisions

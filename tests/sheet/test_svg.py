@@ -51,7 +51,7 @@ def test_a_velocity_can_be_measured() -> None:
     """The ends of a vector in the SVG, turned back and times k_v, are the velocity."""
     drawing = gp.construct(gp.load("four-bar"))
     root = ET.fromstring(svg_of("four-bar").encode())
-    found = re.search(r"mechanism: k_s = (\S+) mm/mm, k_v = (\S+) mm/s", root.findtext(f"{NS}desc") or "")
+    found = re.search(r"mechanism plan: k_s = (\S+) mm/mm, k_v = (\S+) mm/s", root.findtext(f"{NS}desc") or "")
     assert found is not None
     k_v = float(found[2])
     arrows = {g.get("data-vector"): g for g in root.iter(f"{NS}g")}

@@ -1,0 +1,86 @@
+"""The plans by name: how the panels of a construction are spoken of, and what stands over them."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Sequence
+
+from graphplan.mechanism.model import FRAME, Slide
+from graphplan.phrases import Said, arranged, phrase, said
+
+MECHANISM, LEVER, FRICTION, FORCE_PLAN = "mechanism", "lever", " with friction", "force plan "
+PLANS = {
+    MECHANISM: phrase("mechanism plan"), "N-plan": phrase("N-plan"), "velocity plan": phrase("velocity plan"),
+    "acceleration plan": phrase("acceleration plan"), LEVER: phrase("lever"),
+}  # fmt: skip
+
+
+def spoken(panel: str) -> Said:
+    """How a plan is spoken of among the steps."""
+    if panel.startswith(FORCE_PLAN):
+        pattern = phrase("force plan with friction of {0}" if _rubs(panel) else "force plan of {0}")
+        return pattern(listed(_links(panel)))
+    if panel.startswith(f"{LEVER} "):
+        return said("lever {0}", panel.removeprefix(f"{LEVER} "))
+    name, _, part = panel.partition(", part ")
+    plan = PLANS[name]() if name in PLANS else arranged("{0}", name)
+    return said("{0}, part {1}", plan, part) if part else plan
+
+
+def caption(panel: str, kinds: Collection[str]) -> Said:
+    """What a plan is; `kinds` are the kinds of vector drawn on it."""
+    if panel == MECHANISM:
+        match "velocity" in kinds, "load" in kinds:
+            case True, True:
+                return said("Mechanism plan with orthogonal velocities and loads")
+            case True, False:
+                return said("Mechanism plan with orthogonal velocities")
+            case False, True:
+                return said("Mechanism plan with loads")
+        return said("Mechanism plan")
+    if panel == "N-plan":
+        return said("N-plan: relative normal accelerations")
+    if panel.startswith(FORCE_PLAN):
+        return phrase("Force plan with friction: {0}" if _rubs(panel) else "Force plan: {0}")(listed(_links(panel)))
+    if panel == LEVER:
+        return said("Zhukovsky's lever")
+    if panel.startswith(f"{LEVER} "):
+        return _served(panel.removeprefix(f"{LEVER} "))
+    return arranged("{0:capital}", spoken(panel))
+
+
+def _served(what: str) -> Said:
+    """Which lever of several: that of a balance, by number, or of a reaction, such as `2 at B, x`."""
+    if " at " not in what:
+        return said("Zhukovsky's lever {0}", what)
+    link, _, place = what.partition(" at ")
+    point, _, axis = place.rpartition(", ")
+    return said("Zhukovsky's lever: the force on {0} at {1}, along {2}", link_named(link), point, axis)
+
+
+def _rubs(panel: str) -> bool:
+    return panel.endswith(FRICTION)
+
+
+def _links(panel: str) -> list[str]:
+    return panel.removeprefix(FORCE_PLAN).removesuffix(FRICTION).split(", ")
+
+
+def listed(links: Sequence[str]) -> Said:
+    """Links by name: link 1; links 2 and 3; links 2, 3 and 5; links 4 to 9."""
+    if len(links) == 1:
+        return link_named(links[0])
+    if len(links) > 2 and all(link.isdigit() for link in links):
+        numbers = [int(link) for link in links]
+        if numbers == list(range(numbers[0], numbers[0] + len(links))):
+            return said("links {0} to {1}", links[0], links[-1])
+    return said("links {0} and {1}", ", ".join(links[:-1]), links[-1])
+
+
+def link_named(link: str) -> Said:
+    """A link by its name, or the frame."""
+    return said("the frame") if link == FRAME else said("link {0}", link)
+
+
+def slide_named(slide: Slide) -> Said:
+    """A slide by its links: 3 along 2, or 3 along the frame."""
+    return said("{0} along {1}", *(said("frame") if link == FRAME else link for link in (slide.link, slide.along)))

@@ -1,0 +1,21 @@
+"""The kinds of reading by name: what a construction gives, in words."""
+
+from __future__ import annotations
+
+from graphplan.phrases import Said, phrase
+
+KINDS = {
+    "velocity": phrase("velocity"), "acceleration": phrase("acceleration"), "omega": phrase("omega"),
+    "alpha": phrase("alpha"), "slide velocity": phrase("slide velocity"), "force": phrase("force"),
+    "slide acceleration": phrase("slide acceleration"), "reaction": phrase("reaction"),
+    "slide reaction": phrase("slide reaction"), "slide moment": phrase("slide moment"),
+    "slide arm": phrase("slide arm"), "balance": phrase("balance"), "balance moment": phrase("balance moment"),
+    "balance with friction": phrase("balance with friction"),
+    "balance moment with friction": phrase("balance moment with friction"), "lever": phrase("lever"),
+    "lever moment": phrase("lever moment"), "curves": phrase("curves"),
+}  # fmt: skip
+
+
+def kind_named(kind: str) -> Said:
+    """A kind of reading in words."""
+    return KINDS[kind]()

@@ -1,0 +1,79 @@
+"""What graphplan says to its readers: in English, remembering what was put where, so that it can be said in any tongue.
+
+A phrase stands where it is needed, as `said("the relative normal acceleration of {0} about {1}", A, C)`; its English
+is its key in the catalogues of `words`. The sentence of a drawing step has its primitive for a key.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+PHRASES, STEPS, UNITS = "phrases", "steps", "units"  # the sections of a catalogue
+
+
+class Said(str):
+    """English words that know their key in a section of the catalogues and what is put into them, by place and name."""
+
+    section: str
+    key: str
+    put: tuple[Any, ...]
+    named: dict[str, Any]
+
+    def __new__(cls, english: str, section: str, key: str, put: tuple[Any, ...] = (),
+                named: dict[str, Any] | None = None) -> Said:
+        self = super().__new__(cls, english)
+        self.section, self.key, self.put, self.named = section, key, put, named or {}
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return Said, (str(self), self.section, self.key, self.put, self.named)
+
+
+class Shaped(str):
+    """Words that can be put into others in one of their forms: a grammatical case, or with a `capital`."""
+
+    def __format__(self, form: str) -> str:
+        if form == "capital":
+            return self[:1].upper() + self[1:]
+        return str(self)
+
+
+def said(english: str, /, *put: Any, **named: Any) -> Said:
+    """A phrase with what is put into it: other phrases, names or numbers."""
+    return Said(_filled(english, put, named), PHRASES, english, put, named)
+
+
+def phrase(english: str) -> Callable[..., Said]:
+    """A phrase that is filled in later."""
+    return lambda *put, **named: said(english, *put, **named)
+
+
+def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -> Said:
+    """The sentence of a drawing step, by its operation."""
+    put = tuple(put)
+    return Said(_filled(english, put, named), STEPS, op, put, named)
+
+
+def unit(symbol: str) -> Said:
+    """A unit of measure, such as mm/s²."""
+    return Said(symbol, UNITS, symbol)
+
+
+def arranged(pattern: str, /, *put: Any) -> Said:
+    """Phrases in an order, with points and brackets, that is the same in every tongue."""
+    return Said(_filled(pattern, put, {}), "", pattern, put)
+
+
+def joined(parts: Iterable[Any], between: str = ", ") -> Said:
+    """Phrases one after the other."""
+    put = tuple(parts)
+    return arranged(between.join(f"{{{i}}}" for i in range(len(put))), *put)
+
+
+def _filled(pattern: str, put: tuple[Any, ...], named: dict[str, Any]) -> str:
+    return pattern.format(*map(_shaped, put), **{name: _shaped(value) for name, value in named.items()})
+
+
+def _shaped(value: Any) -> Any:
+    return Shaped(value) if isinstance(value, str) else value

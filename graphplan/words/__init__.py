@@ -1,0 +1,1 @@
+"""The tongues that graphplan speaks: English, which stands in the code, and the catalogues beside this file."""

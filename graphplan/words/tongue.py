@@ -1,0 +1,90 @@
+"""A tongue: its catalogue, and how what was said in English is said in it.
+
+A catalogue has, in TOML, the sentences of the steps by primitive, the phrases by their English, and the units. An entry
+is a text, or a table of its forms by name, of which the first is the plain one; what is put into a text may be asked
+for in a form, as in `{0:dative}`.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Mapping
+from functools import cache
+from importlib.resources import files
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.phrases import UNITS, Said, Shaped
+
+LANGUAGES = ("en", "de", "lv", "et", "ru", "uk")
+_SYMBOL = re.compile(r"[A-Za-z°]+")
+
+Entry = str | dict[str, str]
+
+
+class Tongue:
+    """What is said, in one language; English needs no catalogue."""
+
+    def __init__(self, code: str, catalogue: Mapping[str, Mapping[str, Entry]] | None = None):
+        self.code, self.catalogue = code, catalogue
+
+    def __call__(self, text: str) -> str:
+        """The text in this tongue; what is no phrase, such as a title, stays as it is."""
+        return str(self._formed(text))
+
+    def _formed(self, value: Any) -> Any:
+        """The value as it is put into others: a phrase in all its forms."""
+        if self.catalogue is None or not isinstance(value, Said):
+            return Shaped(value) if isinstance(value, str) else value
+        if value.section == UNITS:
+            return Shaped(_SYMBOL.sub(self._symbol, value.key))
+        put = [self._formed(part) for part in value.put]
+        named = {name: self._formed(part) for name, part in value.named.items()}
+        forms = self._forms(value)
+        return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
+
+    def _forms(self, value: Said) -> dict[str, str]:
+        """The entry of a phrase, as a table of forms; what only joins others is the same everywhere."""
+        assert self.catalogue is not None
+        entry = self.catalogue[value.section][value.key] if value.section else value.key
+        return entry if isinstance(entry, dict) else {"": entry}
+
+    def _symbol(self, found: re.Match[str]) -> str:
+        assert self.catalogue is not None
+        entry = self.catalogue[UNITS].get(found[0], found[0])
+        assert isinstance(entry, str)
+        return entry
+
+
+class Forms(Shaped):
+    """Words in all their forms; as plain words they are the first."""
+
+    forms: dict[str, str]
+
+    def __new__(cls, forms: dict[str, str]) -> Forms:
+        self = super().__new__(cls, next(iter(forms.values())))
+        self.forms = forms
+        return self
+
+    def __format__(self, form: str) -> str:
+        return self.forms.get(form) or super().__format__(form)
+
+
+ENGLISH = Tongue("en")
+
+
+@cache
+def tongue(code: str) -> Tongue:
+    """The tongue of a language by its code, such as de. Fails with `Refused` where there is no such catalogue."""
+    if code == "en":
+        return ENGLISH
+    if code not in LANGUAGES:
+        raise Refused(f"language {code}", "there is no catalogue of it", f"one of {', '.join(LANGUAGES)}")
+    return Tongue(code, catalogue(code))
+
+
+def catalogue(code: str) -> dict[str, dict[str, Entry]]:
+    """The catalogue of a language, section by section."""
+    found: dict[str, dict[str, Entry]] = tomllib.loads(files(__package__).joinpath(f"{code}.toml").read_text("utf-8"))
+    return found

@@ -41,7 +41,8 @@ class _Writer:
         self.root = _element("svg", DOCUMENT | size)
         _titled(self.root, sheet.title)
         SubElement(self.root, "desc").text = sheet.description
-        SubElement(self.root, "defs")
+        if sheet.scene:
+            SubElement(self.root, "metadata", {"id": "scene"}).text = sheet.scene
         self.root.append(_element("rect", {"x": 0, "y": 0, "width": wide, "height": high, "fill": "#ffffff"}))
 
     def text(self) -> str:

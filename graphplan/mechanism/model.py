@@ -171,7 +171,7 @@ class Scene:
 
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
-    where no forces are asked for.
+    where no forces are asked for. `text` is the scene as it was written.
     """
 
     title: str
@@ -187,6 +187,7 @@ class Scene:
     find: Find
     irrational: tuple[str, ...] = ()
     loads: Loads | None = None
+    text: str = field(default="", repr=False, compare=False)
 
     @property
     def moving(self) -> tuple[str, ...]:

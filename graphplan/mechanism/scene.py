@@ -7,6 +7,7 @@ import re
 import sys
 import tomllib
 from collections import Counter
+from dataclasses import replace
 from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
@@ -82,7 +83,7 @@ def parse(text: str, name: str) -> Scene:
     scene = _read(_toml(text, name), name, faults)
     if len(faults):
         raise SceneError(name, faults.found)
-    return scene
+    return replace(scene, text=text)
 
 
 def _toml(text: str, name: str) -> dict[str, object]:

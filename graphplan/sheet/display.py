@@ -7,9 +7,9 @@ step that an item belongs to, so that a stepper can show or light up one movemen
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from graphplan.sheet.lettering import Run
+from graphplan.sheet.lettering import CAPS, DEPTH, Run, width
 from graphplan.sheet.pens import Pen
 from graphplan.sheet.scales import Scales
 
@@ -40,6 +40,11 @@ class Rect:
     @property
     def centre(self) -> Spot:
         return (self.left + self.right) / 2, (self.bottom + self.top) / 2
+
+    @property
+    def corners(self) -> tuple[Spot, Spot, Spot, Spot]:
+        """The corners from the lower left, counter-clockwise."""
+        return (self.left, self.bottom), (self.right, self.bottom), (self.right, self.top), (self.left, self.top)
 
     def inset(self, left: float, bottom: float, right: float, top: float) -> Rect:
         """The rectangle inside these margins."""
@@ -134,10 +139,35 @@ class Text(Item):
     bold: bool = False
     label: str = ""
 
+    @property
+    def box(self) -> Rect:
+        """What the letters cover, from below the base line to the top of the capitals."""
+        long = width(self.runs, self.size, self.bold)
+        left = self.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor]
+        return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
+
+
+def moved(item: Item, dx: float, dy: float) -> Item:
+    """The item elsewhere on the paper."""
+
+    def there(spot: Spot) -> Spot:
+        return spot[0] + dx, spot[1] + dy
+
+    match item:
+        case Polyline() | Polygon():
+            return replace(item, spots=tuple(map(there, item.spots)))
+        case Circle() | Arc():
+            return replace(item, centre=there(item.centre))
+        case Arrow():
+            return replace(item, start=there(item.start), end=there(item.end))
+        case Text():
+            return replace(item, at=there(item.at))
+    raise TypeError(f"no {type(item).__name__} can be moved")
+
 
 @dataclass(frozen=True)
 class Sheet:
-    """A finished sheet: its size in mm, its items from back to front, and the sentence of every step."""
+    """A finished sheet: its size in mm, its items from back to front, the sentence of every step, the scene's text."""
 
     width: float
     height: float
@@ -149,3 +179,4 @@ class Sheet:
     sentences: tuple[str, ...]
     scales: Scales
     language: str = "en"
+    scene: str = ""

@@ -119,7 +119,8 @@ class Letters:
             start, end = self.strokes.spots[first.start], self.strokes.spots[first.end]
             spots = tuple(clip.between(start, end, t) for t in (NEAR_HEAD if answered else MIDDLE))
             pen = replace(pens.VECTORS[first.kind], width=0.0)
-            yield Wish(listed(names), spots, 0.7, pen=pen, step=first.end, label=" ".join(names), free=True)
+            step = max(first.start, first.end)
+            yield Wish(listed(names), spots, 0.7, pen=pen, step=step, label=" ".join(names), free=True)
 
 
 def _same(one: Span, other: Span) -> bool:

@@ -72,3 +72,15 @@ HEADS = {
     "velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
     "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5,
 }  # fmt: skip
+
+
+def pale(pen: Pen) -> Pen:
+    """The pen for what was drawn before: the same strokes, half way to the paper."""
+    return replace(pen, colour=_lighter(pen.colour), fill=_lighter(pen.fill))
+
+
+def _lighter(colour: str) -> str:
+    if not colour.startswith("#"):
+        return colour
+    parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+    return "#" + "".join(f"{255 - (255 - part) // 2:02x}" for part in parts)

@@ -56,6 +56,8 @@ class Drawing(Protocol):
     def method(self) -> dict[str, list[str]]: ...
     @property
     def forms(self) -> list[str]: ...
+    @property
+    def strict(self) -> bool: ...
     def sentences(self) -> list[str]: ...
     def read(self, domain: Domain) -> dict[str, dict[str, Any]]: ...
 
@@ -88,8 +90,11 @@ class Planes:
     def homes(self) -> list[str]:
         """The plan of every step: its own if something it reads lies there, else where what it reads lies.
 
-        A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is.
+        A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is. Compasses alone
+        cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
         """
+        if self.drawing.strict:
+            return [MECHANISM] * len(self.drawing.drawn)
         out: list[str] = []
         for step in self.drawing.drawn.steps:
             out.append(self._home(step, out))

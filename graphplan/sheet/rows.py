@@ -24,13 +24,17 @@ class Cell:
 
 @dataclass(frozen=True)
 class Row:
-    """One line of a column; `gap` is left free above it, and `keep` more rows must stand in the same column."""
+    """One line of a column; `gap` is left free above it, and `keep` more rows must stand in the same column.
+
+    A row belongs to a drawing step, or to the results that are read when all is drawn, or is always there.
+    """
 
     cells: tuple[Cell, ...]
     size: float = SIZE
     gap: float = 0.0
     step: int | None = None
     keep: int = 0
+    layer: str = "text"
 
     @property
     def height(self) -> float:
@@ -77,4 +81,4 @@ def lettered(placed: Sequence[Placed]) -> Iterator[Text]:
     """The rows as items."""
     for row, x, y in placed:
         for cell in row.cells:
-            yield Text(LETTERS, "text", row.step, (x + cell.x, y), cell.runs, row.size, cell.anchor, cell.bold)
+            yield Text(LETTERS, row.layer, row.step, (x + cell.x, y), cell.runs, row.size, cell.anchor, cell.bold)

@@ -126,7 +126,8 @@ class Strokes:
         start, end = self.spots[vector.start], self.spots[vector.end]
         head = min(pens.HEADS[vector.kind], 0.6 * self.length(vector))
         label = f"{vector.kind} {vector.point}"
-        return Arrow(pens.VECTORS[vector.kind], "vectors", vector.end, start, end, head, label)
+        step = max(vector.start, vector.end)  # it is there when both its ends are
+        return Arrow(pens.VECTORS[vector.kind], "vectors", step, start, end, head, label)
 
     # ---- lines -----------------------------------------------------------------------------------------------------
 

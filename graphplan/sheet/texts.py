@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
@@ -19,6 +19,7 @@ from graphplan.sheet.scales import digits
 from graphplan.sheet.tables import ROUNDING, joined_tables, largest_size, rows, scalars, vectors
 
 HEADING, INDENT = 3.0, 8.5
+RESULTS = "results"  # the layer of what is read when all is drawn
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,7 +52,8 @@ class Words:
         if wide not in self._set:
             self._set[wide] = [*self._steps(wide)], [*self._check(wide), *self._forms(wide)]
         before, after = self._set[wide]
-        return [*before, *self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
+        found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
+        return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
         """A paragraph, hanging from its number."""
@@ -61,8 +63,9 @@ class Words:
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
             yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
 
-    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0) -> Row:
-        return Row((Cell(0.0, sentence_runs(self.planes.tongue(text)), bold=True),), size=size, gap=gap, keep=2)
+    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> Row:
+        runs = sentence_runs(self.planes.tongue(text))
+        return Row((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
 
     def _steps(self, wide: float) -> Iterator[Row]:
         drawn, told = self.drawing.drawn, set[str]()
@@ -73,7 +76,7 @@ class Words:
         for step in drawn.steps[drawn.givens :]:
             if step.panel != panel:
                 panel = step.panel
-                yield self._heading(said("On the {0}", spoken(panel)), SIZE, 1.2)
+                yield self._heading(said("On the {0}", spoken(panel)), SIZE, 1.2, step.index)
             sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
             told.add(step.why)
             yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))

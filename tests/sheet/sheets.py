@@ -7,9 +7,8 @@ from pathlib import Path
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
-from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.layout import layout
-from graphplan.sheet.lettering import CAPS, DEPTH, width
 
 SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
 LOADED = [name for name in SCENES if gp.load(name).loads is not None]
@@ -38,7 +37,7 @@ def spots(item: Item) -> list[Spot]:
         case Arrow():
             return [item.start, item.end]
         case Text():
-            box = box_of(item)
+            box = item.box
             return [(box.left, box.bottom), (box.right, box.top)]
     raise TypeError(item)
 
@@ -46,9 +45,3 @@ def spots(item: Item) -> list[Spot]:
 def outside(sheet: Sheet) -> list[Item]:
     """What leaves the frame."""
     return [item for item in sheet.items if not all(sheet.frame.holds(spot, 0.01) for spot in spots(item))]
-
-
-def box_of(text: Text) -> Rect:
-    long = width(text.runs, text.size, text.bold)
-    left = text.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
-    return Rect(left, text.at[1] - DEPTH * text.size, left + long, text.at[1] + CAPS * text.size)

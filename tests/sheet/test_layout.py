@@ -6,7 +6,7 @@ import math
 from dataclasses import replace
 
 import pytest
-from sheets import SCENES, box_of, drawing_of, outside, sheet_of, spots
+from sheets import SCENES, drawing_of, outside, sheet_of, spots
 
 import graphplan as gp
 from graphplan.errors import Refused
@@ -35,7 +35,7 @@ def test_panels_are_disjoint(name: str) -> None:
 def test_no_two_letterings_overlap(name: str) -> None:
     """No letter covers another, on the plans and in the columns."""
     texts = [item for item in sheet_of(name).items if isinstance(item, Text)]
-    boxes = [box_of(text).inset(0.05, 0.05, 0.05, 0.05) for text in texts]
+    boxes = [text.box.inset(0.05, 0.05, 0.05, 0.05) for text in texts]
     clashes = [(plain(texts[i].runs), plain(texts[j].runs)) for i in range(len(boxes)) for j in range(i)
                if boxes[i].meets(boxes[j])]  # fmt: skip
     assert clashes == []

@@ -1,0 +1,177 @@
+"""The film strip: picture by picture how the construction grows, each with the steps that were just drawn.
+
+A picture shows one plan. What was drawn before is grey, what is new is in ink, and its steps stand below in words. A
+picture takes the steps up to the next mark that gets a letter, a dozen at most, or one step alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphplan.errors import Refused
+from graphplan.kernel.program import Step
+from graphplan.methods.panels import spoken
+from graphplan.phrases import arranged, said
+from graphplan.sheet import pens
+from graphplan.sheet.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
+from graphplan.sheet.layout import stacked
+from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.paper import BINDING, COLUMN, EDGE, inside, sheet_size
+from graphplan.sheet.picture import picture
+from graphplan.sheet.planes import Drawing, Planes
+from graphplan.sheet.rows import LEADING, Cell, Row, lettered
+from graphplan.sheet.scales import Scales
+from graphplan.sheet.selection import inked
+from graphplan.sheet.title import TitleBlock
+from graphplan.sheet.view import View, least, plan_scale, view
+from graphplan.words.tongue import ENGLISH, Tongue
+
+WIDTHS = 92.0, 125.0, 170.0  # mm: of a picture; the wider where the letters of a plan need more room
+ASPECT, GAP, INDENT, CAPTION = 0.72, 4.0, 7.0, 5.0
+MOST = 12  # steps in a picture
+Group = tuple[Step, ...]
+
+
+def strip(drawing: Drawing, paper: str = "A3", *, single: bool = False, tongue: Tongue = ENGLISH) -> list[Sheet]:
+    """The film strip of a construction, page by page; `single` has a picture for every step.
+
+    Fails with `Refused` where a picture with its words is larger than the paper.
+    """
+    return Strip(Planes(drawing, tongue), single).sheets(paper)
+
+
+@dataclass(frozen=True)
+class Strip:
+    """The pictures of one construction."""
+
+    planes: Planes
+    single: bool
+
+    @cached_property
+    def groups(self) -> list[Group]:
+        """The steps of each picture: on one plan, up to the next lettered mark, if it is not too far."""
+        drawn, groups, group = self.planes.drawing.drawn, list[Group](), list[Step]()
+        for step in drawn.steps[drawn.givens :]:
+            if group and self._home(step) != self._home(group[-1]):
+                groups.append(tuple(group))
+                group = []
+            group.append(step)
+            if step.name or self.single or len(group) == MOST:
+                groups.append(tuple(group))
+                group = []
+        return [*groups, tuple(group)] if group else groups
+
+    def _home(self, step: Step) -> str:
+        return self.planes.homes[step.index]
+
+    @cached_property
+    def plans(self) -> dict[str, Plan]:
+        """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
+        for wide in WIDTHS:
+            frame = Rect(0.0, 0.0, wide, ASPECT * wide)
+            plans = {panel: self._plan(panel, frame) for panel in self.planes.panels}
+            if not any(plan.crowded for plan in plans.values()):
+                break
+        return plans
+
+    def _plan(self, panel: str, frame: Rect) -> Plan:
+        _, box = plan_scale(self.planes.figure(panel), inside(frame))
+        window = view(box, frame, least(box, inside(frame)) or 1.0)
+        return Plan(window, tuple(stacked(picture(self.planes, panel, window))))
+
+    def sheets(self, paper: str) -> list[Sheet]:
+        """The strip on sheets of this paper."""
+        wide, high = sheet_size(paper)
+        frame = Rect(BINDING, EDGE, wide - EDGE, high - EDGE)
+        title = TitleBlock(self.planes.drawing.scene.title, self.planes.drawing.scene.source, self.planes.tongue)
+        block = Rect(frame.right - COLUMN, frame.bottom, frame.right, frame.bottom + title.height(COLUMN))
+        pages = list(self._pages(frame, block))
+        sheets = []
+        for number, cells in enumerate(pages, 1):
+            items: list[Item] = [Polygon(pens.FRAME, "paper", None, frame.corners)]
+            items += title.items(block, f"{paper.split()[0]}, {number}/{len(pages)}", "—")
+            items += [item for place, spot in cells for item in self._cell(place, spot)]
+            sheets.append(self._sheet(wide, high, frame, tuple(items)))
+        return sheets
+
+    def _sheet(self, wide: float, high: float, frame: Rect, items: tuple[Item, ...]) -> Sheet:
+        drawing, say = self.planes.drawing, self.planes.tongue
+        steps, scene = len(drawing.drawn) - drawing.drawn.givens, drawing.scene
+        told = said("Film strip of a graphical construction: {0} steps in {1} pictures.", steps, len(self.groups))
+        return Sheet(wide, high, frame, {}, items, scene.title, say(told), tuple(map(say, drawing.sentences())),
+                     Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text)  # fmt: skip
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """Width and height of all pictures."""
+        rect = next(iter(self.plans.values())).window.rect
+        return rect.width, rect.height
+
+    def _pages(self, frame: Rect, block: Rect) -> Iterator[list[tuple[int, Spot]]]:
+        """For each page its pictures by number, and where each has its upper left corner; clear of the title block."""
+        wide, _ = self.size
+        lefts = [frame.left + GAP + i * (wide + GAP) for i in range(int((frame.width - GAP) // (wide + GAP)))]
+        page, place, y = list[tuple[int, Spot]](), 0, frame.top - GAP
+        while place < len(self.groups):
+            row = list(zip(range(place, len(self.groups)), lefts, strict=False))
+            low = y - max((self._depth(k) for k, _ in row), default=0.0)
+            feet = [block.top if left + wide > block.left else frame.bottom for _, left in row]
+            clear = [(k, (left, y)) for (k, left), foot in zip(row, feet, strict=True) if low >= foot]
+            if not clear and not page:
+                raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
+            if not clear:
+                yield page
+            page, y = (page + clear, low - GAP) if clear else ([], frame.top - GAP)
+            place += len(clear)
+        yield page
+
+    def _depth(self, place: int) -> float:
+        """How far down a picture reaches with its words."""
+        return self.size[1] + CAPTION + len(self._lines(self.groups[place])) * SIZE * LEADING + GAP
+
+    def _cell(self, place: int, corner: Spot) -> Iterator[Item]:
+        """One picture with its heading above and its steps below."""
+        (wide, high), group = self.size, self.groups[place]
+        first, last = group[0].index, group[-1].index
+        x, y = corner[0], corner[1] - CAPTION
+        head = arranged("{0}. {1:capital}", place + 1, spoken(self._home(group[-1])))
+        yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.planes.tongue(head)), SIZE, bold=True)
+        yield Polygon(pens.BORDER, "paper", None, Rect(x, y - high, x + wide, y).corners)
+        for item in self.plans[self._home(group[-1])].items:
+            if item.step is None or item.step <= last:
+                yield moved(inked(item, first), x, y - high)
+        level = y - high - 1.2
+        for row in self._lines(group):
+            level -= row.height
+            yield from lettered([(row, x, level + row.size * (LEADING - 1))])
+
+    def _lines(self, group: Group) -> list[Row]:
+        """The steps of a picture in words."""
+        drawn, rows = self.planes.drawing.drawn, list[Row]()
+        names = tuple(step.name for step in drawn.steps if step.name)
+        for step in group:
+            told = sentence_runs(self.planes.tongue(drawn.sentence(step.index)), names)
+            lines = wrap(told, SIZE, self.size[0] - INDENT)
+            rows += [self._row(step, runs, i == 0) for i, runs in enumerate(lines)]
+        return rows
+
+    def _row(self, step: Step, runs: Runs, first: bool) -> Row:
+        number = sentence_runs(str(self.planes.drawing.drawn.number(step.index)))
+        head = (Cell(INDENT - 1.6, number, "end"),) if first else ()
+        return Row((*head, Cell(INDENT, runs)), step=step.index)
+
+
+@dataclass(frozen=True)
+class Plan:
+    """A plan as the pictures show it."""
+
+    window: View
+    items: tuple[Item, ...]
+
+    @property
+    def crowded(self) -> bool:
+        """Whether letters stand on each other."""
+        boxes = [item.box for item in self.items if isinstance(item, Text)]
+        return any(one.meets(other) for i, one in enumerate(boxes) for other in boxes[:i])

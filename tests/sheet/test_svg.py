@@ -10,10 +10,13 @@ import xml.etree.ElementTree as ET
 from functools import cache
 
 import pytest
+from sheets import SCENES, drawing_of, sheet_of
 
 import graphplan as gp
+from graphplan.backends.svg import svg
 
 NS = "{http://www.w3.org/2000/svg}"
+ROUNDED = 0.03  # mm: coordinates are rounded to hundredths
 
 
 @cache
@@ -48,7 +51,7 @@ def test_every_drawn_step_has_its_group_and_sentence() -> None:
 
 
 def test_a_velocity_can_be_measured() -> None:
-    """The ends of a vector in the SVG, turned back and times k_v, are the velocity."""
+    """With nothing but the SVG text: a vector's ends, turned back and times the k_v that it tells, are the velocity."""
     drawing = gp.construct(gp.load("four-bar"))
     root = ET.fromstring(svg_of("four-bar").encode())
     found = re.search(r"mechanism plan: k_s = (\S+) mm/mm, k_v = (\S+) mm/s", root.findtext(f"{NS}desc") or "")
@@ -56,9 +59,35 @@ def test_a_velocity_can_be_measured() -> None:
     k_v = float(found[2])
     arrows = {g.get("data-vector"): g for g in root.iter(f"{NS}g")}
     for point, velocity in drawing.velocity.items():
-        arrow = arrows[f"velocity {point}"]
-        (x, y), (u, v) = (map(float, arrow.get(key, "").split()) for key in ("data-from", "data-to"))
-        assert abs(complex(u - x, y - v) / 1j * k_v - velocity) < 0.03 * k_v
+        assert abs(measured(arrows[f"velocity {point}"]) / 1j * k_v - velocity) < ROUNDED * k_v
+
+
+def measured(arrow: ET.Element) -> complex:
+    """A vector as it is drawn, in mm, y upwards."""
+    (x, y), (u, v) = (map(float, (arrow.get(key) or "").split()) for key in ("data-from", "data-to"))
+    return complex(u - x, y - v)
+
+
+@pytest.mark.parametrize("plan", ["orthogonal", "polar"])
+@pytest.mark.parametrize("name", SCENES)
+def test_everything_drawn_measures_what_is_printed(name: str, plan: str) -> None:
+    """Every velocity and acceleration on a sheet, measured in the SVG and times its plan's scale, is the result."""
+    drawing, sheet = drawing_of(name, plan), sheet_of(name, plan=plan)
+    seen = set()
+    for arrow in ET.fromstring(svg(sheet).encode()).iter(f"{NS}g"):
+        kind, _, point = (arrow.get("data-vector") or "").partition(" ")
+        if kind in ("velocity", "acceleration"):
+            x, y = map(float, (arrow.get("data-from") or "").split())
+            panel = next(panel for panel, rect in sheet.panels.items() if rect.holds((x, sheet.height - y)))
+            turned = 1j if kind == "velocity" and plan == "orthogonal" else 1.0
+            scale = sheet.scales.speed(panel) if kind == "velocity" else sheet.scales.acceleration(panel)
+            value = (drawing.velocity if kind == "velocity" else drawing.acceleration)[point]
+            assert abs(measured(arrow) / turned * scale - value) < ROUNDED * scale, (kind, point)
+            seen.add((kind, point))
+    asked = {("velocity", p): v for p, v in drawing.velocity.items()}
+    asked |= {("acceleration", p): v for p, v in drawing.acceleration.items()}
+    largest = {kind: max((abs(v) for (k, _), v in asked.items() if k == kind), default=0.0) for kind, _ in asked}
+    assert {key for key, value in asked.items() if abs(value) > 0.05 * largest[key[0]]} <= seen
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link"])
@@ -88,3 +117,11 @@ gp.sheet.svg(drawing)
 assert 'matplotlib' not in sys.modules, 'sheet'
 """
     subprocess.run([sys.executable, "-c", code], env={"PYTHONPATH": ":".join(sys.path)}, check=True)
+
+
+def test_the_scene_is_embedded_once() -> None:
+    """The text of the scene stands in the sheet, whole and once, so that a sheet can be drawn anew."""
+    root = ET.fromstring(svg_of("four-bar").encode())
+    texts = [element.text or "" for element in root.iter(f"{NS}metadata")]
+    assert [gp.parse(text, "four-bar") for text in texts] == [gp.load("four-bar")]
+    assert svg_of("four-bar").count("[points]") == 1

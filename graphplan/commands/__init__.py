@@ -8,15 +8,21 @@ import importlib
 import os
 import sys
 from collections.abc import Sequence
+from typing import NoReturn
 
-from graphplan.errors import GraphplanError
+from graphplan import __version__
+from graphplan.errors import GraphplanError, Refused
 
-SUBCOMMANDS = ("draw", "steps", "solve", "check", "cycle", "cost", "chart", "gallery")
+SUBCOMMANDS = ("new", "list", "draw", "watch", "steps", "solve", "check", "cycle", "cost", "chart", "gallery",
+               "schema", "completion")
+MODULES = {"list": "catalogue"}  # a module called list would hide the built-in one here
+SCENELESS = ("new", "list", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
 
 GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 
 EXAMPLES = """\
 examples:
+  graphplan new scene.toml                      a scene to start from, every section of it explained
   graphplan draw alt-eight-link -o sheet.svg    the construction sheet of a packaged scene
   graphplan steps scene.toml                    the construction in words, step by step
   graphplan solve scene.toml --exact            velocities and accelerations as fractions
@@ -38,15 +44,20 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: Sequence[str]) -> int:
-    options = _parser(_called(arguments)).parse_args(arguments)
+    if not arguments:
+        parser(SUBCOMMANDS).print_help(sys.stderr)
+        return 2
     try:
+        options = parser(_called(arguments[0])).parse_args(arguments)
         status = int(options.run(options))
         sys.stdout.flush()
         return status
-    except GraphplanError as error:
-        for line in error.lines:
-            print(line, file=sys.stderr)
-        return error.status
+    except GraphplanError as fault:
+        from graphplan.commands.messages import error
+
+        for line in fault.lines:
+            error(line)
+        return fault.status
     except BrokenPipeError:
         os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         return 0
@@ -54,23 +65,42 @@ def _run(arguments: Sequence[str]) -> int:
         return 130
 
 
-def _called(arguments: Sequence[str]) -> Sequence[str]:
+def _called(word: str) -> Sequence[str]:
     """The subcommand that is called, as its module alone is needed; all where help is wanted."""
-    return arguments[:1] if arguments and arguments[0] in SUBCOMMANDS else SUBCOMMANDS
+    if word in SUBCOMMANDS:
+        return (word,)
+    if word.startswith("-"):
+        return SUBCOMMANDS
+    from graphplan.mechanism.faults import perhaps
+
+    raise Refused(f"graphplan {word}", "there is no such command", perhaps(word, SUBCOMMANDS, "command"))
 
 
-def _parser(names: Sequence[str]) -> argparse.ArgumentParser:
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors look like all others."""
+
+    def error(self, message: str) -> NoReturn:
+        """Tell the usage and what is wrong with it, and end."""
+        from graphplan.commands.messages import error
+
+        self.print_usage(sys.stderr)
+        error(f"{self.prog}: error: {message}")
+        raise SystemExit(2)
+
+
+def parser(names: Sequence[str]) -> argparse.ArgumentParser:
     """The command line of these subcommands."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="graphplan",
         description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as ordered "
         "compass-and-straightedge steps, and checks them.",
         epilog=EXAMPLES,
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
+    parser.add_argument("-V", "--version", action="version", version=f"graphplan {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
     for name in names:
-        module = importlib.import_module(f"graphplan.commands.{name}")
+        module = importlib.import_module(f"graphplan.commands.{MODULES.get(name, name)}")
         summary, _, details = (module.__doc__ or "").partition("\n")
         command = commands.add_parser(
             name,
@@ -79,9 +109,10 @@ def _parser(names: Sequence[str]) -> argparse.ArgumentParser:
             epilog=details.strip() or None,
             formatter_class=argparse.RawDescriptionHelpFormatter,
         )
-        if name not in ("chart", "gallery"):
+        if name not in SCENELESS:
             what = "a scene file, - for standard input, or a packaged scene"
             command.add_argument("scene", metavar="SCENE", help=what)
         module.options(command)
+        command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run)
     return parser

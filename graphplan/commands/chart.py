@@ -16,12 +16,12 @@ examples:
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_pencil, write
+from graphplan.commands.messages import Messages
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -51,71 +51,72 @@ def run(options: argparse.Namespace) -> int:
             raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
     if not options.folder.is_dir():
         raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
-    scenes, hand = [load(name) for name in options.scenes], pencil(options.pencil)
+    scenes, hand, messages = [load(name) for name in options.scenes], pencil(options.pencil), Messages(options.quiet)
     for name in options.names or CHARTS:
-        chart, table = CHARTS[name](scenes, hand)
-        _tell("")
+        chart, table = CHARTS[name](scenes, hand, messages)
+        messages.progress("")
         write(drawn(chart), str(options.folder / f"{name}.svg"))
         write(table, str(options.folder / f"{name}.csv"))
     return 0
 
 
-def _machine(scenes: Sequence[Scene], hand: Pencil) -> Made:
+def _machine(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
     from graphplan.survey.machine import Measure, measures
     from graphplan.survey.pictures.machine import picture
     from graphplan.survey.table import table
 
-    rows = [row for scene in _each("machine", scenes or _packaged())
+    rows = [row for scene in _each("machine", scenes or _packaged(), messages)
             for row in measures(scene, compiled=bool(scenes) or scene.name == BIG)]
     return picture(rows), table(Measure, rows)
 
 
-def _draughtsman(scenes: Sequence[Scene], hand: Pencil) -> Made:
+def _draughtsman(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
     from graphplan.survey.draughtsman import Draft, drafts
     from graphplan.survey.pictures.draughtsman import picture
     from graphplan.survey.table import table
 
-    rows = [row for scene in _each("draughtsman", scenes or _packaged())
+    rows = [row for scene in _each("draughtsman", scenes or _packaged(), messages)
             for row in drafts(scene, hand, long=bool(scenes))]
-    return picture(rows, str(hand)), table(Draft, rows)
+    return picture(rows, hand.told), table(Draft, rows)
 
 
-def _stability(scenes: Sequence[Scene], hand: Pencil) -> Made:
+def _stability(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
     from graphplan.survey.pictures.stability import picture
     from graphplan.survey.stability import Sample, everything
     from graphplan.survey.table import table
 
     rows = []
     for row in everything():
-        _tell(f"stability: {row.degeneracy}")
+        messages.progress(f"stability: {row.degeneracy}")
         rows.append(row)
     return picture(rows), table(Sample, rows)
 
 
-def _forms(scenes: Sequence[Scene], hand: Pencil) -> Made:
+def _forms(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
     from graphplan.mechanism.scene import load
     from graphplan.survey.best_forms import SCENES, Sample, samples
     from graphplan.survey.pictures.forms import picture
     from graphplan.survey.table import table
 
-    rows = [row for scene in _each("forms", scenes or [load(name) for name in SCENES]) for row in samples(scene, hand)]
+    rows = [row for scene in _each("forms", scenes or [load(name) for name in SCENES], messages)
+            for row in samples(scene, hand)]
     return picture(rows), table(Sample, rows)
 
 
-def _growth(scenes: Sequence[Scene], hand: Pencil) -> Made:
+def _growth(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
     from graphplan.survey.growth import Stage, stages
     from graphplan.survey.pictures.growth import picture
     from graphplan.survey.table import table
 
     rows = []
     for row in stages():
-        _tell(f"growth: {row.links} links")
+        messages.progress(f"growth: {row.links} links")
         rows.append(row)
     return picture(rows), table(Stage, rows)
 
 
 BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
-CHARTS: dict[str, Callable[[Sequence[Scene], Pencil], Made]] = {
+CHARTS: dict[str, Callable[[Sequence[Scene], Pencil, Messages], Made]] = {
     "machine": _machine, "draughtsman": _draughtsman, "stability": _stability, "forms": _forms, "growth": _growth,
 }
 
@@ -126,13 +127,8 @@ def _packaged() -> list[Scene]:
     return [load(name) for name in packaged()]
 
 
-def _each(chart: str, scenes: Sequence[Scene]) -> Iterator[Scene]:
+def _each(chart: str, scenes: Sequence[Scene], messages: Messages) -> Iterator[Scene]:
     """The scenes one after the other, told to whoever waits."""
     for count, scene in enumerate(scenes, 1):
-        _tell(f"{chart}: {count}/{len(scenes)} {scene.name}")
+        messages.progress(f"{chart}: {count}/{len(scenes)} {scene.name}")
         yield scene
-
-
-def _tell(progress: str) -> None:
-    if sys.stderr.isatty():
-        print(f"\r{progress:<60}\r", end="", file=sys.stderr, flush=True)

@@ -3,20 +3,27 @@
 examples:
   graphplan check alt-eight-link
   graphplan check scene.toml --exact
+  graphplan check scene.toml --json
 """
 
 from __future__ import annotations
 
 import argparse
-import sys
+import json
+from collections.abc import Sequence
 from fractions import Fraction
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices, write
+from graphplan.commands.messages import Messages, error
+
+if TYPE_CHECKING:
+    from graphplan.check.report import Report
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--exact", action="store_true", help="in fractions, without any tolerance")
+    command.add_argument("--json", action="store_true", help="as data")
     add_choices(command)
 
 
@@ -29,7 +36,19 @@ def run(options: argparse.Namespace) -> int:
 
     scene = load(options.scene)
     found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia)
-    lines = [scene.title, *structure(scene).lines(), "", f"{'':<24}{'construction':>32}{'analytic solver':>32}"]
+    groups, notes = structure(scene).lines(), [str(note) for note in (*shortcuts(found.drawing), *replacements(scene))]
+    if options.json:
+        write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n", None)
+    else:
+        write("\n".join(_lines(found, groups, notes)) + "\n", None)
+    if found.complaint:
+        (Messages(options.quiet).remark if found.agrees else error)(found.complaint)
+    return 0 if found.agrees else 1
+
+
+def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
+    """Both opinions as a table, and what there is to say of them."""
+    lines = [found.scene.title, *groups, "", f"{'':<24}{'construction':>32}{'analytic solver':>32}"]
     for part, ours in found.results.items():
         truth = found.truth(part)
         lines += [f"{part + ' ' + name:<24}{_text(ours[name]):>32}{_text(truth[name]):>32}" for name in ours]
@@ -38,19 +57,36 @@ def run(options: argparse.Namespace) -> int:
     lines.append("")
     for kind, difference in found.check.items():
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")
-    lines += map(str, (*shortcuts(found.drawing), *replacements(scene)))
+    lines += notes
     if found.held and found.held.efficiency is not None:
         lines.append(f"instantaneous efficiency: {found.held.efficiency:.4g} as drawn, "
                      f"{found.held.standing.efficiency:.4g} in further rounds")
     if not found.exact:
         lines.append(f"condition of the mechanism: {found.condition:.3g}; allowed: {found.tolerance:.2g}")
-    write("\n".join(lines) + "\n", None)
-    if found.complaint:
-        print(found.complaint, file=sys.stderr)
-    return 0 if found.agrees else 1
+    return lines
+
+
+def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
+    """The same as data: of every result what the construction and the solver say."""
+    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(found.truth(part)[name])}
+                      for name in ours} for part, ours in found.results.items()}
+    held = {"power balance": _plain(tuple(found.held.power))} if found.held else {}
+    if found.held and found.held.efficiency is not None:
+        held["efficiency"] = {"drawn": _plain(found.held.efficiency), "stands": found.held.standing.efficiency}
+    condition = {} if found.exact else {"condition": found.condition, "allowed": found.tolerance}
+    return {"title": found.scene.title, "structure": list(groups), "results": results, **held,
+            "check": {kind: float(difference) for kind, difference in found.check.items()},
+            "notes": list(notes), **condition, "agrees": found.agrees}
 
 
 def _text(value: Any) -> str:
     if isinstance(value, tuple):
         return "(" + ", ".join(_text(part) for part in value) + ")"
     return str(value) if isinstance(value, Fraction) else f"{value:.9g}"
+
+
+def _plain(value: Any) -> Any:
+    """A number or a vector as JSON takes it: fractions as a string p/q."""
+    if isinstance(value, tuple):
+        return [_plain(part) for part in value]
+    return str(value) if isinstance(value, Fraction) else value

@@ -76,10 +76,11 @@ def write(content: str | bytes, path: str | None) -> None:
         os.chmod(temporary, 0o666 & ~_umask())
         os.replace(temporary, path)
     except OSError as error:
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
         why = f"cannot be written ({error.strerror})"
         raise Refused(f"{path}: output", why, "name a file in a folder that can be written to") from None
+    finally:  # not there any more where all went well; there also where the user interrupts
+        if temporary and os.path.exists(temporary):
+            os.unlink(temporary)
 
 
 def _umask() -> int:

@@ -10,10 +10,10 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from collections.abc import Iterator
 
 from graphplan.commands.choices import add_pencil, write
+from graphplan.commands.messages import Messages
 
 PLANS = "orthogonal", "polar"
 
@@ -37,13 +37,13 @@ def run(options: argparse.Namespace) -> int:
 
     if options.hands and options.hands < 2:
         raise Refused(f"--hands {options.hands}", "one hand does not scatter", "some thousands")
-    scene, hand = load(options.scene), pencil(options.pencil)
+    scene, hand, messages = load(options.scene), pencil(options.pencil), Messages(options.quiet)
     found = []
     for plan, strict in _kinds():
-        _tell(f"{plan} plans{', strict' if strict else ''}")
+        messages.progress(f"{plan} plans{', strict' if strict else ''}")
         drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper)
         found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))
-    _tell("")
+    messages.progress("")
     refusals = [form.refusal for one in found for form in one.forms]
     if refusals[0] is not None and all(refusals):
         raise refusals[0]
@@ -52,7 +52,7 @@ def run(options: argparse.Namespace) -> int:
         write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
     else:
         tables = [line for one in found for line in one.lines()]
-        lines = [scene.title, f"Pencil, standard deviations: {hand}.", *tables, *legend(options.hands)]
+        lines = [scene.title, f"Pencil, standard deviations: {hand.told}.", *tables, *legend(options.hands)]
         write("\n".join(lines) + "\n", None)
     return 0
 
@@ -60,9 +60,3 @@ def run(options: argparse.Namespace) -> int:
 def _kinds() -> Iterator[tuple[str, bool]]:
     """Every plan with set squares, then with compasses and straightedge alone."""
     yield from ((plan, strict) for strict in (False, True) for plan in PLANS)
-
-
-def _tell(progress: str) -> None:
-    """What is being drawn, to whoever waits."""
-    if sys.stderr.isatty():
-        print(f"\r{progress:<40}\r", end="", file=sys.stderr, flush=True)

@@ -14,11 +14,11 @@ examples:
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, write
+from graphplan.commands.messages import Messages, error
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -57,9 +57,10 @@ def run(options: argparse.Namespace) -> int:
     span = None if options.start is None else (options.start, options.end)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
+    messages = Messages(options.quiet)
     found = cycle(asking(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
                   inertia=options.inertia, workers=workers, machine=options.compiled,
-                  progress=_progress if sys.stderr.isatty() else None)
+                  progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
     _table(found, options.output, bool(options.plot))
     if options.plot:
         from graphplan.backends.plots import diagrams
@@ -67,7 +68,7 @@ def run(options: argparse.Namespace) -> int:
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
         write(diagrams(drawn, scene.title), options.plot)
-    _say(found)
+    _say(found, messages)
     if found.wrong:
         return 1
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
@@ -83,17 +84,18 @@ def _table(found: Cycle, path: str | None, plotted: bool) -> None:
     write(columns.archive(*parts) if path and path.endswith(".npz") else columns.text(*parts), path)
 
 
-def _say(found: Cycle) -> None:
+def _say(found: Cycle, messages: Messages) -> None:
     """What there is to say of the poses, on standard error."""
     otherwise = {k: f"drawn by {how}" for k, how in found.otherwise.items()}
+    tell = error if len(found.faults) == len(found.turn.travel) else messages.remark
     for line in (*_told(found.faults), *_told(otherwise)):
-        print(line, file=sys.stderr)
+        tell(line)
     for k in found.wrong:
-        print(f"pose {k}: the construction and the analytic solver disagree", file=sys.stderr)
+        error(f"pose {k}: the construction and the analytic solver disagree")
     checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in found.check.items())
     count = len(found.turn.travel)
-    print(f"{count - len(found.faults)} of {count} poses; largest difference from the analytic solver: {checked}",
-          file=sys.stderr)
+    messages.remark(f"{count - len(found.faults)} of {count} poses; "
+                    f"largest difference from the analytic solver: {checked}")
 
 
 def _told(notes: Mapping[int, str]) -> Iterator[str]:
@@ -111,9 +113,3 @@ def _told(notes: Mapping[int, str]) -> Iterator[str]:
 def _reason(note: str) -> str:
     """A note without the pose's own angle."""
     return note.partition(": ")[2] if note.startswith("at ") else note
-
-
-def _progress(what: str, done: int, of: int) -> None:
-    """One line on the terminal, written over and over; gone in the end."""
-    text: Any = f"{what}: {done} of {of}" if done < of else ""
-    print(f"\r{text:<50}\r", end="", file=sys.stderr, flush=True)

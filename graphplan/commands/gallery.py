@@ -8,12 +8,12 @@ examples:
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Iterator
 from html import escape
 from pathlib import Path
 
 from graphplan.commands.choices import write
+from graphplan.commands.messages import Messages, error
 from graphplan.errors import Refused
 
 
@@ -27,7 +27,7 @@ def run(options: argparse.Namespace) -> int:
         raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
     stale = 0
     written = set()
-    for name, text in _pages(options.folder):
+    for name, text in _pages(options.folder, Messages(options.quiet)):
         path = options.folder / name
         written.add(name)
         if options.check:
@@ -37,18 +37,18 @@ def run(options: argparse.Namespace) -> int:
     for path in sorted(options.folder.iterdir()):
         if path.is_file() and path.name not in written:
             stale += 1
-            print(f"{path}: no packaged scene makes this file", file=sys.stderr)
+            error(f"{path}: no packaged scene makes this file")
     return 1 if stale else 0
 
 
 def _differs(path: Path, text: str) -> bool:
     same = path.is_file() and path.read_text(encoding="utf-8") == text
     if not same:
-        print(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}", file=sys.stderr)
+        error(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}")
     return not same
 
 
-def _pages(folder: Path) -> Iterator[tuple[str, str]]:
+def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
     """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts that are there.
     """
     from graphplan import sheet
@@ -63,16 +63,14 @@ def _pages(folder: Path) -> Iterator[tuple[str, str]]:
     entries = []
     names = packaged()
     for count, name in enumerate(names, 1):
-        if sys.stderr.isatty():
-            print(f"\r{count}/{len(names)} {name:<30}", end="", file=sys.stderr, flush=True)
+        messages.progress(f"{count}/{len(names)} {name}")
         found = report(load(name))
         scene = found.scene
         errors = drafted(found.drawing, Pencil(), check=found.check)
         yield f"{name}.svg", sheet.svg(found.drawing, composition=errors.composition)
         yield f"{name}.txt", protocol(found.drawing, structure(scene).lines(), errors.lines())
         entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
-    if sys.stderr.isatty():
-        print("\r" + " " * 50 + "\r", end="", file=sys.stderr)
+    messages.progress("")
     charts = [_chart(path.stem) for path in sorted((folder / "charts").glob("*.svg"))]
     yield "index.html", INDEX.format(entries="\n".join(entries), charts="\n".join(charts))
 

@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
@@ -42,7 +41,9 @@ def run(options: argparse.Namespace) -> int:
         return _certified(options, scene, how)
     found = report(scene, exact=options.exact, **how)
     if found.complaint:
-        print(found.complaint, file=sys.stderr)
+        from graphplan.commands.messages import Messages, error
+
+        (Messages(options.quiet).remark if found.agrees else error)(found.complaint)
     return _printed(data(found) | _errors(options, found), found.agrees)
 
 

@@ -1,0 +1,78 @@
+"""List the packaged scenes, with their links and what they ask for.
+
+examples:
+  graphplan list
+  graphplan list --json
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import shutil
+import sys
+from collections.abc import Iterator, Sequence
+from typing import TYPE_CHECKING, Any
+
+from graphplan.commands.choices import write
+
+if TYPE_CHECKING:
+    from graphplan.mechanism.model import Scene
+
+ASKED = {"velocity": "v", "acceleration": "a", "forces": "F"}
+HEAD = ("scene", "links", "asks", "title", "source")
+LEGEND = "asks: " + ", ".join(f"{letter} for {what}" for what, letter in ASKED.items())
+GAP = "  "
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--json", action="store_true", help="as data, with the names of links and points")
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.mechanism.scene import load, packaged
+
+    scenes = [load(name) for name in packaged()]
+    if options.json:
+        write(json.dumps([_data(scene) for scene in scenes], indent=1, ensure_ascii=False) + "\n", None)
+        return 0
+    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+    write("\n".join([*fitted([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n", None)
+    return 0
+
+
+def _asked(scene: Scene) -> Iterator[str]:
+    """What kinds of results a scene asks for."""
+    if scene.find.velocity:
+        yield "velocity"
+    if scene.find.acceleration:
+        yield "acceleration"
+    if scene.loads is not None:
+        yield "forces"
+
+
+def _row(scene: Scene) -> tuple[str, ...]:
+    asked = {*_asked(scene)}
+    letters = " ".join(letter if what in asked else " " for what, letter in ASKED.items())
+    return scene.name, str(len(scene.links)), letters, scene.title, scene.source
+
+
+def _data(scene: Scene) -> dict[str, Any]:
+    return {"name": scene.name, "title": scene.title, "source": scene.source, "links": [*scene.links],
+            "asked": [*_asked(scene)]}
+
+
+def fitted(rows: Sequence[Sequence[str]], width: int | None) -> Iterator[str]:
+    """Rows in columns; on a terminal of this width title and source share what the others leave, and end in dots."""
+    *narrow, title, source = (max(map(len, column)) for column in zip(*rows, strict=True))
+    if width is not None:
+        left = max(0, width - sum(narrow) - len(GAP) * (len(rows[0]) - 1))
+        title = min(title, max(left - source, left * 3 // 5))
+        source = min(source, left - title)
+    for row in rows:
+        cells = zip(row, (*narrow, title, source), strict=True)
+        yield GAP.join(_cut(cell, wide).ljust(wide) for cell, wide in cells).rstrip()
+
+
+def _cut(text: str, wide: int) -> str:
+    return text if len(text) <= wide else text[: max(0, wide - 1)] + "…" * min(1, wide)

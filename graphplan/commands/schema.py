@@ -1,0 +1,31 @@
+"""Print a JSON Schema: of scene files, or of what a command prints as JSON.
+
+An editor with taplo (Even Better TOML) completes and checks a scene whose first line names the schema:
+#:schema ./scene.schema.json
+
+examples:
+  graphplan schema > scene.schema.json
+  graphplan schema solve
+  graphplan schema steps
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+
+from graphplan.commands.choices import write
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "solve", "steps"),
+                         help="scene (default), solve, or steps")
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.commands import result_schemas
+    from graphplan.mechanism.schema import scene
+
+    schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps}
+    write(json.dumps(schemas[options.of](), indent=2, ensure_ascii=False) + "\n", None)
+    return 0

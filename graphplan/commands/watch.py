@@ -1,0 +1,60 @@
+"""Draw a scene anew whenever its file is saved, until Ctrl-C.
+
+Where the scene has faults they are told, and the sheet stays as it was. An editor may save as it likes: over the file,
+or by another file in its place.
+
+examples:
+  graphplan watch scene.toml                     scene.svg beside it
+  graphplan watch scene.toml -o sheet.svg --plan polar
+"""
+
+from __future__ import annotations
+
+import argparse
+import time
+from collections.abc import Iterator
+from pathlib import Path
+
+from graphplan.commands import draw
+from graphplan.commands.messages import Messages, error
+from graphplan.errors import GraphplanError, Refused
+
+PERIOD = 0.3  # seconds between two looks at the file
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("scene", metavar="SCENE", help="a scene file")
+    draw.options(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    path = Path(options.scene)
+    if not path.is_file():
+        raise Refused(f"{path}: watch", "there is no such file", f"graphplan new {path} makes one")
+    options.output = options.output or str(path.with_suffix(".svg"))
+    for _ in _saved(path):
+        try:
+            draw.run(options)
+        except GraphplanError as fault:
+            for line in fault.lines:
+                error(line)
+        else:
+            Messages(options.quiet).remark(f"{options.output}: drawn at {time.strftime('%H:%M:%S')}")
+    return 0
+
+
+def _saved(path: Path) -> Iterator[None]:
+    """Comes at once, and after every change of the file, which is missing or empty while it is being replaced.
+
+    It is the text that is compared: scenes are small, and times of change are too coarse for two saves in a moment.
+    """
+    seen = b""
+    while True:
+        try:
+            text = path.read_bytes()
+        except OSError:
+            text = b""
+        if text and text != seen:
+            seen = text
+            yield
+        time.sleep(PERIOD)

@@ -52,8 +52,22 @@ def __getattr__(name: str) -> Any:
         found = getattr(import_module(HOMES[name]), name)
     else:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    if name == "construct":
+        _illustrate()
     globals()[name] = found
     return found
+
+
+def _illustrate() -> None:
+    """Let notebooks show a construction as its sheet: methods know no sheets, the front door knows both."""
+    import_module(HOMES["Construction"]).Construction._repr_svg_ = _picture
+
+
+def _picture(drawing: Construction) -> str:
+    """The sheet of a construction, drawn when a notebook asks."""
+    from graphplan.sheet import svg
+
+    return svg(drawing)
 
 
 def __dir__() -> list[str]:

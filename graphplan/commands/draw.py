@@ -1,20 +1,35 @@
-"""Draw the construction sheet, as SVG.
+"""Draw the construction sheet, as SVG, PDF, PNG or DXF.
+
+The suffix of the output says which. A PDF has the sheet in true size, a DXF has each drawing step as a group; for DXF
+install graphplan[dxf].
 
 examples:
   graphplan draw alt-eight-link -o sheet.svg
+  graphplan draw four-bar -o sheet.png --dpi 300
   graphplan draw scene.toml --plan polar > sheet.svg
-  graphplan draw scene.toml --prefer accurate --pencil point=0.2 > sheet.svg
+  graphplan draw scene.toml --prefer accurate --pencil point=0.2 -o sheet.pdf
 """
 
 from __future__ import annotations
 
 import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.sheet.display import Sheet
+
+SUFFIXES = (".svg", ".pdf", ".png", ".dxf")
+DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("-o", "--output", metavar="SHEET.svg", help="the file to write; without it standard output")
+    command.add_argument("-o", "--output", metavar="SHEET.svg",
+                         help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
+    command.add_argument("--dpi", type=int, metavar="N", help=f"dots per inch of a .png ({DOTS})")
     command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
                          help="the sheet; without it the smallest that will do")
     add_choices(command)
@@ -22,16 +37,63 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan import sheet
     from graphplan.check.report import report
     from graphplan.drafting.drafted import drafted
     from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
+    from graphplan.sheet.layout import layout
 
+    suffix, dpi = _suffix(options.output), _dots(options.dpi, options.output)
     scene, hand = load(options.scene), pencil(options.pencil)
     method, told = chosen(options, scene, paper=options.paper)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia)
     found.drawing.notes.extend(told)
     composition = drafted(found.drawing, hand, options.paper, found.check).composition
-    write(sheet.svg(found.drawing, composition=composition), options.output)
+    write(_drawn(layout(found.drawing, composition=composition), suffix, dpi), options.output)
     return 0
+
+
+def _suffix(output: str | None) -> str:
+    """What kind of file is asked for; SVG where its name does not say."""
+    suffix = Path(output or "").suffix.lower() or ".svg"
+    if suffix not in SUFFIXES:
+        raise Refused(f"{output}: output", f"no sheet is drawn as {suffix}", f"a name in {', '.join(SUFFIXES)}")
+    return suffix
+
+
+def _dots(dpi: int | None, output: str | None) -> int:
+    """How many dots per inch a picture has."""
+    if dpi is None:
+        return DOTS
+    if _suffix(output) != ".png":
+        raise Refused(f"--dpi {dpi}", "only a .png has dots", "leave it out, or -o SHEET.png")
+    if not COARSEST <= dpi <= FINEST:
+        raise Refused(f"--dpi {dpi}", "nobody could read or keep that", f"{COARSEST} to {FINEST} dots per inch")
+    return dpi
+
+
+def _drawn(sheet: Sheet, suffix: str, dpi: int) -> str | bytes:
+    """The sheet as a file of this kind."""
+    match suffix:
+        case ".pdf":
+            from graphplan.backends.ink import pdf
+
+            return pdf([sheet])
+        case ".png":
+            from graphplan.backends.ink import png
+
+            return png(sheet, dpi)
+        case ".dxf":
+            return _modelled(sheet)
+    from graphplan.backends.svg import svg
+
+    return svg(sheet)
+
+
+def _modelled(sheet: Sheet) -> bytes:
+    """The sheet for CAD programs, where the package is installed that writes for them."""
+    try:
+        from graphplan.backends.dxf import dxf
+    except ModuleNotFoundError:
+        raise Refused("DXF", "ezdxf is not installed", "pip install 'graphplan[dxf]', or draw it as SVG") from None
+    return dxf(sheet)

@@ -6,7 +6,8 @@ is its key in the catalogues of `words`. The sentence of a drawing step has its 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Iterable
+from dataclasses import dataclass
 from typing import Any
 
 PHRASES, STEPS, UNITS = "phrases", "steps", "units"  # the sections of a catalogue
@@ -44,9 +45,19 @@ def said(english: str, /, *put: Any, **named: Any) -> Said:
     return Said(_filled(english, put, named), PHRASES, english, put, named)
 
 
-def phrase(english: str) -> Callable[..., Said]:
+@dataclass(frozen=True)
+class Phrase:
     """A phrase that is filled in later."""
-    return lambda *put, **named: said(english, *put, **named)
+
+    english: str
+
+    def __call__(self, *put: Any, **named: Any) -> Said:
+        return said(self.english, *put, **named)
+
+
+def phrase(english: str) -> Phrase:
+    """A phrase, to be filled in when it is said."""
+    return Phrase(english)
 
 
 def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -> Said:

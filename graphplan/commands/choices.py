@@ -29,6 +29,13 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
                              help="compasses and straightedge alone, no set squares")
 
 
+def add_language(command: argparse.ArgumentParser) -> None:
+    """The option that says in which language it is said."""
+    from graphplan.words.tongue import LANGUAGES
+
+    command.add_argument("--language", default="en", choices=LANGUAGES, help="the language of all words (en)")
+
+
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that says how well it is drawn."""
     command.add_argument("--pencil", default="", metavar="SIZES",

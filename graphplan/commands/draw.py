@@ -7,6 +7,8 @@ examples:
   graphplan draw alt-eight-link -o sheet.svg
   graphplan draw four-bar -o sheet.png --dpi 300
   graphplan draw scene.toml --plan polar > sheet.svg
+  graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
+  graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
   graphplan draw scene.toml --prefer accurate --pencil point=0.2 -o sheet.pdf
 """
 
@@ -16,11 +18,14 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
+    from graphplan.kernel.program import Program
+    from graphplan.methods.construction import Construction
     from graphplan.sheet.display import Sheet
+    from graphplan.words.tongue import Tongue
 
 SUFFIXES = (".svg", ".pdf", ".png", ".dxf")
 DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
@@ -32,7 +37,13 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--dpi", type=int, metavar="N", help=f"dots per inch of a .png ({DOTS})")
     command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
                          help="the sheet; without it the smallest that will do")
-    add_choices(command)
+    shown = command.add_mutually_exclusive_group()
+    shown.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
+    shown.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
+    shown.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
+                       help="a film strip: a picture for every lettered mark, or for every step")
+    add_choices(command, strict=True)
+    add_language(command)
     add_preference(command)
 
 
@@ -42,15 +53,37 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.sheet.layout import layout
+    from graphplan.words.tongue import tongue
 
     suffix, dpi = _suffix(options.output), _dots(options.dpi, options.output)
-    scene, hand = load(options.scene), pencil(options.pencil)
-    method, told = chosen(options, scene, paper=options.paper)
-    found = report(scene, method=method, plan=options.plan, inertia=options.inertia)
+    scene, hand, say = load(options.scene), pencil(options.pencil), tongue(options.language)
+    method, told = chosen(options, scene, strict=options.strict, paper=options.paper)
+    found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)
-    composition = drafted(found.drawing, hand, options.paper, found.check).composition
-    write(_drawn(layout(found.drawing, composition=composition), suffix, dpi), options.output)
+    if options.strip:
+        write(_pages(_strip(found.drawing, options, say), suffix, dpi), options.output)
+        return 0
+    composition = drafted(found.drawing, hand, options.paper, found.check, say).composition
+    sheet = _shown(layout(found.drawing, composition=composition), found.drawing.drawn, options)
+    write(_drawn(sheet, suffix, dpi), options.output)
     return 0
+
+
+def _strip(drawing: Construction, options: argparse.Namespace, say: Tongue) -> list[Sheet]:
+    """The pages of the film strip."""
+    from graphplan.sheet.strip import strip
+
+    return strip(drawing, options.paper or "A3", single=options.strip == "step", tongue=say)
+
+
+def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
+    """What of the sheet is asked for."""
+    if not (options.until or options.steps):
+        return sheet
+    from graphplan.sheet.selection import numbered, selected
+
+    first, last = numbered(drawn, options.steps or options.until)
+    return selected(sheet, last, first if options.steps else 0)
 
 
 def _suffix(output: str | None) -> str:
@@ -70,6 +103,17 @@ def _dots(dpi: int | None, output: str | None) -> int:
     if not COARSEST <= dpi <= FINEST:
         raise Refused(f"--dpi {dpi}", "nobody could read or keep that", f"{COARSEST} to {FINEST} dots per inch")
     return dpi
+
+
+def _pages(sheets: list[Sheet], suffix: str, dpi: int) -> str | bytes:
+    """Sheets as one file of this kind: only a PDF has pages."""
+    if suffix == ".pdf":
+        from graphplan.backends.ink import pdf
+
+        return pdf(sheets)
+    if len(sheets) > 1:
+        raise Refused("--strip", f"it has {len(sheets)} pages", "-o STRIP.pdf, or a larger --paper")
+    return _drawn(sheets[0], suffix, dpi)
 
 
 def _drawn(sheet: Sheet, suffix: str, dpi: int) -> str | bytes:

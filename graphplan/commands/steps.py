@@ -12,12 +12,13 @@ from __future__ import annotations
 import argparse
 import json
 
-from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data")
     add_choices(command, strict=True)
+    add_language(command)
     add_preference(command)
 
 
@@ -28,15 +29,17 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
+    from graphplan.words.tongue import tongue
 
     scene, hand = load(options.scene), pencil(options.pencil)
     method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)
+    say = tongue(options.language)
     on_sheet, lines = drafted(found.drawing, hand, check=found.check), structure(scene).lines()
     if options.json:
-        data = text.steps(found.drawing, lines) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+        data = text.steps(found.drawing, lines, say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
         write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
     else:
-        write(text.protocol(found.drawing, lines, on_sheet.lines()), None)
+        write(text.protocol(found.drawing, lines, on_sheet.lines(), say), None)
     return 0

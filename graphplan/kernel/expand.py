@@ -21,7 +21,7 @@ from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Program, Step
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, joined, phrase, said
 
 SHARP = math.sin(math.radians(15))
 BLUNT = math.sin(math.radians(1))
@@ -56,7 +56,7 @@ class Window(NamedTuple):
         return math.dist(point, self.centre) <= self.radius
 
 
-RATHER = "{0} rather than {1}"
+RATHER = phrase("{0} rather than {1}")
 CROSSINGS = {"meet", "line_meets_circle", "circles_meet"}
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
@@ -248,7 +248,7 @@ class Expander:
             self.board.annotate(out.step.index, why=why)
         if len(op.forms) > 1:
             best, *others = [trial.told for trial in ranked]
-            reason = said(RATHER, best, joined(others)) if others else said(
+            reason = RATHER(best, joined(others)) if others else said(
                 "{0}, the only form that can be drawn here", best)
             self.board.annotate(before, form=f"{op.name}: {ranked[0].form}", reason=reason)
 

@@ -301,7 +301,7 @@ WEIGHED = ("carry", "coriolis")  # the compounds whose choice of form is told
 
 def _compared(reason: str) -> bool:
     """Whether there was a choice of form."""
-    return isinstance(reason, Said) and reason.key == RATHER
+    return isinstance(reason, Said) and reason.key == RATHER.english
 
 
 def _difference(one: Any, two: Any) -> Any:

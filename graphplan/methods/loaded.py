@@ -21,6 +21,7 @@ from graphplan.methods.forces import Plans, Result, Way, arms, freed_reactions, 
 from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.network import Network
+from graphplan.methods.panels import slide_named
 from graphplan.methods.planner import Planner
 from graphplan.methods.reactions import Shown
 from graphplan.methods.statics import PREFERENCES
@@ -141,6 +142,7 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     drawn = draw(near) if near else found
     drawn.notes = found.notes + [
         said("slide {0}: its reaction is small beside its moment; it is told as a force and a couple, not by its line",
-             name)
-        for name in sizes if name not in near and abs(moments[name]) > least * reach]
+             slide_named(slide))
+        for slide in found.scene.slides
+        if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach]
     return drawn

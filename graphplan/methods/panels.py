@@ -42,7 +42,7 @@ def caption(panel: str, kinds: Collection[str]) -> Said:
     if panel.startswith(FORCE_PLAN):
         return phrase("Force plan with friction: {0}" if _rubs(panel) else "Force plan: {0}")(listed(_links(panel)))
     if panel == LEVER:
-        return said("Zhukovsky's lever")
+        return arranged("{0:capital}", said("Zhukovsky's lever"))
     if panel.startswith(f"{LEVER} "):
         return _served(panel.removeprefix(f"{LEVER} "))
     return arranged("{0:capital}", spoken(panel))

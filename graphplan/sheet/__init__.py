@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str = "en") -> str:
-    """The construction sheet as SVG text, in a language: en, de, lv, et, ru or uk.
+    """The construction sheet as SVG text, in a language by its code, such as de.
 
     Reads a construction, the name of a sheet (such as `A3` or `A4 portrait`; without it the smallest good one is
     taken) and what the check against the analytic solver found, by kind; or the composition of the sheet, if it is

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.model import Balance
 from graphplan.methods.force_letters import pair_letter
 from graphplan.methods.panels import slide_named
-from graphplan.phrases import Said, joined, phrase, said, unit
+from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
 from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.planes import Drawing
@@ -19,7 +19,6 @@ from graphplan.sheet.tables import Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
-Way = Callable[[], Said]
 WAYS = {  # the ways to find a balance, and the kinds of reading that tell it
     phrase("by force plans"): "balance{}", phrase("with friction"): "balance{} with friction",
     phrase("by the lever"): "lever{}",
@@ -118,12 +117,12 @@ class ForceTables:
             table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
         return table if table and len(table[0]) > 1 else []
 
-    def _moment(self, balance: Balance, ways: Mapping[Way, float], off: list[Runs]) -> Table:
+    def _moment(self, balance: Balance, ways: Mapping[Phrase, float], off: list[Runs]) -> Table:
         name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.moment}"))
         values = (sentence_runs(digits(value)) for value in ways.values())
         return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
-    def _force(self, balance: Balance, ways: Mapping[Way, Pair], off: list[Runs]) -> Table:
+    def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
         largest = largest_size(ways)
         letter = f"F_{balance.link}"
         rows = {f"{letter}x": 0, f"{letter}y": 1}

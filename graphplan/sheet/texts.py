@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
+from graphplan.kernel.expand import RATHER
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.panels import slide_named, spoken
 from graphplan.methods.readings import kind_named
@@ -142,8 +143,8 @@ class Words:
 def _shortened(form: str) -> str:
     """A form and its reason, beside its nearest rival only."""
     match form:
-        case Said(put=[number, Said(key=RATHER, put=[best, Said(put=[nearest, *_])])]):
-            return said(form.key, number, said(RATHER, best, nearest))
+        case Said(put=[number, Said(key=RATHER.english, put=[best, Said(put=[nearest, *_])])]):
+            return said("step {0}: {1}", number, RATHER(best, nearest))
     return form
 
 

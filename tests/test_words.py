@@ -1,0 +1,125 @@
+"""The catalogues: every phrase of the sources in every language, none that nobody says, and all of them can be said."""
+
+from __future__ import annotations
+
+import ast
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path
+from string import Formatter
+
+import pytest
+from matplotlib import get_data_path
+from matplotlib.font_manager import get_font
+from matplotlib.ft2font import LoadFlags
+
+import graphplan as gp
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import TABLE
+from graphplan.mechanism.scene import packaged
+from graphplan.methods.construction import WEIGHED, Construction
+from graphplan.phrases import Said
+from graphplan.sheet.lettering import ADVANCE
+from graphplan.words.tongue import LANGUAGES, Entry, catalogue, tongue
+
+PACKAGE = Path(gp.__file__).parent
+SAYING = {"said", "phrase"}
+OTHERS = [code for code in LANGUAGES if code != "en"]
+
+
+@cache
+def phrases() -> frozenset[str]:
+    """Every phrase that a source says, and the forms of which the choice is told."""
+    found = {text for path in PACKAGE.rglob("*.py") for text in _said(ast.parse(path.read_text()))}
+    weighed = {form for op in WEIGHED for form in TABLE[op].forms}
+    return frozenset(found | weighed | {form.partition(" on ")[0] for form in weighed})
+
+
+@cache
+def drawing_of(name: str) -> Construction:
+    return gp.construct(gp.load(name))
+
+
+def _said(tree: ast.AST) -> Iterator[str]:
+    """The literal phrases of a module, conditional ones included."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id in SAYING and node.args:
+            first = node.args[0]
+            parts = [first.body, first.orelse] if isinstance(first, ast.IfExp) else [first]
+            yield from (part.value for part in parts if isinstance(part, ast.Constant) and isinstance(part.value, str))
+
+
+def fields(pattern: str) -> set[str]:
+    """What is put into a pattern, by place or name."""
+    return {name for _, name, _, _ in Formatter().parse(pattern) if name is not None}
+
+
+def forms(entry: Entry) -> dict[str, str]:
+    """An entry as a table of forms."""
+    return entry if isinstance(entry, dict) else {"": entry}
+
+
+def entries(code: str) -> Iterator[tuple[str, str, str]]:
+    """Every text of a catalogue with the English that it says: section, English, text."""
+    found = catalogue(code)
+    for name, entry in found["steps"].items():
+        yield from (("steps", TABLE[name].sentence, text) for text in forms(entry).values())
+    for english, entry in found["phrases"].items():
+        yield from (("phrases", english, text) for text in forms(entry).values())
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_no_key_is_missing_or_unused(code: str) -> None:
+    """A catalogue has the sentence of every primitive and every phrase of the sources, and no others."""
+    found = catalogue(code)
+    assert set(found["steps"]) ^ set(TABLE) == set()
+    assert set(found["phrases"]) ^ phrases() == set()
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_every_text_uses_what_is_put_into_it(code: str) -> None:
+    """A translation has the places of its English, each at least once."""
+    assert [(english, text) for _, english, text in entries(code) if fields(text) != fields(english)] == []
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_every_form_that_is_asked_for_is_there(code: str) -> None:
+    """All tables of forms of a language have the same forms, and no text asks for another."""
+    tables = {frozenset(entry) for section in ("steps", "phrases") for entry in catalogue(code)[section].values()
+              if isinstance(entry, dict)}
+    assert len(tables) <= 1
+    known = {"", "capital", *(name for table in tables for name in table)}
+    asked = {form for _, _, text in entries(code) for _, _, form, _ in Formatter().parse(text) if form}
+    assert asked <= known
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_every_letter_is_measured(code: str) -> None:
+    """The lettering knows the advance of each character of a catalogue."""
+    used = {char for section in catalogue(code).values() for entry in section.values()
+            for text in forms(entry).values() for char in text}
+    assert used - set(ADVANCE) == set()
+
+
+def test_advances_are_those_of_the_font() -> None:
+    """The widths of all letters are those of DejaVu Sans, as the plotting library ships it."""
+    font = get_font(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")))
+    font.set_size(1000.0, 72)
+    wide = {char: font.load_char(ord(char), flags=LoadFlags.NO_HINTING).linearHoriAdvance / 65536 for char in ADVANCE}
+    assert max(abs(wide[char] - 1000 * ADVANCE[char]) for char in ADVANCE) < 1.0
+
+
+@pytest.mark.parametrize("code", OTHERS)
+@pytest.mark.parametrize("name", packaged())
+def test_every_scene_can_be_said(name: str, code: str) -> None:
+    """Steps, forms and methods of every scene come out in the language: no English phrase is left among them."""
+    drawing, say = drawing_of(name), tongue(code)
+    told = [*drawing.sentences(), *drawing.forms, *(way for ways in drawing.method.values() for way in ways)]
+    assert all(isinstance(text, Said) for text in told)
+    assert all(say(text) and "{" not in say(text) for text in told)
+
+
+def test_an_unknown_language_is_refused() -> None:
+    """A language without a catalogue is refused with those that there are."""
+    with pytest.raises(Refused, match="one of en, de"):
+        tongue("xx")

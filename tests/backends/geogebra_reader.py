@@ -1,0 +1,116 @@
+"""A reader of the part of GeoGebra's files that exports use: every object from its command, as GeoGebra 4.0 reckons it.
+
+Points are complex numbers; a line is a point and a direction; a circle its centre and radius.
+"""
+
+from __future__ import annotations
+
+import cmath
+import io
+import math
+import re
+import zipfile
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+from xml.etree.ElementTree import Element, fromstring
+
+WORD = re.compile(r"(?<![\w.'])[^\W\d](?:\w|')*(?:\{[^}]*\}'*)?")  # v_{a}, B_{1}', sqrt
+
+
+class Ray(NamedTuple):
+    at: complex
+    along: complex
+
+
+class Round(NamedTuple):
+    at: complex
+    radius: float
+
+
+class Vector(NamedTuple):
+    z: complex
+
+    def __rmul__(self, factor: Any) -> Vector:
+        return Vector(factor * self.z)
+
+    def __neg__(self) -> Vector:
+        return Vector(-self.z)
+
+
+def _z(spot: Any) -> complex:
+    return complex(*spot) if type(spot) is tuple else spot
+
+
+def _vector(start: Any, end: Any = None) -> Vector:
+    return Vector(_z(start) if end is None else end - start)
+
+
+def _line(P: Any, second: Any) -> Ray:
+    P = _z(P)
+    return Ray(P, second.along if isinstance(second, Ray) else second.z if isinstance(second, Vector) else second - P)
+
+
+def _cross(u: complex, v: complex) -> float:
+    return (u.conjugate() * v).imag
+
+
+def _intersect(k: Ray, l: Ray) -> complex:
+    return k.at + _cross(l.at - k.at, l.along) / _cross(k.along, l.along) * k.along
+
+
+def _distance(P: complex, Q: Any) -> float:
+    return abs(_cross(Q.along / abs(Q.along), P - Q.at)) if isinstance(Q, Ray) else abs(Q - P)
+
+
+def _along(thing: Any) -> complex:
+    return thing.along if isinstance(thing, Ray) else thing.z
+
+
+COMMANDS = {
+    "Line": _line, "Intersect": _intersect, "Distance": _distance, "Vector": _vector,
+    "Circle": lambda C, r: Round(_z(C), r), "Center": lambda c: c.at, "Radius": lambda c: c.radius,
+    "OrthogonalLine": lambda P, l: Ray(_z(P), 1j * l.along),
+    "LineBisector": lambda P, Q: Ray((P + Q) / 2, 1j * (Q - P)),
+    "Midpoint": lambda P, Q: (P + Q) / 2,
+    "Translate": lambda P, v: P + v.z,
+    "Rotate": lambda P, angle, C: C + (P - C) * cmath.exp(1j * angle),
+    "Direction": lambda l: l.along,
+    "UnitVector": lambda l: Vector(_along(l) / abs(_along(l))),
+    "OrthogonalVector": lambda v: Vector(1j * v.z),
+    "UnitOrthogonalVector": lambda v: Vector(1j * v.z / abs(v.z)),
+    "Segment": lambda *ends: ends, "Polygon": lambda *corners: corners, "CircleArc": lambda *ends: ends,
+    "If": lambda holds, one, other: one if holds else other,
+    "x": lambda P: P.real, "y": lambda P: P.imag, "sqrt": math.sqrt, "abs": abs,
+    "sgn": lambda a: math.copysign(1.0, a) if a else 0.0,
+}
+
+
+def opened(packed: bytes) -> Element:
+    """The document in a .ggb file."""
+    return fromstring(zipfile.ZipFile(io.BytesIO(packed)).read("geogebra.xml"))
+
+
+def read(document: Element, moved: Mapping[str, complex] | None = None) -> dict[str, Any]:
+    """The value of every object, by label, with some free points moved."""
+    values: dict[str, Any] = {}
+    for entry in document.find("construction") or ():
+        label = entry.get("label", "")
+        if entry.tag == "command":
+            inputs = [_value(text, values) for text in entry.find("input").attrib.values()]  # type: ignore[union-attr]
+            output = next(iter(entry.find("output").attrib.values()))  # type: ignore[union-attr]
+            values[output] = COMMANDS[entry.get("name", "")](*inputs)
+        elif entry.tag == "expression":
+            values[label] = _value(entry.get("exp", ""), values)
+        elif entry.get("type") == "point" and label not in values:
+            at = entry.find("coords")
+            values[label] = (moved or {}).get(label, complex(float(at.get("x")), float(at.get("y"))))  # type: ignore[union-attr,arg-type]
+    return values
+
+
+def _value(text: str, values: Mapping[str, Any]) -> Any:
+    """What an expression gives: it is Python's but for brackets, powers and degrees."""
+    if text.startswith('"'):
+        return text
+    source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
+    source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
+    return _z(eval(source, {"V": values, **COMMANDS}))

@@ -1,0 +1,119 @@
+"""Write handouts: the task for students, the steps as a guide, the solution; or a page that goes through the steps.
+
+A PDF has the task sheet, its guided version and the solution, in true size and in the same frame, so that a drawing
+can be laid over the solution. A .html is one page for a browser, without a network: step by step, and where the
+mechanism can be followed around its cycle, pose by pose.
+
+examples:
+  graphplan handout four-bar -o four-bar.pdf
+  graphplan handout scene.toml --only task --paper A3 -o task.pdf
+  graphplan handout scene.toml --positions 72 -o steps.html
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
+from graphplan.errors import Refused
+
+if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
+    from graphplan.sheet.composition import Composition
+    from graphplan.sheet.display import Sheet
+    from graphplan.sheet.round import Round
+
+PARTS, POSITIONS = ("task", "guided", "solution"), 36
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write: .pdf or .html")
+    command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
+    command.add_argument("--positions", type=int, metavar="N",
+                         help=f"how many poses of the cycle a .html shows ({POSITIONS}); 0 for the given one alone")
+    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
+                         help="the sheet; without it the smallest that will do")
+    add_language(command)
+    add_choices(command, strict=True)
+    add_preference(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.check.report import report
+    from graphplan.drafting.drafted import drafted
+    from graphplan.drafting.pencil import pencil
+    from graphplan.mechanism.scene import load
+    from graphplan.words.tongue import tongue
+
+    suffix, positions = _suffix(options), _positions(options)
+    scene, hand, say = load(options.scene), pencil(options.pencil), tongue(options.language)
+    method, told = chosen(options, scene, strict=options.strict, paper=options.paper)
+    found = report(scene, method=method, plan=options.plan, strict=options.strict, inertia=options.inertia)
+    found.drawing.notes.extend(told)
+    composition = drafted(found.drawing, hand, options.paper, found.check, say).composition
+    if suffix == ".html":
+        from graphplan.backends.stepper import stepper
+
+        write(stepper(_round(found.drawing, composition, positions)), options.output)
+    else:
+        write(_pages(composition, options.only), options.output)
+    return 0
+
+
+def _suffix(options: argparse.Namespace) -> str:
+    """What kind of file is asked for, with options that it has a use for."""
+    suffix = Path(options.output).suffix.lower()
+    if suffix not in (".pdf", ".html"):
+        raise Refused(f"{options.output}: output", f"no handout is written as {suffix or 'a file without a suffix'}",
+                      "a name in .pdf or .html")
+    if suffix == ".html" and options.only:
+        raise Refused(f"--only {options.only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
+    if suffix == ".pdf" and options.positions is not None:
+        raise Refused(f"--positions {options.positions}", "paper does not move", "leave it out, or -o FILE.html")
+    return suffix
+
+
+def _positions(options: argparse.Namespace) -> int:
+    """How many poses are shown."""
+    positions = POSITIONS if options.positions is None else int(options.positions)
+    if positions < 0:
+        raise Refused(f"--positions {positions}", "there are no fewer than none", "0 or more")
+    return positions
+
+
+def _pages(composition: Composition, only: str | None) -> bytes:
+    """The parts that are wanted as pages."""
+    from graphplan.backends.ink import pdf
+    from graphplan.sheet.handout import guided, task
+    from graphplan.sheet.layout import layout
+
+    solution = layout(composition.planes.drawing, composition=composition)
+    sheets: list[Sheet] = []
+    for part in (only,) if only else PARTS:
+        match part:
+            case "task":
+                sheets += task(solution, composition)
+            case "guided":
+                sheets += guided(solution, composition)
+            case _:
+                sheets.append(solution)
+    return pdf(sheets)
+
+
+def _round(drawing: Construction, composition: Composition, positions: int) -> Round:
+    """The construction around its cycle, or where there is none, or none is wanted, in its own pose."""
+    from math import degrees
+
+    from graphplan.sheet.round import standing, turning
+
+    if not positions:
+        return standing(drawing, composition)
+    from graphplan.cycle import follow
+
+    try:
+        turn = follow(drawing.scene, positions)
+    except Refused as refused:
+        return standing(drawing, composition, refused.why)
+    return turning(drawing, composition, [degrees(travel) for travel in turn.travel], turn.points, turn.guides)

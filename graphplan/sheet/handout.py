@@ -1,0 +1,101 @@
+"""Handouts: the sheet that a student draws on, with or without the steps, in the frame and windows of the solution.
+
+A student's drawing lies exactly over the solution, so both have one composition; even the letters of the mechanism
+stand in the same places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
+
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.blanks import written
+from graphplan.sheet.composition import Composition
+from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.labels import placed
+from graphplan.sheet.lettering import listed
+from graphplan.sheet.pages import paged
+from graphplan.sheet.pens import GREY, ORIGIN, Pen
+from graphplan.sheet.places import Wish
+from graphplan.sheet.task import Task
+from graphplan.sheet.view import View
+
+RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
+EDGE = 0.01  # mm by which what is on an edge may be beyond it
+FREE = 4.0  # mm about a beginning without crosses
+
+
+def task(solution: Sheet, composition: Composition) -> list[Sheet]:
+    """The task of a solution: the mechanism, what is given and asked, empty plans, and a table to fill."""
+    return list(_pages(solution, composition, guided=False))
+
+
+def guided(solution: Sheet, composition: Composition) -> list[Sheet]:
+    """The same with the steps in words, a box to tick before each; the drawing is the student's."""
+    return list(_pages(solution, composition, guided=True))
+
+
+def _pages(solution: Sheet, composition: Composition, guided: bool) -> Iterator[Sheet]:
+    """The sheet with its plans, and the pages of words that do not fit beside them."""
+    arrangement = composition.arrangement
+    words = Task(composition.planes).lines(arrangement.columns[0].width, guided)
+    bare = [item for item in solution.items if item.step is None and not _within(item, arrangement.columns)]
+    plans = [item for panel, window in composition.views.items() for item in _plan(composition, panel, window)]
+    empty = [item for item in bare if not _within(item, arrangement.panels.values())]
+    for number, page in enumerate(paged(words, arrangement)):
+        items = [*empty, *written(page)] if number else [*bare, *plans, *written(page)]
+        panels = {} if number else solution.panels
+        yield replace(solution, items=tuple(items), panels=panels)
+
+
+def _within(item: Item, rects: Iterable[Rect]) -> bool:
+    """Whether an item lies in one of the rectangles."""
+    return any(all(rect.holds(spot, EDGE) for spot in _spots(item)) for rect in rects)
+
+
+def _spots(item: Item) -> tuple[Spot, ...]:
+    """Where an item lies: its corners or ends, its middle, or where its lettering begins."""
+    match item:
+        case Polyline() | Polygon():
+            return item.spots
+        case Circle() | Arc():
+            return (item.centre,)
+        case Arrow():
+            return item.start, item.end
+        case Text():
+            return (item.at,)
+    raise TypeError(f"no {type(item).__name__} lies anywhere")
+
+
+def _plan(composition: Composition, panel: str, window: View) -> Iterator[Item]:
+    """What a plan has before its first step: where it begins, and crosses to measure by unless the mechanism is there.
+    """
+    planes = composition.planes
+    begins = [step for step in planes.drawing.drawn.steps
+              if step.op.name == "begin" and planes.homes[step.index] == panel]
+    spots = [window(planes.spot(step.index)) for step in begins]
+    dots = [Circle(ORIGIN, "construction", step.index, spot, 0.5) for step, spot in zip(begins, spots, strict=True)]
+    wishes = [Wish(listed([step.name]), (spot,), step=step.index, label=step.name)
+              for step, spot in zip(begins, spots, strict=True) if step.name]
+    if panel != MECHANISM:
+        yield from _ruling(window.rect, spots)
+    yield from dots
+    yield from placed(wishes, dots, spots, window.rect)
+
+
+def _ruling(rect: Rect, spots: list[Spot]) -> Iterator[Item]:
+    """Crosses a centimetre apart, from where the plan begins."""
+    x0, y0 = spots[0] if spots else rect.centre
+    for y in _marks(y0, rect.bottom, rect.top):
+        for x in _marks(x0, rect.left, rect.right):
+            if not any(abs(x - u) < FREE and abs(y - v) < FREE for u, v in spots):
+                yield Polyline(RULING, "ruling", None, ((x - CROSS, y), (x + CROSS, y)))
+                yield Polyline(RULING, "ruling", None, ((x, y - CROSS), (x, y + CROSS)))
+
+
+def _marks(start: float, low: float, high: float) -> Iterator[float]:
+    """Places a centimetre apart, `start` among them, between two ends."""
+    first = int((low + CROSS - start) // RULED) + 1
+    last = int((high - CROSS - start) // RULED)
+    yield from (start + RULED * i for i in range(first, last + 1))

@@ -1,0 +1,168 @@
+"""Task and guided sheets: the frame and windows of the solution, nothing constructed, a box for every number."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import count
+
+import pytest
+from sheets import SCENES, drawing_of, outside
+
+import graphplan as gp
+from graphplan.cycle import follow
+from graphplan.errors import Refused
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.construction import NUMBERS
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.compose import compose
+from graphplan.sheet.composition import Composition
+from graphplan.sheet.display import Polygon, Sheet, Text
+from graphplan.sheet.handout import guided, task
+from graphplan.sheet.layout import layout
+from graphplan.sheet.lettering import plain
+from graphplan.sheet.pages import paged
+from graphplan.sheet.round import posed, turning
+from graphplan.sheet.rows import Cell, Row
+
+Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
+
+
+@cache
+def handout_of(name: str) -> Handout:
+    """The composition of a scene, its solution, its task and its guided version."""
+    composition = compose(drawing_of(name))
+    solution = layout(drawing_of(name), composition=composition)
+    return composition, solution, task(solution, composition), guided(solution, composition)
+
+
+def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
+    """The empty boxes, those to fill or those to tick."""
+    return [item for sheet in sheets for item in sheet.items
+            if isinstance(item, Polygon) and item.layer == "blanks" and (item.step is not None) == ticks]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_all_pages_are_those_of_the_solution(name: str) -> None:
+    """Every page has the solution's size and frame, the first its panels; nothing leaves the frame."""
+    _, solution, *parts = handout_of(name)
+    for pages in parts:
+        assert pages[0].panels == solution.panels
+        for page in pages:
+            assert (page.width, page.height, page.frame) == (solution.width, solution.height, solution.frame)
+            assert outside(page) == []
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_no_words_cover_each_other(name: str) -> None:
+    """No two letterings overlap on any page, and none lies on a box."""
+    for page in (page for pages in handout_of(name)[2:] for page in pages):
+        texts = [(plain(item.runs), item.box.inset(0.05, 0.05, 0.05, 0.05)) for item in page.items
+                 if isinstance(item, Text)]
+        clashes = [(one, two) for i, (one, box) in enumerate(texts) for two, other in texts[:i] if box.meets(other)]
+        assert clashes == []
+        spots = [spot for box in (*boxes([page]), *boxes([page], ticks=True)) for spot in box.spots]
+        assert not any(rect.holds(spot) for _, rect in texts for spot in spots)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_task_shows_the_mechanism_and_where_plans_begin(name: str) -> None:
+    """The mechanism is drawn as in the solution; of the steps there are only the marks where plans begin."""
+    _, solution, pages, _ = handout_of(name)
+    steps = drawing_of(name).drawn.steps
+    begins = {step.index for step in steps if step.op.name == "begin"}
+    assert {item.step for page in pages for item in page.items if item.step is not None} == begins
+    plates = [item for item in solution.items if item.layer in ("plates", "links", "blocks", "pairs", "ground")]
+    assert set(plates) <= set(pages[0].items)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_reading_has_its_empty_boxes(name: str) -> None:
+    """A box for each component and size that the construction gives, on the task sheet and on the guided one."""
+    _, _, *parts = handout_of(name)
+    drawing = drawing_of(name)
+    balances = {kind: found for kind, found in drawing.read(Floats()).items() if kind.startswith(("balance", "lever"))}
+    sizes = {kind: 1 if kind in NUMBERS else 2 if kind == "slide arm" else 3 for kind in drawing.kinds}
+    numbers = sum(sizes[kind] * len(found) for kind, found in drawing.read(Floats()).items())
+    assert numbers > sum(map(len, balances.values()))
+    for pages in parts:
+        assert len(boxes(pages)) == numbers
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_guided_steps_are_all_there_with_a_box_to_tick(name: str) -> None:
+    """Each numbered step stands once in the guided version, with one box."""
+    drawn, pages = drawing_of(name).drawn, handout_of(name)[3]
+    steps = list(range(drawn.givens, len(drawn)))
+    assert [box.step for box in boxes(pages, ticks=True)] == steps
+    numbers = [plain(item.runs) for page in pages for item in page.items
+               if isinstance(item, Text) and item.layer == "text" and item.anchor == "end"]
+    assert numbers == [str(drawn.number(i)) for i in steps]
+
+
+def test_results_are_not_given_away() -> None:
+    """No number of the solution's result table stands on the task sheet."""
+    _, solution, pages, _ = handout_of("jaanimets-10")
+    told = {plain(item.runs) for page in pages for item in page.items if isinstance(item, Text)}
+    results = {plain(item.runs) for item in solution.items
+               if isinstance(item, Text) and item.layer == "results" and item.anchor == "end"}
+    assert {figure for figure in results if any(map(str.isdigit, figure)) and figure != "0"} & told == set()
+
+
+def test_words_run_on_over_pages_without_parting_what_keeps_together() -> None:
+    """Rows come in order, each once; a heading goes to the next page with the row that it must keep."""
+    arrangement = handout_of("slider-crank")[0].arrangement
+    numbers = count()
+    rows = [Row((Cell(float(next(numbers)), ()),), keep=1 - i % 2) for i in range(400)]
+    pages = list(paged(rows, arrangement))
+    assert len(pages) > 1
+    assert [row for page in pages for row, _, _ in page] == rows
+    assert all(len(page) % 2 == 0 for page in pages)
+
+
+def test_what_is_higher_than_a_page_is_refused() -> None:
+    """Rows that must stand together and cannot are refused with what to do."""
+    rows = [Row((), keep=200)] * 201
+    with pytest.raises(Refused, match="a larger sheet"):
+        list(paged(rows, handout_of("four-bar")[0].arrangement))
+
+
+# ---- around the cycle --------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-11"])
+def test_a_posed_drawing_reads_what_the_construction_gives_there(name: str) -> None:
+    """The drawn steps in another pose give the readings of a construction made for that pose."""
+    drawing = drawing_of(name)
+    turn = follow(drawing.scene, 36)
+    points, guides = ({key: complex(z[1]) for key, z in arrays.items()} for arrays in (turn.points, turn.guides))
+    found = posed(drawing, points, guides)
+    assert found is not None
+    fresh = gp.construct(found.scene).read(Floats())
+    for kind, values in found.read(Floats()).items():
+        for key, value in values.items():
+            assert value == pytest.approx(fresh[kind][key], rel=1e-6, abs=1e-6 * abs(complex(*turn.points["A"].view(float)[:2])))
+
+
+def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
+    """In all poses of a slider-crank panels and scales are those of the solution, and its joints are on paper."""
+    composition, solution, *_ = handout_of("slider-crank")
+    drawing = drawing_of("slider-crank")
+    turn = follow(drawing.scene, 12)
+    found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
+    assert [still.travel for still in found.stills] == [30.0 * k for k in range(12)]
+    assert found.lost == ()
+    for still in found.stills:
+        assert (still.sheet.panels, still.sheet.scales) == (solution.panels, solution.scales)
+        marks = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
+        assert all(map(solution.panels[MECHANISM].holds, marks))
+
+
+def test_poses_that_cannot_be_drawn_are_told_in_stretches() -> None:
+    """Where the rocker mechanism does not reach, the round says from where to where."""
+    drawing, (composition, *_) = drawing_of("stephenson"), handout_of("stephenson")
+    turn = follow(drawing.scene, 12)
+    found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
+    lost = {30.0 * k for k in range(1, 12)} - {still.travel for still in found.stills}
+    assert lost
+    assert {angle for low, high in found.lost for angle in lost if low <= angle <= high} == lost
+    assert len(found.lost) < len(lost)

@@ -13,6 +13,7 @@ from graphplan.sheet.tables import APART, Table
 
 TALL = 6.5  # mm: a box has room for a number by hand
 NARROW = 11.0  # mm: the least that a number by hand needs
+TOGETHER = 15  # rows of a table stand in one column
 TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
 
 
@@ -39,7 +40,7 @@ def blanks(table: Table, wide: float) -> Iterator[Row]:
     pitch = min((wide - names) / (len(table[0]) - 1), 2.4 * NARROW)
     lefts = [names + i * pitch for i in range(len(table[0]) - 1)]
     heads = [Cell(left + pitch / 2, runs, "middle") for left, runs in zip(lefts, table[0][1:], strict=True)]
-    yield Row((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(2, len(table) - 1))
+    yield Row((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(TOGETHER, len(table) - 1))
     for row in table[1:]:
         boxes = [Rect(left, 0.0, left + pitch, TALL) for left, runs in zip(lefts, row[1:], strict=True) if runs]
         yield Blank((Cell(0.0, row[0]),), boxes=tuple(boxes), tall=TALL)

@@ -6,7 +6,7 @@ stand in the same places.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from graphplan.methods.panels import MECHANISM
@@ -16,10 +16,9 @@ from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline,
 from graphplan.sheet.labels import placed
 from graphplan.sheet.lettering import listed
 from graphplan.sheet.pages import paged
-from graphplan.sheet.pens import GREY, ORIGIN, Pen
+from graphplan.sheet.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.places import Wish
 from graphplan.sheet.task import Task
-from graphplan.sheet.view import View
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 EDGE = 0.01  # mm by which what is on an edge may be beyond it
@@ -41,7 +40,7 @@ def _pages(solution: Sheet, composition: Composition, guided: bool) -> Iterator[
     arrangement = composition.arrangement
     words = Task(composition.planes).lines(arrangement.columns[0].width, guided)
     bare = [item for item in solution.items if item.step is None and not _within(item, arrangement.columns)]
-    plans = [item for panel, window in composition.views.items() for item in _plan(composition, panel, window)]
+    plans = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not _within(item, arrangement.panels.values())]
     for number, page in enumerate(paged(words, arrangement)):
         items = [*empty, *written(page)] if number else [*bare, *plans, *written(page)]
@@ -68,20 +67,26 @@ def _spots(item: Item) -> tuple[Spot, ...]:
     raise TypeError(f"no {type(item).__name__} lies anywhere")
 
 
-def _plan(composition: Composition, panel: str, window: View) -> Iterator[Item]:
+def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterator[Item]:
     """What a plan has before its first step: where it begins, and crosses to measure by unless the mechanism is there.
     """
-    planes = composition.planes
+    planes, window = composition.planes, composition.views[panel]
     begins = [step for step in planes.drawing.drawn.steps
               if step.op.name == "begin" and planes.homes[step.index] == panel]
     spots = [window(planes.spot(step.index)) for step in begins]
     dots = [Circle(ORIGIN, "construction", step.index, spot, 0.5) for step, spot in zip(begins, spots, strict=True)]
     wishes = [Wish(listed([step.name]), (spot,), step=step.index, label=step.name)
               for step, spot in zip(begins, spots, strict=True) if step.name]
+    around = [_covered(item) for item in bare if _within(item, (window.rect,))]
     if panel != MECHANISM:
         yield from _ruling(window.rect, spots)
     yield from dots
-    yield from placed(wishes, dots, spots, window.rect)
+    yield from placed(wishes, [*dots, *around], spots, window.rect)
+
+
+def _covered(item: Item) -> Item:
+    """What an item covers: lettering is as solid as a figure."""
+    return Polygon(BORDER, item.layer, None, item.box.corners) if isinstance(item, Text) else item
 
 
 def _ruling(rect: Rect, spots: list[Spot]) -> Iterator[Item]:

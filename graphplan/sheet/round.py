@@ -24,7 +24,7 @@ from graphplan.sheet.composition import Composition
 from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.display import Rect, Sheet, Spot
 from graphplan.sheet.layout import layout
-from graphplan.sheet.paper import inside
+from graphplan.sheet.paper import MARGIN
 from graphplan.sheet.planes import Planes, around, grown
 from graphplan.sheet.texts import Words
 from graphplan.sheet.view import View
@@ -197,10 +197,10 @@ def _extent(box: Rect) -> float:
 
 def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
     """One box around as many boxes, the first ones first, as find room in a window."""
-    room, whole = inside(window.rect), boxes[0]
+    rect, whole = window.rect, boxes[0]
     for box in boxes[1:]:
         larger = grown(grown(whole, (box.left, box.bottom)), (box.right, box.top))
-        if larger.width * window.scale <= room.width and larger.height * window.scale <= room.height:
+        if larger.width * window.scale <= rect.width and larger.height * window.scale <= rect.height:
             whole = larger
     return whole
 
@@ -222,12 +222,14 @@ def _composed(base: Composition, drawing: Posed) -> Composition:
 
 
 def slid(view: View, box: Rect) -> View:
-    """The window slid over its plan by the least that brings a box into it, with room for letters."""
-    room, low, high = inside(view.rect), view((box.left, box.bottom)), view((box.right, box.top))
-    dx, dy = _shift(low[0], high[0], room.left, room.right), _shift(low[1], high[1], room.bottom, room.top)
+    """The window slid over its plan by the least that brings a box into it, with room for letters as far as there is.
+    """
+    rect, low, high = view.rect, view((box.left, box.bottom)), view((box.right, box.top))
+    dx, dy = _shift(low[0], high[0], rect.left, rect.right), _shift(low[1], high[1], rect.bottom, rect.top)
     return replace(view, origin=(view.origin[0] + dx, view.origin[1] + dy))
 
 
 def _shift(low: float, high: float, least: float, most: float) -> float:
-    """The least way that takes one stretch into another; none if it is too long."""
-    return 0.0 if high - low > most - least else max(least - low, 0.0) + min(most - high, 0.0)
+    """The least way that takes one stretch into another, off its ends; to its middle where it is tight."""
+    margin = min(MARGIN, (most - least - (high - low)) / 2)
+    return max(least + margin - low, 0.0) + min(most - margin - high, 0.0)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from itertools import count
 
@@ -80,10 +81,9 @@ def test_every_reading_has_its_empty_boxes(name: str) -> None:
     """A box for each component and size that the construction gives, on the task sheet and on the guided one."""
     _, _, *parts = handout_of(name)
     drawing = drawing_of(name)
-    balances = {kind: found for kind, found in drawing.read(Floats()).items() if kind.startswith(("balance", "lever"))}
     sizes = {kind: 1 if kind in NUMBERS else 2 if kind == "slide arm" else 3 for kind in drawing.kinds}
     numbers = sum(sizes[kind] * len(found) for kind, found in drawing.read(Floats()).items())
-    assert numbers > sum(map(len, balances.values()))
+    assert numbers
     for pages in parts:
         assert len(boxes(pages)) == numbers
 
@@ -105,12 +105,14 @@ def test_results_are_not_given_away() -> None:
     told = {plain(item.runs) for page in pages for item in page.items if isinstance(item, Text)}
     results = {plain(item.runs) for item in solution.items
                if isinstance(item, Text) and item.layer == "results" and item.anchor == "end"}
-    assert {figure for figure in results if any(map(str.isdigit, figure)) and figure != "0"} & told == set()
+    figures = {text for text in results if text.lstrip("−").replace(".", "").isdigit() and len(text) > 2}
+    assert len(figures) > 20
+    assert figures & told == set()
 
 
 def test_words_run_on_over_pages_without_parting_what_keeps_together() -> None:
     """Rows come in order, each once; a heading goes to the next page with the row that it must keep."""
-    arrangement = handout_of("slider-crank")[0].arrangement
+    arrangement = handout_of("four-bar")[0].arrangement
     numbers = count()
     rows = [Row((Cell(float(next(numbers)), ()),), keep=1 - i % 2) for i in range(400)]
     pages = list(paged(rows, arrangement))
@@ -139,8 +141,9 @@ def test_a_posed_drawing_reads_what_the_construction_gives_there(name: str) -> N
     assert found is not None
     fresh = gp.construct(found.scene).read(Floats())
     for kind, values in found.read(Floats()).items():
+        largest = max(math.hypot(*value) if isinstance(value, tuple) else abs(value) for value in values.values())
         for key, value in values.items():
-            assert value == pytest.approx(fresh[kind][key], rel=1e-6, abs=1e-6 * abs(complex(*turn.points["A"].view(float)[:2])))
+            assert value == pytest.approx(fresh[kind][key], rel=0, abs=1e-9 * largest)
 
 
 def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
@@ -153,8 +156,9 @@ def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
     assert found.lost == ()
     for still in found.stills:
         assert (still.sheet.panels, still.sheet.scales) == (solution.panels, solution.scales)
-        marks = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
-        assert all(map(solution.panels[MECHANISM].holds, marks))
+        joints = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
+        assert len(joints) == 4
+        assert all(map(solution.panels[MECHANISM].holds, joints))
 
 
 def test_poses_that_cannot_be_drawn_are_told_in_stretches() -> None:

@@ -1,0 +1,67 @@
+"""Handouts at the command line: the parts of a PDF, the page for a browser, and what is refused."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+from graphplan.commands import main
+
+A3 = (420 / 25.4 * 72, 297 / 25.4 * 72)  # points
+
+
+def pages(path: Path) -> list[tuple[float, float]]:
+    """Width and height of every page of a PDF, in points."""
+    boxes = re.findall(rb"/MediaBox \[ ?0 0 ([\d.]+) ([\d.]+) ?\]", path.read_bytes())
+    return [(float(wide), float(high)) for wide, high in boxes]
+
+
+def test_a_pdf_has_task_guide_and_solution_in_true_size(tmp_path: Path) -> None:
+    """Three pages of A3 for a slider-crank, the same bytes every time."""
+    one, two = tmp_path / "one.pdf", tmp_path / "two.pdf"
+    for path in (one, two):
+        assert main(["handout", "slider-crank", "-o", str(path)]) == 0
+    assert pages(one) == [pytest.approx(A3, rel=1e-5)] * 3
+    assert one.read_bytes() == two.read_bytes()
+
+
+@pytest.mark.parametrize("part", ["task", "guided", "solution"])
+def test_one_part_alone(part: str, tmp_path: Path) -> None:
+    """--only has the page of one part, on the paper that is named."""
+    path = tmp_path / "part.pdf"
+    assert main(["handout", "slider-crank", "--only", part, "--paper", "A3", "-o", str(path)]) == 0
+    assert pages(path) == [pytest.approx(A3, rel=1e-5)]
+
+
+def test_a_page_for_a_browser_turns_as_often_as_asked(tmp_path: Path) -> None:
+    """--positions 6 has six poses, 0 the given one alone."""
+    found = []
+    for positions in ("6", "0"):
+        path = tmp_path / f"{positions}.html"
+        assert main(["handout", "four-bar", "--positions", positions, "--plan", "polar", "-o", str(path)]) == 0
+        found.append(re.findall(r'"travels": (\[.*?\])', path.read_text(encoding="utf-8"))[0])
+    assert found == ['["0°", "60°", "120°", "180°", "240°", "300°"]', '["0°"]']
+
+
+def test_a_scene_that_cannot_turn_says_why(tmp_path: Path) -> None:
+    """An open chain with given motions has a page all the same, with the reason."""
+    path = tmp_path / "chain.html"
+    assert main(["handout", "open-chain", "-o", str(path)]) == 0
+    assert "the motion of points is given" in path.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize(("arguments", "why"), [
+    (["-o", "handout.txt"], "no handout is written as .txt"),
+    (["-o", "handout.html", "--only", "task"], "has no parts"),
+    (["-o", "handout.pdf", "--positions", "5"], "paper does not move"),
+    (["-o", "handout.html", "--positions", "-1"], "no fewer than none"),
+])
+def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, tmp_path: Path,
+                                        monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """One line says what is wrong; nothing is written."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["handout", "four-bar", *arguments]) == 2
+    assert why in capsys.readouterr().err
+    assert list(tmp_path.iterdir()) == []

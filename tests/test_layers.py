@@ -24,10 +24,12 @@ MAY = {
     "solver": {"errors", "mechanism"},
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
-    "backends": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet"},
+    "backends": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "verify"},
+    "handed": {"errors", "phrases", "kernel", "mechanism", "sheet"},
+    "verify": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "drafting", "handed"},
     "drafting": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet"},
-    "cycle": {"errors", "kernel", "mechanism", "methods", "sheet"},
-    "check": {"errors", "kernel", "mechanism", "methods", "solver", "cycle"},
+    "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
+    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle"},
     "survey": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet", "drafting"},
 }
 FRONT = {"__init__", "__main__", "commands"}

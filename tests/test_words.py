@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -14,11 +15,19 @@ from matplotlib.font_manager import get_font
 from matplotlib.ft2font import LoadFlags
 
 import graphplan as gp
-from graphplan.errors import Refused
+from graphplan.cycle import follow
+from graphplan.drafting.drafted import drafted
+from graphplan.drafting.pencil import Pencil
+from graphplan.drafting.preference import Form, weighed
+from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import WEIGHED, Construction
-from graphplan.phrases import Said
+from graphplan.methods.panels import spoken
+from graphplan.methods.readings import thing_named
+from graphplan.phrases import Said, said
 from graphplan.sheet.lettering import ADVANCE
 from graphplan.words.tongue import LANGUAGES, Entry, catalogue, tongue
 
@@ -123,3 +132,52 @@ def test_an_unknown_language_is_refused() -> None:
     """A language without a catalogue is refused with those that there are."""
     with pytest.raises(Refused, match="one of en, de"):
         tongue("xx")
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_marks_without_letters_stand_apart(name: str) -> None:
+    """No sentence runs a letter and a numbered mark together, as in `Epoint 65`."""
+    assert [told for told in drawing_of(name).sentences() if re.search(r"\w(point|line|opening|arc) \d", told)] == []
+
+
+def test_words_do_not_run_together() -> None:
+    """A line through points with a word for a name, such as pi, is told by its number; KA stays KA."""
+    board = Board()
+    K, A, pi = (board.given(x=x, y=x * x, name=name) for x, name in enumerate(("K", "A", "pi")))
+    lines = [board.line(K, A), board.line(K, pi)]
+    program = freeze(board, lines)
+    assert [program.text(index) for index in program.wanted] == ["KA", "line 2"]
+
+
+@pytest.mark.parametrize(("kind", "of", "told"), [
+    ("slide velocity", "3 along frame", "3 auf Gestell"), ("reaction", "frame at O", "Gestell in O"),
+    ("slide reaction", "3 along 2", "3 auf 2"), ("velocity", "A", "A"), ("omega", "3", "3"),
+])
+def test_results_are_named_in_the_language(kind: str, of: str, told: str) -> None:
+    """The names of results come out in the language: slides, and reactions at joints."""
+    assert tongue("de")(thing_named(kind, of)) == told
+
+
+def test_levers_are_named_in_the_language() -> None:
+    """A lever is spoken of by what it serves: a balance by number, or a reaction at a joint."""
+    assert tongue("de")(spoken("lever 2")) == "Hebelplan 2"
+    assert tongue("de")(spoken("lever frame at B, x")) == "Hebelplan Gestell in B, x"
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_a_preference_is_told_in_the_language(code: str) -> None:
+    """What speaks for the forms, and why one cannot be drawn, has no English word left."""
+    refused = [ConstructionError("lines-parallel", 3, "q", "why", "do"),
+               Refused(said("point {0}", "A"), said("no construction known here reaches it"), "do")]
+    told = weighed([Form(("", "auxiliary", "poles"), drafted(drawing_of("four-bar"), Pencil())),
+                    *(Form(("trial",), None, refusal) for refusal in refused)], "balanced").told
+    english = {"pose", "own", "auxiliary", "trial", "poles", "preferred", "drawn", "step", "lines", "point", "balanced"}
+    assert english.isdisjoint(re.findall(r"\w+", " ".join(map(tongue(code), told)).lower()))
+
+
+@pytest.mark.parametrize("scene", ["open-chain", "ozols-5-3"])
+def test_a_drive_that_cannot_turn_is_told_in_the_language(scene: str) -> None:
+    """Why there is no turn of the drive, as the page for a browser tells it, is a phrase."""
+    with pytest.raises(Refused) as refused:
+        follow(gp.load(scene), 4)
+    assert tongue("ru")(refused.value.why) != str(refused.value.why)

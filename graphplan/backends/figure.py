@@ -17,16 +17,20 @@ from graphplan.kernel.kinds import LINE, OPENING, POINT, TABLE
 from graphplan.kernel.program import Step
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, caption
-from graphplan.sheet import laid_off, pens
+from graphplan.phrases import sentence as spoken
+from graphplan.sheet import clip, laid_off, pens
 from graphplan.sheet.composition import Composition
-from graphplan.sheet.display import Rect, Spot
+from graphplan.sheet.display import Arc, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.linkage import Linkage
 from graphplan.sheet.pens import Pen
 from graphplan.sheet.planes import Planes
 from graphplan.sheet.strokes import ALONE, BEYOND, FLATTEST, LOCUS_BEYOND, STRIKE, WIDEST
 from graphplan.sheet.symbols import hull, straight
 from graphplan.sheet.view import View
+from graphplan.words.tongue import ENGLISH, Tongue
 
 SAFE = string.ascii_letters + string.digits
+SYMBOLS = "ground", "blocks", "drive"  # the layers of the mechanism that are no marks
 
 
 @dataclass(frozen=True)
@@ -163,11 +167,25 @@ class Link:
 
 
 @dataclass(frozen=True)
+class Symbol:
+    """A stroke of the mechanism's symbols as it lies, in mm: of the ground, of a block, or the sense of a drive.
+
+    `closed` says that its ends are joined; what it encloses is filled where the pen says so.
+    """
+
+    layer: str
+    pen: Pen
+    spots: tuple[Spot, ...]
+    closed: bool
+
+
+@dataclass(frozen=True)
 class Figure:
     """A construction as objects: the plans, then the objects, each after those that it depends on.
 
     The points of the pose come first, those among them last that only the links need. `marks` are the points on each
-    line and arc, on its own plan.
+    line and arc, on its own plan; `symbols` are decoration, on which nothing depends; captions and sentences are in the
+    `tongue`, as is what a target adds to them.
     """
 
     title: str
@@ -177,6 +195,8 @@ class Figure:
     arrows: tuple[Arrow, ...]
     links: tuple[Link, ...]
     marks: Mapping[Object, tuple[Object, ...]] = field(repr=False)
+    symbols: tuple[Symbol, ...] = ()
+    tongue: Tongue = ENGLISH
 
     @property
     def steps(self) -> tuple[Object, ...]:
@@ -189,6 +209,10 @@ class Figure:
         rects = [plan.rect for plan in self.plans]
         return Rect(min(r.left for r in rects), min(r.bottom for r in rects),
                     max(r.right for r in rects), max(r.top for r in rects))
+
+    def drawn_symbols(self, plan: Plan, *layers: str) -> list[Symbol]:
+        """The symbols of some layers; they stand on the mechanism's plan, which is the first."""
+        return [symbol for symbol in self.symbols if symbol.layer in layers and plan is self.plans[0]]
 
     def stretch(self, line: Object) -> tuple[Object, Object, float] | None:
         """How much of a line is drawn: between which marks, the way it runs, and how many mm beyond them."""
@@ -207,16 +231,18 @@ class Figure:
         return {object.plan.name: object for object in reversed(self.steps)}
 
 
-def figure(drawing: Construction, composition: Composition) -> Figure:
+def figure(drawing: Construction, composition: Composition, tongue: Tongue = ENGLISH) -> Figure:
     """A construction as objects, each plan where the composition of its sheet puts it."""
-    found = _Figures(Planes(drawing), composition)
+    found = _Figures(Planes(drawing, tongue), composition)
     objects = found.objects
     arrows = tuple(Arrow(objects[v.start], objects[v.end], v.kind, v.point, v.label)
                    for panel in found.plans for v in found.planes.vectors(panel))
     links = tuple(Link(name, tuple(found.pose[point] for point in drawing.scene.links[name]))
                   for name in drawing.scene.moving)
     plans, ordered = tuple(found.plans.values()), tuple(found.ordered())
-    return Figure(drawing.scene.title, drawing.scene.source, plans, ordered, arrows, links, found.marks)
+    symbols = tuple(found.symbols())
+    title, source = drawing.scene.title, drawing.scene.source
+    return Figure(title, source, plans, ordered, arrows, links, found.marks, symbols, tongue)
 
 
 @dataclass(frozen=True)
@@ -231,14 +257,16 @@ class _Figures:
         return {panel: self._plan(panel, view) for panel, view in self.composition.views.items()}
 
     def _plan(self, panel: str, view: View) -> Plan:
-        return Plan(panel, caption(panel, self.planes.kinds(panel)), view.scale, view.origin, view.rect)
+        told = self.planes.tongue(caption(panel, self.planes.kinds(panel)))
+        return Plan(panel, told, view.scale, view.origin, view.rect)
 
     @cached_property
     def objects(self) -> list[Object]:
         """The steps of the drawn program."""
         drawing = self.planes.drawing
         found: list[Object] = []
-        told = zip(drawing.drawn.steps, drawing.values, drawing.sentences(), self.planes.homes, strict=True)
+        sentences = map(self.planes.tongue, drawing.sentences())
+        told = zip(drawing.drawn.steps, drawing.values, sentences, self.planes.homes, strict=True)
         for step, value, sentence, home in told:
             number = max(0, drawing.drawn.number(step.index))
             args = tuple(found[arg] for arg in step.args)
@@ -253,15 +281,26 @@ class _Figures:
         for name in self.planes.drawing.scene.points:
             if name not in found:
                 taken = {object.id for object in (*self.objects, *found.values())}
-                found[name] = self._bystander(name, min(0, *(object.index for object in found.values())) - 1, taken)
+                found[name] = self._bystander(name, min((0, *(object.index for object in found.values()))) - 1, taken)
         return found
 
     def _bystander(self, name: str, index: int, taken: set[str]) -> Object:
         """A point of the pose that no step reads; its index is negative, and its own."""
         spot = self.planes.place(name)
         step = Step(index, name, TABLE["given"], (), {"x": spot[0], "y": spot[1]}, MECHANISM)
-        return Object(index, 0, _unique(step, taken), step, self.plans[MECHANISM], (), spot,
-                      step.op.sentence.format(out=name, x=f"{spot[0]:g}", y=f"{spot[1]:g}"))
+        told = spoken("given", step.op.sentence, (), {"out": name, "x": f"{spot[0]:g}", "y": f"{spot[1]:g}"})
+        return Object(index, 0, _unique(step, taken), step, self.plans[MECHANISM], (), spot, self.planes.tongue(told))
+
+    def symbols(self) -> Iterator[Symbol]:
+        """The ground, the blocks and the sense of the drives, as on the sheet."""
+        window = self.composition.views[MECHANISM]
+        for item in Linkage(self.planes.drawing.scene, window).items():
+            cuts = clip.clipped(item, window.rect) if item.layer in SYMBOLS else ()
+            for cut in cuts:
+                if isinstance(cut, Polyline | Polygon):
+                    yield Symbol(cut.layer, cut.pen, cut.spots, isinstance(cut, Polygon))
+                elif isinstance(cut, Arc):
+                    yield Symbol(cut.layer, cut.pen, cut.spots(), False)
 
     @property
     def marks(self) -> dict[Object, tuple[Object, ...]]:

@@ -13,12 +13,14 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from decimal import Decimal
+from itertools import pairwise
 
-from graphplan.backends.figure import Figure, Object
+from graphplan.backends.figure import Figure, Object, Plan
 from graphplan.backends.formula import Language, formula, operations
 from graphplan.backends.mathematics import formulated
 from graphplan.backends.traced import REACH, Letter, Stroke, Traced, at_home
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT
+from graphplan.phrases import said
 from graphplan.sheet import pens
 from graphplan.sheet.lettering import CAPS
 from graphplan.sheet.pens import Pen
@@ -137,7 +139,7 @@ class _Writer:
         for object in self.figure.objects:
             self._step(object)
         self._drawing()
-        title = [f"% {said}" for said in (self.figure.title, self.figure.source) if said]
+        title = [f"% {line}" for line in (self.figure.title, self.figure.source) if line]
         box = self.figure.box
         head = [*title, "", f"dim {decimal(math.ceil(box.right + 5))} {decimal(math.ceil(box.top + 5))}", ""]
         return "\n".join([*head, *self._procedures(), *self.lines]) + "\n"
@@ -157,10 +159,11 @@ class _Writer:
     def _step(self, object: Object) -> None:
         """What is said of a step, under what conditions, and its commands."""
         if object is self.figure.firsts.get(object.plan.name):
-            self.lines += ["", f"% plan: {object.plan.caption}"]
+            self.lines += ["", f"% {self.figure.tongue(said('plan: {0}', object.plan.caption))}"]
         if object.number:
             self.lines += ["", f"% {object.number}. {object.sentence}"]
-            self.lines += [f"% drawable unless {FAILURES[code][0]}" for code in object.step.op.fails]
+            self.lines += [f"% {self.figure.tongue(said('drawable unless {0}', FAILURES[code][0]))}"
+                           for code in object.step.op.fails]
         self._made(object)
 
     def _made(self, object: Object) -> None:
@@ -200,7 +203,7 @@ class _Writer:
         found = formula(object, coordinates, EXPRESSIONS, f"{object.id}_n")
         numbers = [f"{object.id}_{part}" for part in COORDINATES[object.kind]]
         told = [*found.terms, *zip(numbers, found.results, strict=True)]
-        self.lines += [f"expression {name} {{ {said} }}" for name, said in told]
+        self.lines += [f"expression {name} {{ {text} }}" for name, text in told]
         if object.kind == OPENING:
             self.lines.append(f"number {object.id} {object.id}_r")
         elif object.kind == POINT:
@@ -282,10 +285,12 @@ class _Writer:
     def _drawing(self) -> None:
         """The strokes, plan by plan, in the widths and colours of the sheet."""
         for plan in self.figure.plans:
-            self.lines += ["", f"% drawing: {plan.caption}"]
+            self.lines += ["", f"% {self.figure.tongue(said('drawing: {0}', plan.caption))}"]
             traced = Traced(self.figure, plan)
+            self._symbols(plan, "ground")
             self._pen(pens.LINK)
             self.lines += [f"drawsegment {one.id} {other.id}" for one, other in traced.sides]
+            self._symbols(plan, "blocks", "drive")
             for stroke in traced.strokes:
                 self._pen(stroke.pen)
                 self._stroke(stroke)
@@ -296,6 +301,16 @@ class _Writer:
             self._pen(pens.DOT)
             self.lines += [f"cmark {point.id}" for point in traced.dots]
             self.lines += map(self._letter, traced.letters)
+
+    def _symbols(self, plan: Plan, *layers: str) -> None:
+        """Symbols of the mechanism as they lie; nothing is filled."""
+        for symbol in self.figure.drawn_symbols(plan, *layers):
+            self._pen(symbol.pen)
+            names = [f"s_{self.figure.symbols.index(symbol)}_{i}" for i in range(len(symbol.spots))]
+            self.lines += [f"point {name} {_short(x)} {_short(y)}"
+                           for name, (x, y) in zip(names, symbol.spots, strict=True)]
+            ends = pairwise([*names, names[0]] if symbol.closed else names)
+            self.lines += [f"drawsegment {one} {other}" for one, other in ends]
 
     def _stroke(self, stroke: Stroke) -> None:
         """A straight stroke along its marks, or from its one mark the way the line runs."""

@@ -11,9 +11,10 @@ import io
 import re
 import zipfile
 from functools import cached_property
+from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphplan.backends.figure import Arrow, Figure, Link, Object, Plan
+from graphplan.backends.figure import Arrow, Figure, Link, Object, Plan, Symbol
 from graphplan.backends.geogebra_commands import number, written
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.sheet import pens
@@ -106,6 +107,8 @@ class _Writer:
         pose = [object for object in figure.objects if not object.number]
         for object in pose:
             self._object(object)
+        for place, symbol in enumerate(figure.symbols):
+            self._symbol(symbol, place)
         for link in figure.links:
             self._link(link)
         for plan in figure.plans:
@@ -236,6 +239,13 @@ class _Writer:
         for i, ends in enumerate([(corners[0], corners[1])] if len(corners) == 2 else bars):
             self._command("Segment", list(ends), [f"link_{{{place},{i}}}"])
             self._element("segment", f"link_{{{place},{i}}}", True, False, pens.LINK, LINKS)
+
+    def _symbol(self, symbol: Symbol, place: int) -> None:
+        """A symbol of the mechanism as it lies; nothing is filled."""
+        spots = [f"({number(round(x, 3))}, {number(round(y, 3))})" for x, y in symbol.spots]
+        for i, ends in enumerate(pairwise([*spots, spots[0]] if symbol.closed else spots)):
+            self._command("Segment", list(ends), [f"symbol_{{{place},{i}}}"])
+            self._element("segment", f"symbol_{{{place},{i}}}", True, False, symbol.pen, LINKS)
 
     def _caption(self, plan: Plan) -> None:
         """What a plan is, at the top of its window."""

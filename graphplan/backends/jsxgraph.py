@@ -11,15 +11,23 @@ import re
 from collections.abc import Iterator, Sequence
 from html import escape
 
-from graphplan.backends.figure import Arrow, Figure, Link, Object, Plan
+from graphplan.backends.figure import Arrow, Figure, Link, Object, Plan, Symbol
 from graphplan.backends.formula import Language, formula, operations
 from graphplan.backends.jsxgraph_page import page
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.phrases import said
 from graphplan.sheet import pens
 from graphplan.sheet.lettering import name_runs
 from graphplan.sheet.pens import Pen
 
 LIBRARY = "jsxgraphcore.js"  # what the page looks for beside itself
+TITLES = {"back": said("Previous step"), "next": said("Next step"), "step": said("Step")}
+WORDS = {
+    **TITLES, "begin": said("The mechanism as it is given; nothing is drawn yet."),
+    "drag": said("Drag a point of the pose; go through the steps with the slider."),
+    "missing": said("JSXGraph is missing: this page needs the file {0} beside it. Take it from {1}, or export the page "
+                    "again with --library {0}, which puts it inside.", LIBRARY, "https://jsxgraph.org"),
+}  # fmt: skip
 THICK = 3.0  # pixels for a mm of a pen's width
 LINKS, CURVES, VECTORS, POINTS = 2, 4, 6, 9  # JSXGraph's layers
 MARGIN = 0.02  # of the paper, around it
@@ -54,9 +62,16 @@ def jsxgraph(figure: Figure, script: str | None = None) -> str:
     library = f"<script>\n{_inside(script)}\n</script>" if script else f'<script src="{LIBRARY}"></script>'
     sentences = [object.sentence for object in figure.steps]
     return page(
-        title=escape(figure.title), source=escape(figure.source), library=library, file=LIBRARY,
+        language=figure.tongue.code, title=escape(figure.title), source=escape(figure.source), library=library,
         box=_json(_box(figure)), sentences=_json(sentences), steps=str(len(sentences)),
-        elements="\n".join(f"  {line}" for line in _Writer(figure).lines()))
+        elements="\n".join(f"  {line}" for line in _Writer(figure).lines()),
+        **_words(figure))
+
+
+def _words(figure: Figure) -> dict[str, str]:
+    """What the page says beside the steps: in its elements, and as data in its script."""
+    spoken = {name: figure.tongue(word) for name, word in WORDS.items()}
+    return {name: escape(text) if name in TITLES else _json(text) for name, text in spoken.items()}
 
 
 def _inside(script: str) -> str:
@@ -94,6 +109,8 @@ class _Writer:
             yield self._object(object)
         for link in self.figure.links:
             yield from self._link(link)
+        for symbol in self.figure.symbols:
+            yield self._symbol(symbol)
         for object in self.figure.objects:
             yield from self._strokes(object)
         for arrow in self.figure.arrows:
@@ -115,7 +132,7 @@ class _Writer:
         """A mark where its formula says."""
         read = [[text.format(_called(arg)) for text in COORDINATES[arg.kind]] for arg in object.args]
         found = formula(object, read, JAVASCRIPT, "t")
-        terms = "".join(f"const {name} = {said}; " for name, said in found.terms)
+        terms = "".join(f"const {name} = {text}; " for name, text in found.terms)
         element, texts = RESULTS[object.kind]
         parents = [f"() => {{ {terms}return {text.format(*found.results)}; }}" for text in texts]
         return self._mark(object, element, parents) if element else f"{_called(object)} = {parents[0]};"
@@ -154,8 +171,8 @@ class _Writer:
         return _seen(object.number, _create(element, parents, look)) + ";"
 
     def _vector(self, arrow: Arrow) -> str:
-        said = "" if arrow.label == arrow.end.name else arrow.label
-        look = _look(pens.VECTORS[arrow.kind], VECTORS, said)
+        label = "" if arrow.label == arrow.end.name else arrow.label
+        look = _look(pens.VECTORS[arrow.kind], VECTORS, label)
         made = _create("arrow", [_called(arrow.start), _called(arrow.end)], look)
         return _seen(max(arrow.start.number, arrow.end.number), made) + ";"
 
@@ -169,6 +186,15 @@ class _Writer:
             look = {**HIDDEN, "visible": True, "fillColor": pens.TINT, "fillOpacity": 1, "layer": LINKS - 1,
                     "borders": _look(pens.LINK, LINKS), "vertices": {"visible": True}}
             yield _seen(0, _create("polygon", corners, look)) + ";"
+
+    def _symbol(self, symbol: Symbol) -> str:
+        """A symbol of the mechanism as it lies."""
+        spots = [*symbol.spots, symbol.spots[0]] if symbol.closed else symbol.spots
+        look = _look(symbol.pen, LINKS - 1 if symbol.layer == "ground" else LINKS + 1)
+        if symbol.closed:
+            look |= {"fillColor": symbol.pen.fill, "fillOpacity": 1}
+        parents = [_json([round(spot[axis], 3) for spot in spots]) for axis in (0, 1)]
+        return _seen(0, _create("curve", parents, look)) + ";"
 
     def _caption(self, plan: Plan) -> str:
         """What a plan is, at the top of its window."""

@@ -6,7 +6,7 @@ import re
 
 PAGE = """\
 <!DOCTYPE html>
-<html lang="en">
+<html lang="%LANGUAGE%">
 <head>
 <meta charset="utf-8">
 <meta name="viewport" content="width=device-width, initial-scale=1">
@@ -29,9 +29,9 @@ PAGE = """\
 <main id="board" style="width: 100%"></main>
 <footer>
 <div>
-<button id="back" title="one step back">&#9664;</button>
-<input id="step" type="range" min="0" max="%STEPS%" value="%STEPS%" aria-label="step">
-<button id="next" title="one step on">&#9654;</button>
+<button id="back" title="%BACK%">&#9664;</button>
+<input id="step" type="range" min="0" max="%STEPS%" value="%STEPS%" aria-label="%STEP%">
+<button id="next" title="%NEXT%">&#9654;</button>
 <output id="number"></output>
 </div>
 <p id="sentence" aria-live="polite"></p>
@@ -73,18 +73,17 @@ function stepper(figure) {
     const shown = Number(slider.value);
     figure.show(shown);
     document.getElementById("number").textContent = shown + " / " + sentences.length;
-    document.getElementById("sentence").textContent = shown ? sentences[shown - 1] : "The mechanism in its pose.";
+    document.getElementById("sentence").textContent = shown ? sentences[shown - 1] : %BEGIN%;
   };
   slider.addEventListener("input", () => go(slider.value));
   document.getElementById("back").addEventListener("click", () => go(Number(slider.value) - 1));
   document.getElementById("next").addEventListener("click", () => go(Number(slider.value) + 1));
   document.getElementById("number").textContent = sentences.length + " / " + sentences.length;
-  document.getElementById("sentence").textContent = "Drag a point of the pose; go through the steps with the slider.";
+  document.getElementById("sentence").textContent = %DRAG%;
 }
 
 if (typeof JXG === "undefined") {
-  document.getElementById("sentence").textContent = "JSXGraph is missing: this page needs the file %FILE% beside it. "
-    + "Take it from https://jsxgraph.org, or export the page again with --library %FILE%, which puts it inside.";
+  document.getElementById("sentence").textContent = %MISSING%;
 } else {
   window.figure = construction();
   stepper(window.figure);

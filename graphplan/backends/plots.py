@@ -18,9 +18,11 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.patches import Rectangle
 
+from graphplan.phrases import joined, phrase, said, unit
 from graphplan.sheet.lettering import FONTS, Run, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen
 from graphplan.sheet.scales import digits
+from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:
     from graphplan.cycle.chords import Ray
@@ -47,9 +49,9 @@ SETTINGS: Any = {"svg.hashsalt": "graphplan", "svg.fonttype": "none", "mathtext.
                  "font.family": "sans-serif", "font.sans-serif": [font.strip(" '") for font in FONTS.split(",")]}
 
 
-def diagrams(drawn: Sequence[Diagram], title: str) -> str:
+def diagrams(drawn: Sequence[Diagram], title: str, tongue: Tongue = ENGLISH) -> str:
     """The sheet of these diagrams as SVG text: a column each, and after four columns a new row."""
-    rows = [[_Column(one) for one in drawn[i : i + COLUMNS]] for i in range(0, len(drawn), COLUMNS)]
+    rows = [[_Column(one, tongue) for one in drawn[i : i + COLUMNS]] for i in range(0, len(drawn), COLUMNS)]
     breadth = max(sum(column.width + GAP for column in row) for row in rows) - GAP + 2 * MARGIN
     heights = [_row_height(row) for row in rows]
     height = sum(heights) + GAP * len(rows) + TITLE + 2 * MARGIN
@@ -82,8 +84,9 @@ def _draw_row(ink: _Ink, row: list[_Column], top: float) -> None:
 class _Column:
     """The three diagrams of one quantity, its numbers, table of errors and key."""
 
-    def __init__(self, diagram: Diagram):
-        self.diagram, self.curve, self.scales = diagram, diagram.curve, diagram.scales
+    def __init__(self, diagram: Diagram, tongue: Tongue):
+        self.diagram, self.curve, self.scales, self.say = diagram, diagram.curve, diagram.scales, tongue
+        self.name = tongue(self.curve.name)
         self.length = float(self.scales.x(self.curve.time[-1]))
         self.axis = LEFT + float(max(self.scales.poles.values()))  # where the ordinates begin
         self.width = max(self.axis + self.length + RIGHT, NARROWEST)
@@ -110,7 +113,7 @@ class _Column:
 
     def draw(self, ink: _Ink, left: float, top: float, tops: dict[str, float], bottom: float) -> None:
         """Draw the column from its upper left corner; `tops` are the heights at which the diagrams begin."""
-        ink.text(left, top - HEADING, _set(sentence_runs(self.curve.name)), HEADING)
+        ink.text(left, top - HEADING, _set(sentence_runs(self.name)), HEADING)
         origins = {q: (left + self.axis, tops[q] - self.extents[q][1]) for q in PLANS}
         for quantity, origin in origins.items():
             self._axes(ink, quantity, origin)
@@ -122,7 +125,7 @@ class _Column:
                 self._marks(ink, quantity, origin)
         self._numbers(ink, left + self.axis, bottom)
         self._errors(ink, left, bottom - 16)
-        _key(ink, left + 88, bottom - 16, {found.method for found in self.diagram.traces})
+        _key(ink, left + 88, bottom - 16, {found.method for found in self.diagram.traces}, self.say)
 
     def _axes(self, ink: _Ink, quantity: str, origin: Spot) -> None:
         """Both axes with arrowheads, the divisions of the abscissa, and the readings at its far end."""
@@ -141,18 +144,19 @@ class _Column:
 
     def _heading(self, ink: _Ink, quantity: str, left: float, level: float) -> None:
         """What a diagram shows, its scale, and the distance of its pole."""
-        letter, unit = _name(self.curve.letters[quantity]), self.curve.units[quantity]
-        words = [f"{letter} in {unit}", f"{_name(f'mu_{self.curve.letters[quantity]}')} = "
-                 f"{digits(float(self.scales.mu[quantity]))} {unit} per mm"]
+        letter, measure = _name(self.curve.letters[quantity]), unit(self.curve.units[quantity])
+        scale = _name(f"mu_{self.curve.letters[quantity]}"), digits(float(self.scales.mu[quantity]))
+        words = [self.say(said("{0} in {1}", letter, measure)), self.say(said("{0} = {1} {2} per mm", *scale, measure))]
         if quantity == "s":
             datum = self.scales.datum
-            less = f" {'+' if datum < 0 else '−'} {digits(abs(datum))} {unit}" if datum else ""
-            words[0] = f"{letter} = {_set(sentence_runs(self.curve.name))}{less}"
+            less = f" {'+' if datum < 0 else '−'} {digits(abs(datum))} {self.say(measure)}" if datum else ""
+            words[0] = f"{letter} = {_set(sentence_runs(self.name))}{less}"
         else:
             pole = "".join(_name(f"{point}_{self.curve.letters[quantity]}") for point in "OH")
-            words.append(f"{pole} = {digits(float(self.scales.poles[quantity]))} mm")
+            reach = joined((digits(float(self.scales.poles[quantity])), unit("mm")), " ")
+            words.append(f"{pole} = {self.say(reach)}")
         if self._cut_off(quantity):
-            words.append("cut off where it grows without bounds")
+            words.append(self.say(said("cut off where it grows without bounds")))
         ink.text(left, level, ",   ".join(words), SIZE)
 
     def _room(self, quantity: str) -> tuple[Spot, Spot]:
@@ -218,25 +222,29 @@ class _Column:
             room = max(width((Run(word),), SIZE) for word in words) + 0.7 * SIZE
             for x, word in list(zip(xs, words, strict=True))[:: int(np.ceil(room * (len(xs) - 1) / self.length))]:
                 ink.text(x, level - 3 - line, word, SIZE, "center")
-        ink.text(axis - 8, level - 3, "position", SIZE, "right")
-        ink.text(axis - 8, level - 3 - LINE, "drive" if angle else f"drive, {self.curve.travel_unit}", SIZE, "right")
+        drive = said("drive") if angle else joined((said("drive"), unit(self.curve.travel_unit)))
+        ink.text(axis - 8, level - 3, self.say(said("position")), SIZE, "right")
+        ink.text(axis - 8, level - 3 - LINE, self.say(drive), SIZE, "right")
         whole = digits(float(self.curve.time[-1] - self.curve.time[0]))
-        ink.text(axis, level - 3 - 2 * LINE, f"{_name('mu_t')} = {digits(float(self.scales.mu_t))} s per mm, "
-                 f"{digits(self.length)} mm are {whole} s", SIZE)
+        scale = said("{0} = {1} {2} per mm", _name("mu_t"), digits(float(self.scales.mu_t)), unit("s"))
+        length = joined((digits(self.length), unit("mm")), " "), joined((whole, unit("s")), " ")
+        ink.text(axis, level - 3 - 2 * LINE, self.say(joined((scale, said("{0} are {1}", *length)))), SIZE)
 
     def _errors(self, ink: _Ink, left: float, level: float) -> None:
         """How far what was found is from the plans, in parts of the largest ordinate."""
         stops = (0.0, 46.0, 60.0, 74.0)
-        rows = [("errors in %", "largest", "rms", "order")]
+        heads = said("errors in %"), said("largest"), said("rms"), said("order")
+        rows = [tuple(map(self.say, heads))]
         for error in self.diagram.errors:
-            what = f"{_name(self.curve.letters[error.found.quantity])} {error.found.method}"
+            what = f"{_name(self.curve.letters[error.found.quantity])} {self.say(METHODS[error.found.method]())}"
             order = "–" if error.order is None else digits(round(error.order, 2))
             rows.append((what, digits(100 * error.largest, 2), digits(100 * error.rms, 2), order))
         for k, row in enumerate(rows):
             for stop, word in zip(stops, row, strict=True):
                 ink.text(left + stop, level - (k + 1) * LINE, word, SIZE, "right" if stop else "left")
         ink.line((left, level - LINE - 1.2), [(0, 0), (stops[-1], 0)], AXIS)
-        ink.text(left, level - (len(rows) + 1.2) * LINE, "of the plans' largest ordinate at the same abscissas", SIZE)
+        told = self.say(said("of the plans' largest ordinate at the same abscissas"))
+        ink.text(left, level - (len(rows) + 1.2) * LINE, told, SIZE)
 
 
 def _picked(rays: list[Ray[Spot]]) -> list[Ray[Spot]]:
@@ -262,23 +270,26 @@ def _dashes(ink: _Ink, origin: Spot, part: list[Spot]) -> None:
     ink.line(origin, part, BACK)
 
 
-MEANINGS = {"by chords": "by chords, in the middle of each", "by tangents": "by tangents, at the division",
-            "integrated": "integrated, from a by v to s"}
+METHODS = {"by chords": phrase("by chords"), "by tangents": phrase("by tangents"), "integrated": phrase("integrated")}
+MEANINGS = {
+    "by chords": phrase("by chords, in the middle of each"), "by tangents": phrase("by tangents, at the division"),
+    "integrated": phrase("integrated, from a by v to s"),
+}  # fmt: skip
 _FOUND = {"by chords": _dots, "by tangents": _crosses, "integrated": _dashes}
 
 
-def _key(ink: _Ink, left: float, level: float, methods: set[str]) -> None:
+def _key(ink: _Ink, left: float, level: float, methods: set[str], say: Tongue) -> None:
     """What each kind of line and mark says, of those that are drawn."""
-    spot, words = (left, level - LINE + 0.36 * SIZE), ["from the plans"]
+    spot, words = (left, level - LINE + 0.36 * SIZE), [said("from the plans")]
     ink.line(spot, [(0, 0), (8, 0)], PLANS["s"])
     for method, meaning in MEANINGS.items():
         if method in methods:
             mark = [(0.0, 0.0), (8.0, 0.0)] if method == "integrated" else [(4.0, 0.0)]
             _FOUND[method](ink, (left, spot[1] - len(words) * LINE), mark)
-            words.append(meaning)
+            words.append(meaning())
     ink.line((left, spot[1] - len(words) * LINE), [(0, 0), (8, 0)], CHORD)
-    for k, meaning in enumerate([*words, "a chord, and the ray parallel to it"], 1):
-        ink.text(left + 10, level - k * LINE, meaning, SIZE)
+    for k, told in enumerate([*words, said("a chord, and the ray parallel to it")], 1):
+        ink.text(left + 10, level - k * LINE, say(told), SIZE)
 
 
 class _Ink:

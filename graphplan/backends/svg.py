@@ -22,6 +22,7 @@ DOCUMENT: dict[str, object] = {
     "xmlns:xlink": "http://www.w3.org/1999/xlink",
 }  # fmt: skip
 
+FINE = 4  # decimals of a radius: what is left of one moves the middle of a half circle much farther
 Look = dict[str, object]  # attributes of an element
 
 
@@ -67,7 +68,7 @@ class _Writer:
                 return _element("polygon", {"points": self._spots(item.spots)} | _look(item.pen))
             case Circle():
                 x, y = self._spot(item.centre)
-                return _element("circle", {"cx": x, "cy": y, "r": _round(item.radius)} | _look(item.pen))
+                return _element("circle", {"cx": x, "cy": y, "r": _round(item.radius, FINE)} | _look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -80,7 +81,7 @@ class _Writer:
         return _element("polyline", _look(pen) | {"points": self._spots(spots), "fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
-        (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), _round(arc.radius)
+        (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), _round(arc.radius, FINE)
         large = int(arc.end - arc.start > 180)
         return _element("path", _look(arc.pen) | {"d": f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", "fill": "none"})
 
@@ -149,7 +150,7 @@ def _look(pen: Pen) -> Look:
     return look
 
 
-def _round(number: float) -> float:
-    """To 0.01 mm, and never -0."""
-    value = round(number, 2) + 0.0
+def _round(number: float, places: int = 2) -> float:
+    """To 0.01 mm, or to more places, and never -0."""
+    value = round(number, places) + 0.0
     return int(value) if value == int(value) else value

@@ -17,6 +17,7 @@ from graphplan.backends.formula import Language, formula, operations
 from graphplan.backends.mathematics import formulated, spelled
 from graphplan.backends.traced import REACH, Letter, Stroke, Swing, Traced, at_home, heading
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING
+from graphplan.phrases import said
 from graphplan.sheet import pens
 from graphplan.sheet.display import Spot
 from graphplan.sheet.pens import Pen
@@ -24,6 +25,10 @@ from graphplan.sheet.symbols import RADIUS
 
 GIVEN_HEAD = 3.0  # mm
 FAR = 1900.0  # mm: three times as much, as in P + (B - A), is still less than TeX's longest dimension of 16383 pt
+
+FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
+AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
+LATIN, ENCODINGS = "T1", {"ru": "T2A", "uk": "T2A"}
 
 PREAMBLE = r"""\documentclass[tikz,border=4mm]{standalone}
 \usepackage{amsbsy,xfp}
@@ -51,6 +56,11 @@ STYLES: dict[str, tuple[Pen, str]] = {
     "joint": (pens.PAIR, ", fill=white"),
     "dot": (pens.DOT, ", fill=white"),
     "origin": (pens.ORIGIN, ", fill=black"),
+    "ground line": (pens.GROUND, ""),
+    "hatching": (pens.HATCH, ""),
+    "stand": (pens.GROUND_FILL, ", fill=white"),
+    "sliding block": (pens.BLOCK, ", fill=white"),
+    "arrowhead": (pens.SOLID, ", fill=black"),
     **{f"given {kind}": (pen, ", head=3") for kind, pen in pens.GIVEN.items()},
     **{kind: (pen, f", head={pens.HEADS[kind]:g}") for kind, pen in pens.VECTORS.items()},
     "link": (replace(pens.BAR, width=EDGE),
@@ -111,9 +121,9 @@ class Writer:
     preamble = PREAMBLE + MEETING
 
     def text(self) -> str:
-        said = [f"% {line}" for line in (self.figure.title, self.figure.source) if line]
+        head = [f"% {line}" for line in (self.figure.title, self.figure.source) if line]
         box = self.figure.box
-        self.lines += [*said, self.preamble + self._styles(), r"\begin{document}", r"\begin{tikzpicture}[drawing]",
+        self.lines += [*head, self._preamble() + self._styles(), r"\begin{document}", r"\begin{tikzpicture}[drawing]",
                        rf"\path[use as bounding box] ({plain(box.left)},{plain(box.bottom)}) rectangle "
                        rf"({plain(box.right)},{plain(box.top + 4)});"]  # fmt: skip
         for object in self.figure.objects:
@@ -121,6 +131,13 @@ class Writer:
         for plan in self.figure.plans:
             self._drawing(Traced(self.figure, plan))
         return "\n".join([*self.lines, r"\end{tikzpicture}", r"\end{document}"]) + "\n"
+
+    def _preamble(self) -> str:
+        """What the file needs: with the letters of its language."""
+        code = self.figure.tongue.code
+        letters = "" if code == "en" else rf"\usepackage[{ENCODINGS.get(code, LATIN)}]{{fontenc}}" "\n"
+        head, packages = self.preamble.split("\n", 1)
+        return f"{head}\n{letters}{packages}"
 
     def _styles(self) -> str:
         """The pens of the sheet, by name."""
@@ -141,15 +158,15 @@ class Writer:
     def _step(self, object: Object) -> None:
         """What is said of a step, and its coordinates."""
         if object is self.figure.firsts.get(object.plan.name):
-            self.lines += ["", f"% plan: {object.plan.caption}"]
+            self.lines += ["", f"% {self.figure.tongue(said('plan: {0}', object.plan.caption))}"]
         if object.number:
             self.lines += ["", f"% {object.number}. {object.sentence}"]
         if self._out_of_reach(object):
             self.lost.add(object)
-            self.lines.append("% (too far out for TeX's dimensions: what rests on it is given as it lies)")
+            self.lines.append(f"% ({self.figure.tongue(FAR_OUT)})")
         elif self.lost.intersection(object.args):
             self.literal.add(object)
-            self.lines += ["% (given as it lies: it rests on what TeX cannot hold)", *self.as_it_lies(object)]
+            self.lines += [f"% ({self.figure.tongue(AS_IT_LIES)})", *self.as_it_lies(object)]
         else:
             self.lines += self.made(object)
 
@@ -259,8 +276,10 @@ class Writer:
         left, top = plain(traced.plan.rect.left), plain(traced.plan.rect.top + 1)
         self.lines += ["", rf"\begin{{scope}} % {traced.plan.caption}",
                        rf"\node[caption] at ({left},{top}) {{{spelled(traced.plan.caption)}}};"]  # fmt: skip
+        self.lines += self._symbols(traced, "ground")
         self.lines += [self.segment("link", one.id, other.id) for one, other in traced.sides
                        if not self.lost.intersection((one, other))]
+        self.lines += self._symbols(traced, "blocks", "drive")
         for stroke in traced.strokes:
             lost = self.lost.intersection((stroke.made, stroke.start, stroke.end))
             self.lines.append(chain(stroke.pen, traced.ends(stroke)) if lost else self.stroke(stroke))
@@ -274,6 +293,11 @@ class Writer:
         for letter in traced.letters:
             self.lines += self._letter(letter)
         self.lines.append(r"\end{scope}")
+
+    def _symbols(self, traced: Traced, *layers: str) -> Iterator[str]:
+        """Symbols of the mechanism as they lie."""
+        for symbol in self.figure.drawn_symbols(traced.plan, *layers):
+            yield chain(symbol.pen, symbol.spots, symbol.closed)
 
     def segment(self, style: str, one: str, other: str) -> str:
         """A stroke from one mark to another."""
@@ -313,19 +337,19 @@ class Writer:
 
     def _letter(self, letter: Letter) -> Iterator[str]:
         """Lettering off its mark, with a leader where it stands far off."""
-        said = formulated(letter.text.runs)
-        said = rf"$\boldsymbol{{{said}}}$" if letter.text.bold else f"${said}$"
+        text = formulated(letter.text.runs)
+        text = rf"$\boldsymbol{{{text}}}$" if letter.text.bold else f"${text}$"
         if letter.mark in self.lost:
             (x, y), (right, up) = letter.mark.at, letter.off
-            yield rf"\node[letter] at {spot((x + right, y + up))} {{{said}}};"
+            yield rf"\node[letter] at {spot((x + right, y + up))} {{{text}}};"
             return
         if letter.leader is not None:
             yield rf"\draw[leader] ({letter.mark.id}) -- +{spot(letter.leader)};"
-        yield self.label(letter.mark.id, spot(letter.off), said)
+        yield self.label(letter.mark.id, spot(letter.off), text)
 
-    def label(self, mark: str, off: str, said: str) -> str:
+    def label(self, mark: str, off: str, text: str) -> str:
         """Words so far off a mark."""
-        return rf"\node[letter] at ($({mark})+{off}$) {{{said}}};"
+        return rf"\node[letter] at ($({mark})+{off}$) {{{text}}};"
 
 
 def spot(at: Spot) -> str:
@@ -333,9 +357,9 @@ def spot(at: Spot) -> str:
     return f"({plain(at[0])},{plain(at[1])})"
 
 
-def chain(pen: Pen, spots: Iterable[Spot]) -> str:
-    """A stroke as it lies, from spot to spot."""
-    return rf"\draw[{NAMES[pen]}] {' -- '.join(map(spot, spots))};"
+def chain(pen: Pen, spots: Iterable[Spot], closed: bool = False) -> str:
+    """A stroke as it lies, from spot to spot, and back to the first where it is closed."""
+    return rf"\draw[{NAMES[pen]}] {' -- '.join([*map(spot, spots), *(['cycle'] if closed else [])])};"
 
 
 def nearest(line: Object) -> Spot:

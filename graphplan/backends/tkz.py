@@ -87,9 +87,9 @@ class _Writer(Writer):
             return super().swing(swing)
         return rf"\tkzCompass[compasses, delta={swing.before:.0f}]({self.centre(swing.made)},{swing.mark.id})"
 
-    def label(self, mark: str, off: str, said: str) -> str:
+    def label(self, mark: str, off: str, text: str) -> str:
         """Words so far off a mark."""
-        return rf"\tkzLabelPoint[letter, shift={{{off}}}]({mark}){{{said}}}"
+        return rf"\tkzLabelPoint[letter, shift={{{off}}}]({mark}){{{text}}}"
 
 
 def _passing(object: Object) -> float:

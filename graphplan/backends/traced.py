@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
 
-from graphplan.backends.figure import Arrow, Figure, Link, Object, Plan
+from graphplan.backends.figure import SYMBOLS, Arrow, Figure, Link, Object, Plan
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.sheet import clip, laid_off, pens
 from graphplan.sheet.display import Arc, Item, Polyline, Spot, Text
@@ -302,6 +302,8 @@ class Traced:
             yield Polyline(pens.GIVEN["velocity"], "vectors", None, (start.at, end.at))
         for swing in self.swings:
             yield self.arc(swing)
+        for symbol in self.figure.drawn_symbols(self.plan, *SYMBOLS):
+            yield Polyline(symbol.pen, symbol.layer, None, symbol.spots)
         for one, other in self.sides:
             yield Polyline(pens.BAR, "links", None, (one.at, other.at))
 

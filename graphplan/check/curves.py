@@ -13,6 +13,8 @@ from graphplan.check.cycle import Cycle
 from graphplan.cycle.curves import Curve, followed
 from graphplan.errors import Refused
 from graphplan.mechanism.model import FRAME, Scene, Slide, SlidingDrive
+from graphplan.methods.panels import slide_named
+from graphplan.phrases import Said, said
 
 TURN = 2 * np.pi
 MOST = 4  # diagrams that stand side by side
@@ -23,7 +25,7 @@ class Quantity:
     """What is to be plotted: how it is called, its unit, and the points whose rates tell it."""
 
     name: str
-    label: str
+    label: Said
     unit: str
     points: tuple[str, ...]
     slide: Slide | None = None
@@ -80,11 +82,11 @@ def _quantity(scene: Scene, name: str) -> Quantity:
     slide = next((s for s in scene.slides if s.name == name), None)
     point, _, axis = name.rpartition(".")
     if slide is not None:
-        return Quantity(name, f"slide {name}", length, (slide.at,), slide)
+        return Quantity(name, said("slide {0}", slide_named(slide)), length, (slide.at,), slide)
     if len(scene.links.get(name, ())) > 1 and name != FRAME:
-        return Quantity(name, f"angle of link {name}", "rad", _side(scene, name))
+        return Quantity(name, said("angle of link {0}", name), "rad", _side(scene, name))
     if point in scene.points and axis in ("x", "y"):
-        return Quantity(name, f"{axis} of {point}", length, (point,))
+        return Quantity(name, said("{0} of {1}", axis, point), length, (point,))
     links = [link for link in scene.moving if len(scene.links[link]) > 1]
     known = [*links, *(s.name for s in scene.slides), *(f"{p}.x" for p in scene.points)]
     raise Refused(f"diagram of {name}", "the scene has no such thing", f"one of {', '.join(known)}")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
@@ -29,11 +30,28 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
                              help="compasses and straightedge alone, no set squares")
 
 
-def add_language(command: argparse.ArgumentParser) -> None:
-    """The option that says in which language it is said."""
+def add_language(command: argparse.ArgumentParser, default: str = "en") -> None:
+    """The option that says in which language it is said; the `default` may be left to the scene."""
     from graphplan.words.tongue import LANGUAGES
 
-    command.add_argument("--language", default="en", choices=LANGUAGES, help="the language of all words (en)")
+    told = default or "without it the scene's, or en"
+    command.add_argument("--language", default=default, choices=LANGUAGES, help=f"the language of all words ({told})")
+
+
+def add_sheet(command: argparse.ArgumentParser) -> None:
+    """The options that say what the sheet looks like; without them the scene has a say in it."""
+    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
+                         help="the sheet; without it the scene's, or the smallest that will do")
+    command.add_argument("--frame", choices=("iso", "gost"),
+                         help="frame and title block after ISO 5457 and 7200, or GOST 2.301 and 2.104; without it the "
+                         "scene's, or iso")
+    add_language(command, default="")
+
+
+def presented(options: argparse.Namespace, scene: Scene) -> Scene:
+    """The scene with its sheet as the options have it, where they say."""
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    return replace(scene, sheet=replace(scene.sheet, **said))
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:

@@ -17,7 +17,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, write
+from graphplan.commands.choices import add_choices, add_language, write
 from graphplan.commands.messages import Messages, error
 from graphplan.errors import Refused
 
@@ -42,6 +42,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code by numba, if installed: pays for millions of poses")
     add_choices(command)
+    add_language(command, default="")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -65,9 +66,10 @@ def run(options: argparse.Namespace) -> int:
     if options.plot:
         from graphplan.backends.plots import diagrams
         from graphplan.cycle.diagrams import diagram
+        from graphplan.words.tongue import tongue
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
-        write(diagrams(drawn, scene.title), options.plot)
+        write(diagrams(drawn, scene.title, tongue(options.language or scene.sheet.language or "en")), options.plot)
     _say(found, messages)
     if found.wrong:
         return 1

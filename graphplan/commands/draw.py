@@ -7,6 +7,7 @@ examples:
   graphplan draw alt-eight-link -o sheet.svg
   graphplan draw four-bar -o sheet.png --dpi 300
   graphplan draw scene.toml --plan polar > sheet.svg
+  graphplan draw scene.toml --frame gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
   graphplan draw scene.toml --prefer accurate --pencil point=0.2 -o sheet.pdf
@@ -18,14 +19,13 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.kernel.program import Program
     from graphplan.methods.construction import Construction
     from graphplan.sheet.display import Sheet
-    from graphplan.words.tongue import Tongue
 
 SUFFIXES = (".svg", ".pdf", ".png", ".dxf")
 DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
@@ -35,15 +35,15 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="SHEET.svg",
                          help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
     command.add_argument("--dpi", type=int, metavar="N", help=f"dots per inch of a .png ({DOTS})")
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
-                         help="the sheet; without it the smallest that will do")
+    add_sheet(command)
     shown = command.add_mutually_exclusive_group()
     shown.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
     shown.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
     shown.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
+    command.add_argument("--numbers", action="store_true",
+                         help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True)
-    add_language(command)
     add_preference(command)
 
 
@@ -56,24 +56,29 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.words.tongue import tongue
 
     suffix, dpi = _suffix(options.output), _dots(options.dpi, options.output)
-    scene, hand, say = load(options.scene), pencil(options.pencil), tongue(options.language)
-    method, told = chosen(options, scene, strict=options.strict, paper=options.paper)
+    scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
+    method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)
     if options.strip:
-        write(_pages(_strip(found.drawing, options, say), suffix, dpi), options.output)
+        write(_pages(_strip(found.drawing, options), suffix, dpi), options.output)
         return 0
-    composition = drafted(found.drawing, hand, options.paper, found.check, say).composition
+    say = tongue(scene.sheet.language or "en")
+    composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
+    if options.numbers:
+        from graphplan.sheet.selection import with_numbers
+
+        composition = with_numbers(composition)
     sheet = _shown(layout(found.drawing, composition=composition), found.drawing.drawn, options)
     write(_drawn(sheet, suffix, dpi), options.output)
     return 0
 
 
-def _strip(drawing: Construction, options: argparse.Namespace, say: Tongue) -> list[Sheet]:
+def _strip(drawing: Construction, options: argparse.Namespace) -> list[Sheet]:
     """The pages of the film strip."""
     from graphplan.sheet.strip import strip
 
-    return strip(drawing, options.paper or "A3", single=options.strip == "step", tongue=say)
+    return strip(drawing, single=options.strip == "step")
 
 
 def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -52,7 +52,7 @@ formats:
 examples:
   graphplan export rosenauer-basic -o chain.ggb
   graphplan export scene.toml -o page.html --library jsxgraphcore.js
-  graphplan export scene.toml -o figure.tex --format tkz-euclide
+  graphplan export scene.toml -o figure.tex --format tkz-euclide --language de
 """
 
 
@@ -62,8 +62,7 @@ def options(command: argparse.ArgumentParser) -> None:
                          help="the format; without it the suffix of FILE says which")
     command.add_argument("--library", metavar="FILE",
                          help="a copy of jsxgraphcore.js that goes into the page, which is then complete in itself")
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
-                         help="the sheet; without it the smallest that will do")
+    add_sheet(command)
     add_choices(command, strict=True)
     add_preference(command)
 
@@ -73,15 +72,17 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.drafting.drafted import drafted
     from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
+    from graphplan.words.tongue import tongue
 
     name = format_of(options.output, options.format)
     more = _more(name, options.library)
     write_out = back_end(name)
-    scene, hand = load(options.scene), pencil(options.pencil)
-    method, told = chosen(options, scene, strict=options.strict, paper=options.paper)
+    scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
+    method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)
-    on_sheet = drafted(found.drawing, hand, options.paper, found.check)
+    say = tongue(scene.sheet.language or "en")
+    on_sheet = drafted(found.drawing, hand, check=found.check, tongue=say)
     write(write_out(READ[FORMATS[name].reads](on_sheet), **more), options.output)
     return 0
 
@@ -137,7 +138,7 @@ def _data(data: Mapping[str, Any]) -> str:
 def _figure(on_sheet: Drafted) -> Any:
     from graphplan.backends.figure import figure
 
-    return figure(on_sheet.drawing, on_sheet.composition)
+    return figure(on_sheet.drawing, on_sheet.composition, on_sheet.composition.planes.tongue)
 
 
 def _sheet(on_sheet: Drafted) -> Any:
@@ -155,8 +156,8 @@ def _steps(on_sheet: Drafted) -> Any:
     from graphplan.backends.text import steps
     from graphplan.mechanism.structure import structure
 
-    drawing = on_sheet.drawing
-    return steps(drawing, structure(drawing.scene).lines()) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+    drawing, say = on_sheet.drawing, on_sheet.composition.planes.tongue
+    return steps(drawing, structure(drawing.scene).lines(), say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
 
 
 READ = {"figure": _figure, "sheet": _sheet, "sheets": _sheets, "steps": _steps}  # what back ends read

@@ -8,13 +8,15 @@ examples:
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
 
 from graphplan.commands.choices import write
 from graphplan.commands.messages import Messages, error
 from graphplan.errors import Refused
+
+HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -49,8 +51,8 @@ def _differs(path: Path, text: str) -> bool:
 
 
 def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
-    """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts that are there.
-    """
+    """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts and handouts
+    that are there."""
     from graphplan import sheet
     from graphplan.backends.text import protocol
     from graphplan.check.printed import data
@@ -69,7 +71,8 @@ def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
         errors = drafted(found.drawing, Pencil(), check=found.check)
         yield f"{name}.svg", sheet.svg(found.drawing, composition=errors.composition)
         yield f"{name}.txt", protocol(found.drawing, structure(scene).lines(), errors.lines())
-        entries.append(_entry(name, scene.title, scene.source, data(found)["steps"]))
+        handouts = [suffix for suffix in HANDOUTS if (folder / "handouts" / f"{name}{suffix}").is_file()]
+        entries.append(_entry(name, scene.title, scene.source, data(found)["steps"], handouts))
     messages.progress("")
     charts = [_chart(path.stem) for path in sorted((folder / "charts").glob("*.svg"))]
     yield "index.html", INDEX.format(entries="\n".join(entries), charts="\n".join(charts))
@@ -79,10 +82,11 @@ def _chart(name: str) -> str:
     return f'<figure><a href="charts/{name}.svg"><img src="charts/{name}.svg" alt="{name}" loading="lazy"></a></figure>'
 
 
-def _entry(name: str, title: str, source: str, steps: int) -> str:
+def _entry(name: str, title: str, source: str, steps: int, handouts: Iterable[str]) -> str:
+    links = "".join(f' · <a href="handouts/{name}{suffix}">{HANDOUTS[suffix]}</a>' for suffix in handouts)
     return (f'<figure><a href="{name}.svg"><img src="{name}.svg" alt="{escape(title)}" loading="lazy"></a>'
             f"<figcaption><b>{escape(title)}</b><br>{escape(source)}<br>"
-            f'<code>graphplan draw {name}</code> · <a href="{name}.txt">{steps} steps</a></figcaption></figure>')
+            f'<code>graphplan draw {name}</code> · <a href="{name}.txt">{steps} steps</a>{links}</figcaption></figure>')
 
 
 INDEX = """<!DOCTYPE html>

@@ -16,7 +16,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -33,9 +33,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
     command.add_argument("--positions", type=int, metavar="N",
                          help=f"how many poses of the cycle a .html shows ({POSITIONS}); 0 for the given one alone")
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
-                         help="the sheet; without it the smallest that will do")
-    add_language(command)
+    add_sheet(command)
     add_choices(command, strict=True)
     add_preference(command)
 
@@ -48,11 +46,12 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.words.tongue import tongue
 
     suffix, positions = _suffix(options), _positions(options)
-    scene, hand, say = load(options.scene), pencil(options.pencil), tongue(options.language)
-    method, told = chosen(options, scene, strict=options.strict, paper=options.paper)
+    scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
+    method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, strict=options.strict, inertia=options.inertia)
     found.drawing.notes.extend(told)
-    composition = drafted(found.drawing, hand, options.paper, found.check, say).composition
+    say = tongue(scene.sheet.language or "en")
+    composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
     if suffix == ".html":
         from graphplan.backends.stepper import stepper
 
@@ -88,8 +87,11 @@ def _pages(composition: Composition, only: str | None) -> bytes:
     from graphplan.backends.ink import pdf
     from graphplan.sheet.handout import guided, task
     from graphplan.sheet.layout import layout
+    from graphplan.sheet.selection import with_numbers
+    from graphplan.sheet.title import SOLUTION
 
-    solution = layout(composition.planes.drawing, composition=composition)
+    composition = with_numbers(composition)
+    solution = layout(composition.planes.drawing, composition=composition, document=SOLUTION)
     sheets: list[Sheet] = []
     for part in (only,) if only else PARTS:
         match part:

@@ -104,6 +104,15 @@ def _loads(balance: str, link: str, at: str) -> dict[str, str]:
 
 
 UNITS = '[units]\nlength = "mm"\nforce = "N"\nmass = "kg"'
+SHEET = '''[sheet]
+paper = "A3"
+frame = "iso"
+language = "en"
+convention = "real"
+owner = "Chair of Mechanisms"
+number = "TMM-01"
+drawn_by = "graphplan"
+scale = "1:2"'''
 CRANK = '[[drive]]\nlink = "1"\nomega = 2\nalpha = 0'
 
 STARTS = {
@@ -116,7 +125,7 @@ B = { distances = { A = 120, C = 90 }, side = "left" }
 M = { on = "A B", distance = 60 }""",
         "links": '[links]\n1 = "O A"\n2 = "A M B"\n3 = "C B"\nframe = "O C"',
         "drive": CRANK,
-    }, {"units": UNITS, "find": '[find]\nvelocity = ["B", "M"]\nacceleration = "all"',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["B", "M"]\nacceleration = "all"',
         **_loads('link = "1"', "2", "M")}),
     "slider-crank": Start("Slider-crank", {
         "points": """[points]
@@ -127,7 +136,7 @@ M = { on = "A B", distance = 75 }""",
         "links": '[links]\n1 = "O A"\n2 = "A M B"\n3 = "B"\nframe = "O"',
         "slides": '[[slides]]\nlink = "3"\nalong = "frame"\nat = "B"\ndirection = [1, 0]',
         "drive": CRANK,
-    }, {"units": UNITS, "find": '[find]\nvelocity = ["B"]\nacceleration = ["B", "M"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["B"]\nacceleration = ["B", "M"]',
         **_loads('link = "1"', "2", "M"), "friction": '[[friction]]\nslide = ["3", "frame"]\ncoefficient = 0.1'}),
     "slotted-link": Start("Slotted link with crank and block", {
         "points": """[points]
@@ -138,7 +147,7 @@ D = { on = "C A", distance = 250 }""",
         "links": '[links]\n1 = "O A"\n2 = "A"\n3 = "C D"\nframe = "O C"',
         "slides": '[[slides]]\nlink = "2"\nalong = "3"\nat = "A"\ndirection = "C D"',
         "drive": CRANK,
-    }, {"units": UNITS, "find": '[find]\nvelocity = ["D"]\nacceleration = ["D"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["D"]\nacceleration = ["D"]',
         **_loads('link = "1"', "3", "D")}),
     "cylinder": Start("Boom on a cylinder", {
         "points": """[points]
@@ -150,7 +159,7 @@ D = [30, 40]""",
         "links": '[links]\nboom = "E A"\nbarrel = "O C"\nrod = "D A"\nframe = "O E"',
         "slides": '[[slides]]\nlink = "rod"\nalong = "barrel"\nat = "D"\ndirection = "O C"',
         "drive": '[[drive]]\nslide = ["rod", "barrel"]\nspeed = 20\nacceleration = 0',
-    }, {"units": UNITS, "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]',
         **_loads('on = "rod"\nat = "D"\ndirection = "O C"', "boom", "A")}),
     "open-chain": Start("Open chain, both ends moved", {
         "points": """[points]
@@ -161,12 +170,12 @@ L = [200, 10]""",
         "links": '[links]\n1 = "K A"\n2 = "A B"\n3 = "B L"',
         "drive": '[[drive]]\nlink = "2"\nomega = -1\nrelative_to = "frame"',
         "motion": "[motion.K]\nvelocity = [100, 50]\nacceleration = [30, -80]\n[motion.L]\nvelocity = [0, 100]",
-    }, {"units": UNITS, "find": '[find]\nvelocity = ["A", "B"]\nacceleration = ["A", "B"]'}),
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["A", "B"]\nacceleration = ["A", "B"]'}),
     "blank": Start("Crank", {
         "points": "[points]\nO = [0, 0]\nA = [30, 40]",
         "links": '[links]\n1 = "O A"\nframe = "O"',
         "drive": CRANK,
         "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]',
-    }, {"units": UNITS, **_loads('link = "1"', "1", "A"),
+    }, {"units": UNITS, "sheet": SHEET, **_loads('link = "1"', "1", "A"),
         "friction": '[[friction]]\nat = "O"\nradius = 5\ncoefficient = 0.1'}),
 }

@@ -9,6 +9,7 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Drive, Scene, SlidingDrive
+from graphplan.phrases import said
 
 TURN = 2 * math.pi
 
@@ -20,14 +21,15 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
     Fails with :class:`Refused` where nothing drives the scene, or a sliding drive is given no span.
     """
     if scene.motions or not scene.drives:
-        why = "the motion of points is given, for this pose alone" if scene.motions else "nothing drives it"
+        why = said("the motion of points is given, for this pose alone" if scene.motions else "nothing drives it")
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
     if positions < 1:
         raise Refused("the cycle", f"{positions} positions are none", "at least 1")
     sliding = isinstance(scene.drives[0], SlidingDrive)
     if span is None:
         if sliding:
-            raise Refused("the cycle", "the first drive slides, and no turn closes its travel", "a span of lengths")
+            why = said("the first drive slides, and no turn closes its travel")
+            raise Refused("the cycle", why, "a span of lengths")
         return TURN * np.arange(positions) / positions
     if not all(math.isfinite(end) for end in span):
         raise Refused("the cycle", f"the span {span[0]} to {span[1]} has no end", "two finite numbers")
@@ -39,7 +41,7 @@ def paces(scene: Scene) -> tuple[float, ...]:
     """The travel of each drive for a unit of the first one's: its rate over the first one's."""
     first, *others = (_rate(drive) for drive in scene.drives)
     if first == 0 and any(others):
-        raise Refused("the cycle", "the first drive stands still while another moves",
+        raise Refused("the cycle", said("the first drive stands still while another moves"),
                       "a drive that moves as the first [[drive]]")
     return (1.0, *(other / first if first else 0.0 for other in others))
 

@@ -12,7 +12,7 @@ from graphplan.drafting.hand import Hand, hand
 from graphplan.drafting.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.methods.readings import kind_named
+from graphplan.methods.readings import kind_named, thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.compose import Composer
 from graphplan.sheet.composition import Composition
@@ -95,7 +95,8 @@ class Drafted:
 
     def lines(self) -> list[Said]:
         """Cost and errors in words, a line each."""
-        off = [joined((kind_named(kind), joined(f"{name} ±{deviation}" for name, deviation in found.items())), ": ")
+        off = [joined((kind_named(kind), joined(
+            joined((thing_named(kind, of), f"±{deviation}"), " ") for of, deviation in found.items())), ": ")
                for kind, found in self.deviations.results.items()]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *off]
 
@@ -120,9 +121,9 @@ class Drafted:
         return {"kind": worst.kind, "of": worst.of, "relative": worst.relative, "shares": shares}
 
     def _step(self, index: int) -> dict[str, Any]:
-        drawn = self.drawing.drawn
+        drawn, say = self.drawing.drawn, self.composition.planes.tongue
         number = drawn.number(index) if index >= drawn.givens else 0
-        return {"number": number, "makes": drawn.text(index), "sentence": drawn.sentence(index)}
+        return {"number": number, "makes": say(drawn.text(index)), "sentence": say(drawn.sentence(index))}
 
 
 def percent(part: float) -> str:

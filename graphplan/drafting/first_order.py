@@ -20,7 +20,7 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, Reading
-from graphplan.methods.readings import kind_named
+from graphplan.methods.readings import kind_named, thing_named
 from graphplan.methods.tempo import extent
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.deviations import Deviation
@@ -48,7 +48,8 @@ class Result:
         kind = kind_named(self.kind)
         if self.kind in RATES:
             return said("{0} of link {1}", kind, self.of)
-        return joined((kind, self.of), " ") if self.of.isdigit() else said("{0} of {1}", kind, self.of)
+        thing = thing_named(self.kind, self.of)
+        return joined((kind, thing), " ") if thing.isdigit() else said("{0} of {1}", kind, thing)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""
@@ -67,7 +68,7 @@ class Result:
 
 def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
     """The expected error of every result, as the hand draws the construction at these scales."""
-    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips])))
+    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips], dtype=int)))
     domain = Gradients(int(starts[-1]))
     owner = np.repeat(np.arange(len(hand.slips)), np.diff(starts))
 

@@ -18,6 +18,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from graphplan.drafting.pencil import Pencil
@@ -44,17 +45,26 @@ class Hand:
     def draw(self, domain: Domain, errors: Errors) -> list[Any]:
         """Every step in a number domain, each with its errors, which the later ones then read."""
         drawn: list[Any] = []
-        holes: dict[Any, int] = {}
         for step in self.program.steps:
-            hole = holes.setdefault(self.values[step.index], step.index) if step.op.name == "given" else step.index
-            if hole < step.index:
-                drawn.append(drawn[hole])
-            else:
-                exact = step.op.rule(domain, *[drawn[arg] for arg in step.args], **step.params)
-                drawn.append(self._slipped(step, domain.whole(exact), errors(step.index)))
+            drawn.append(self.made(step, domain, drawn, errors))
         return drawn
 
-    def _slipped(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
+    def made(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:
+        """One step, from what it reads as it is drawn; it fails as its rule does."""
+        hole = self._holes.get(step.index, step.index)
+        if hole < step.index:
+            return drawn[hole]
+        exact = step.op.rule(domain, *[drawn[arg] for arg in step.args], **step.params)
+        return self.slipped(step, domain.whole(exact), errors(step.index))
+
+    @cached_property
+    def _holes(self) -> dict[int, int]:
+        """For each point of the pose the first one that lies where it does."""
+        first: dict[Any, int] = {}
+        return {step.index: first.setdefault(self.values[step.index], step.index)
+                for step in self.program.steps if step.op.name == "given"}
+
+    def slipped(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
         """What a step makes, off by its errors."""
         steady = self.values[step.index]
         match step.op.gives, step.op.name:
@@ -78,13 +88,18 @@ class Hand:
         (x, y), *rest = places(self.program, self.values, step)
         line = self.values[step.index]
         turn = (other - offset) / _along(line, (x, y), rest[0]) if rest else other
-        return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - math.hypot(*line[:2]) * offset
+        return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _size(exact) * offset
 
 
 def hand(drawing: Construction, scales: Scales, pencil: Pencil) -> Hand:
     """The hand that draws a construction on its sheet with this pencil."""
+    return hand_at(drawing, scales.of, pencil)
+
+
+def hand_at(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
+    """The hand that draws a construction with this pencil; `unit` is the length of a millimetre on a plan, by name."""
     homes = Planes(drawing).homes
-    slips = [_slips(drawing, step, scales.of(homes[step.index]), pencil) for step in drawing.drawn.steps]
+    slips = [_slips(drawing, step, unit(homes[step.index]), pencil) for step in drawing.drawn.steps]
     return Hand(drawing.drawn, drawing.values, slips)
 
 
@@ -124,6 +139,12 @@ def _unit(line: Any) -> tuple[float, float]:
     """The unit normal of a line."""
     size = math.hypot(line[0], line[1])
     return line[0] / size, line[1] / size
+
+
+def _size(line: Any) -> Any:
+    """The length of a line's normal, without errors of first order."""
+    a, b = (getattr(part, "value", part) for part in line[:2])
+    return (a * a + b * b) ** 0.5
 
 
 def _along(line: Any, P: Any, Q: Any) -> float:

@@ -7,19 +7,31 @@ from dataclasses import dataclass, replace
 
 from graphplan.drafting.drafted import Drafted, drafted, percent
 from graphplan.drafting.pencil import Pencil
-from graphplan.errors import GraphplanError, Refused
+from graphplan.errors import ConstructionError, GraphplanError, Refused
+from graphplan.kernel.kinds import FAILURES
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import METHODS, construct
 from graphplan.methods.construction import Construction
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.paper import sheet_size
 
 FORMS = ("", *METHODS)  # first the one that the pose chooses
+NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": phrase("trial"), "poles": phrase("poles")}
 
 
-def called(methods: Sequence[str]) -> str:
+def called(methods: Sequence[str]) -> Said:
     """What the form is called to which these methods lead."""
-    return "every method" if tuple(methods) == FORMS else ", ".join(method or "pose's own" for method in methods)
+    return said("every method") if tuple(methods) == FORMS else joined(NAMES[method]() for method in methods)
+
+
+def reason(refusal: GraphplanError) -> str:
+    """Why a form cannot be drawn, without what to do about it: there are other forms."""
+    match refusal:
+        case ConstructionError():
+            return said("step {0}: {1}", refusal.step, FAILURES[refusal.code][0])
+        case Refused():
+            return joined((refusal.what, refusal.why), ": ")
+    return str(refusal)
 
 
 @dataclass(frozen=True)
@@ -31,7 +43,7 @@ class Form:
     refusal: GraphplanError | None = None
 
     @property
-    def name(self) -> str:
+    def name(self) -> Said:
         """What it is called."""
         return called(self.methods)
 
@@ -39,7 +51,8 @@ class Form:
     def told(self) -> Said:
         """What speaks for it, or against it, in words."""
         if self.drafted is None:
-            return said("{0}: cannot be drawn: {1}", self.name, str(self.refusal))
+            assert self.refusal is not None
+            return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
         told = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations, percent(self.drafted.error))
         return arranged("{0} ({1})", told, self.drafted.worst.named) if self.drafted.worst else told
 
@@ -93,8 +106,9 @@ def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", pl
 def weighed(found: Sequence[Form], prefer: str) -> Preference:
     """The best of some forms, of which one at least is drawn; of equals the first."""
     drawn = [(form, form.drafted) for form in found if form.drafted is not None]
-    best, on = min(drawn, key=lambda pair: WEIGHED[prefer](pair[1]))
-    head = said("{0} form preferred: {1}; weighed on {2}:", prefer, best.name, on.paper)
+    weigh, word = WEIGHED[prefer]
+    best, on = min(drawn, key=lambda pair: weigh(pair[1]))
+    head = said("{0} form preferred: {1}; weighed on {2}:", word(), best.name, on.paper)
     return Preference(best.methods[0], (head, *(form.told for form in found)))
 
 
@@ -130,6 +144,7 @@ def _balanced(one: Drafted) -> tuple[float, ...]:
     return one.operations * one.error, one.operations
 
 
-WEIGHED: dict[str, Callable[[Drafted], tuple[float, ...]]] = {
-    "quick": _quick, "accurate": _accurate, "balanced": _balanced,
-}
+WEIGHED: dict[str, tuple[Callable[[Drafted], tuple[float, ...]], Phrase]] = {
+    "quick": (_quick, phrase("quick")), "accurate": (_accurate, phrase("accurate")),
+    "balanced": (_balanced, phrase("balanced")),
+}  # fmt: skip

@@ -143,7 +143,7 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, COMPASSES,
-           "Construct the relative normal acceleration of {1} about {0} from the relative velocity {2}{3}; "
+           "Construct the relative normal acceleration of {1} about {0} by the relative velocity from {2} to {3}; "
            "from {4} lay it off: mark {out}.",
            claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
            fails=("points-coincide",), source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22")
@@ -158,8 +158,8 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
-           "Construct half the Coriolis vector at {1} from the orthogonal relative velocity {1}{3} and that of the "
-           "guide's turning about {0}, {1}{2}; from {4} lay it off twice, reversed: mark {out}.",
+           "Construct half the Coriolis vector at {1} from the orthogonal relative velocity, from {1} to {3}, and "
+           "that of the guide's turning about {0}, from {1} to {2}; from {4} lay it off twice, reversed: mark {out}.",
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            source="Ozols 1974, 5-3, fig. 5-24")
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:

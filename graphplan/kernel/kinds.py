@@ -14,6 +14,8 @@ from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
+from graphplan.phrases import Said, said
+
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
 SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
@@ -71,21 +73,21 @@ def named(name: str) -> Primitive:
     return TABLE[name]
 
 
-FAILURES: dict[str, tuple[str, str]] = {
-    "points-coincide": ("two points that should give a direction coincide", "move one of them, or ask for less"),
-    "lines-parallel": ("two lines that should meet are parallel", "--method trial, or let the form be chosen"),
-    "no-direction": ("a given direction has no length", "give another direction"),
-    "circles-miss": ("two circles do not meet", "check the lengths"),
-    "circles-concentric": ("two circles have the same centre", "check the centres"),
-    "line-misses-circle": ("the line passes the circle by", "check the lengths"),
+FAILURES: dict[str, tuple[Said, str]] = {
+    "points-coincide": (said("two points that should give a direction coincide"), "move one of them, or ask for less"),
+    "lines-parallel": (said("two lines that should meet are parallel"), "--method trial, or let the form be chosen"),
+    "no-direction": (said("a given direction has no length"), "give another direction"),
+    "circles-miss": (said("two circles do not meet"), "check the lengths"),
+    "circles-concentric": (said("two circles have the same centre"), "check the centres"),
+    "line-misses-circle": (said("the line passes the circle by"), "check the lengths"),
     "locus-undetermined": (
-        "the link's pole lies in the point, so its loci say nothing of it", "another pose: this one is singular",
+        said("the link's pole lies in the point, so its loci say nothing of it"), "another pose: this one is singular",
     ),
     "couple-alone": (
-        "a force is nothing, so that it cannot take up a couple", "leave the couple beside it (--inertia couple)",
+        said("a force is nothing, so that it cannot take up a couple"), "leave the couple beside it (--inertia couple)",
     ),
-    "trials-agree": ("both trial figures miss by the same amount", "another pose: this one is singular"),
-    "not-rational": ("a root is irrational", "leave out --exact"),
+    "trials-agree": (said("both trial figures miss by the same amount"), "another pose: this one is singular"),
+    "not-rational": (said("a root is irrational"), "leave out --exact"),
 }
 
 

@@ -77,8 +77,8 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
 
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "The reaction from {3} to {4} touches the friction circle of {0}, of radius {radius}: for its couple, "
-           "against the turning shown by {1}{2}, take a pair of forces at {0} and {1}; from {5} lay off that at {1}, "
-           "mark {out}.",
+           "against the turning that the vector from {1} to {2} shows, take a pair of forces at {0} and {1}; from {5} "
+           "lay off that at {1}, mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("rubs", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
            params=("radius",), source="Ozols 1974, 12-4, fig. 12-11")
 def journal(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, m: Any, /, *, radius: Any) -> Any:
@@ -95,7 +95,7 @@ def journal(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, m: Any, /, *, radius
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "The reaction from {2} to {3} leans by the friction angle, of tangent {coefficient}, against the sliding "
-           "shown by {0}{1}: from {4} lay off its part along the guide; mark {out}.",
+           "that the vector from {0} to {1} shows: from {4} lay off its part along the guide; mark {out}.",
            claims=(("drags", 0, 1, 2, 3, 4),), params=("coefficient",),
            source="Ozols 1974, 12-1")
 def drag(d: Any, B: Any, w: Any, p: Any, q: Any, m: Any, /, *, coefficient: Any) -> Any:

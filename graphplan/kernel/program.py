@@ -208,7 +208,7 @@ class Program:
         step = self.steps[index]
         if step.name:
             return step.name
-        if step.op.name == "line" and all(self.steps[arg].name for arg in step.args):
+        if step.op.name == "line" and all(_joins(self.steps[arg].name) for arg in step.args):
             return "".join(self.steps[arg].name for arg in step.args)
         return NUMBERED[step.op.gives](self.number(index))
 
@@ -245,6 +245,12 @@ class Program:
         """A step in words, with the law or purpose where there is one."""
         step = self.steps[index]
         return arranged("{0} ({1:capital}.)", self.sentence(index), step.why) if step.why else self.sentence(index)
+
+
+def _joins(name: str) -> bool:
+    """Whether a point's name can stand beside another's, as in KA: words such as pi would run together."""
+    letters = name.partition("_")[0]
+    return bool(name) and not (len(letters) > 1 and letters.isalpha())
 
 
 def _plain(value: Any) -> str:

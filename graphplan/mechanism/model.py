@@ -166,12 +166,49 @@ class Loads:
 
 
 @dataclass(frozen=True)
+class Presentation:
+    """How a scene wishes its sheet: texts that are empty, and scales that are None, are left to graphplan.
+
+    `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by
+    how much other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as
+    drawn per real.
+    """
+
+    paper: str = ""
+    frame: str = "iso"
+    owner: str = ""
+    number: str = ""
+    date: str = ""
+    drawn_by: str = "graphplan"
+    approved_by: str = ""
+    language: str = ""
+    k_s: Fraction | None = None
+    k_v: Fraction | None = None
+    k_a: Fraction | None = None
+    k_F: Fraction | None = None
+    multiples: dict[str, Fraction] = field(default_factory=dict)
+    convention: str = "real"
+
+    @property
+    def kappa(self) -> Fraction | None:
+        """How long a speed of one is drawn, where two of the scales of lengths, velocities and accelerations tie it."""
+        if self.k_s and self.k_v:
+            return self.k_s / self.k_v
+        return self.k_v / self.k_a if self.k_v and self.k_a else None
+
+    @property
+    def phi(self) -> Fraction | None:
+        """How long a force of one is drawn, where the scales of lengths and forces tie it."""
+        return self.k_s / self.k_F if self.k_s and self.k_F else None
+
+
+@dataclass(frozen=True)
 class Scene:
     """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
 
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
-    where no forces are asked for. `text` is the scene as it was written.
+    where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written.
     """
 
     title: str
@@ -187,6 +224,7 @@ class Scene:
     find: Find
     irrational: tuple[str, ...] = ()
     loads: Loads | None = None
+    sheet: Presentation = Presentation()
     text: str = field(default="", repr=False, compare=False)
 
     @property

@@ -16,7 +16,7 @@ from graphplan.mechanism.faults import Faults, perhaps
 from graphplan.mechanism.items import Item, quoted
 from graphplan.mechanism.loads import TABLES as LOADS
 from graphplan.mechanism.loads import check_loads, read_loads, read_reactions
-from graphplan.mechanism.model import FRAME, Find, Placement, Scene, Slide
+from graphplan.mechanism.model import FRAME, Find, Placement, Presentation, Scene, Slide, Units
 from graphplan.mechanism.numerals import decimal
 from graphplan.mechanism.placements import needs, place, read_placement
 from graphplan.mechanism.sections import (
@@ -29,7 +29,7 @@ from graphplan.mechanism.sections import (
     read_units,
 )
 
-_TABLES = ("title", "source", "gravity", "units", "points", "links", "slides", "drive", "motion", "find")
+_TABLES = ("title", "source", "gravity", "units", "points", "links", "slides", "drive", "motion", "find", "sheet")
 
 
 def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
@@ -117,11 +117,12 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
     slides = read_slides(items["slides"], names)
     drives = read_drives(items["drive"], names, slides)
     motions = read_motions(items["motion"], names)
+    units = read_units(items["units"])
     scene = Scene(
         title=_text(items.get("title")),
         source=_text(items.get("source")),
         name=name,
-        units=read_units(items["units"]),
+        units=units,
         points={point: placed.get(point, (Fraction(0), Fraction(0))) for point in points},
         placements={point: placements[point] for point in points if point in placements},
         links=names.links,
@@ -131,6 +132,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         find=_find(items.get("find"), names, slides),
         loads=read_loads(items, names, slides),
         irrational=tuple(names.irrational),
+        sheet=_presentation(items.get("sheet"), units),
     )
     _check(scene, placed, faults)
     return scene
@@ -159,6 +161,15 @@ def _placements(points: dict[str, Item], table: Item) -> dict[str, Placement]:
 
 def _text(item: Item | None) -> str:
     return (item.text("a text", "a text in quotes") or "") if item else ""
+
+
+def _presentation(item: Item | None, units: Units) -> Presentation:
+    """How the sheet should look; few scenes say."""
+    if item is None:
+        return Presentation()
+    from graphplan.mechanism.presentation import read_presentation
+
+    return read_presentation(item, units)
 
 
 def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:

@@ -10,6 +10,7 @@ from collections.abc import Collection
 from typing import Any
 
 from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.presentation import CODES, CONVENTIONS, FRAMES, PAPERS, RATIO
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
@@ -179,6 +180,31 @@ def _friction() -> Fragment:
     return {"anyOf": [journal, sliding]}
 
 
+def _sheet() -> Fragment:
+    """How the sheet should look, what its title block says, and the scales that are not left to graphplan."""
+    return table({
+        "paper": told("the sheet; without it the smallest that will do", {"enum": [*PAPERS]}),
+        "frame": told("frame and title block after ISO 5457 and ISO 7200, or after GOST 2.301 and GOST 2.104",
+                      {"enum": [*FRAMES], "default": "iso"}),
+        "language": told("the language of all words on the sheet", {"enum": [*CODES], "default": "en"}),
+        "convention": told("scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
+                           {"enum": [*CONVENTIONS], "default": "real"}),
+        "owner": told("the legal owner, for the title block", TEXT),
+        "number": told("the identification number", TEXT),
+        "date": told("the date of issue", TEXT),
+        "drawn_by": told("who drew it", {**TEXT, "default": "graphplan"}),
+        "approved_by": told("who approved it", TEXT),
+        "scale": told("the scale of the mechanism plan, a ratio of paper to scene",
+                      {"type": "string", "pattern": f"^{RATIO}$"}),
+        "k_s": told("the same as lengths of the scene for a mm of paper", ABOVE_0),
+        "k_v": told("the speed, in length/s, for a mm of paper", ABOVE_0),
+        "k_a": told("the acceleration, in length/s^2, for a mm of paper", ABOVE_0),
+        "k_F": told("the force for a mm of paper", ABOVE_0),
+        "multiples": told("how many times as large as by these scales other plans are drawn, by their names",
+                          named(ABOVE_0, TEXT)),
+    }, required=())
+
+
 def scene() -> Fragment:
     """The JSON Schema of a scene file."""
     tables = table({
@@ -194,6 +220,7 @@ def scene() -> Fragment:
         "drive": told("what drives it: one entry for each degree of freedom", listed(_drive())),
         "motion": told("the given motion of a point, for open chains", _motion()),
         "find": told("what is asked for; without it the velocity and acceleration of every joint", _find()),
+        "sheet": told("how the sheet should look; the command line has the last word", _sheet()),
         "masses": told("the mass of a link", _masses()),
         "forces": told("a force on a link", listed(_force())),
         "moments": told("a moment on a link", listed(_moment())),

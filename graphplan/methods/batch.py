@@ -118,8 +118,10 @@ def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: slice) -> dict[Any, dic
 
 
 def stretch(construction: Construction, given: Coordinates, results: Results, machine: bool) -> Faults:
-    """Fill the results of one stretch of poses; its faults, by place."""
+    """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
     faults: Faults = {}
+    if not results:
+        return faults
     free = tuple((key, name) for key, numbers in given.items() for name in numbers)
     replay = construction.replay_of(free, tuple(results))
     left = [slice(None)] if replay is None or not given else replay.run(given, results, machine)

@@ -71,7 +71,8 @@ class Draughtsman:
         for name in names:
             place = (name, "")
             if place not in plan.ends:
-                raise Refused(f"point {name}", "no construction known here reaches it", "ask for other points")
+                why = said("no construction known here reaches it")
+                raise Refused(said("point {0}", name), why, "ask for other points")
             self.read(kind, name, plan.home(place), plan.ends[place])
 
     def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, fields
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from graphplan.errors import ConstructionError
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import BY_SET_SQUARE, RATHER, STRICT, Expander, Window, form_named
 from graphplan.kernel.kinds import POINT
@@ -50,7 +51,7 @@ class Reading(NamedTuple):
     marks: tuple[int, ...]
 
 
-@dataclass
+@dataclass(repr=False)
 class Construction:
     """Ordered drawing steps for a scene, and what they give.
 
@@ -70,6 +71,15 @@ class Construction:
     notes: list[str] = field(default_factory=list)
     phi: Number = 1
     shown: tuple[Reading, ...] = ()
+
+    def __repr__(self) -> str:
+        """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""
+        try:
+            ways = [f"; {kind} by {', '.join(map(str, found))}" for kind, found in self.method.items()]
+            told = f"{len(self.drawn) - self.drawn.givens} steps{''.join(ways)}"
+        except ConstructionError as singular:
+            told = singular.code
+        return f"<Construction of {self.scene.title}: {told}>"
 
     @cached_property
     def truth(self) -> list[Any]:

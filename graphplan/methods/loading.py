@@ -218,7 +218,10 @@ class Loading:
 
 
 def force_scale(scene: Scene) -> Number:
-    """How long a unit of force is drawn: the largest load about a third of the mechanism, in a round number."""
+    """How long a unit of force is drawn: as the scales of the sheet have it, else the largest load about a third of
+    the mechanism, in a round number."""
+    if scene.sheet.phi:
+        return scene.sheet.phi
     loads = scene.loads
     assert loads is not None
     size = extent(scene)

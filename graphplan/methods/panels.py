@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 
 from graphplan.mechanism.model import FRAME, Slide
-from graphplan.phrases import Said, arranged, phrase, said
+from graphplan.phrases import Said, arranged, joined, phrase, said
 
 MECHANISM, LEVER, FRICTION, FORCE_PLAN = "mechanism", "lever", " with friction", "force plan "
 PLANS = {
@@ -20,7 +20,7 @@ def spoken(panel: str) -> Said:
         pattern = phrase("force plan with friction of {0}" if _rubs(panel) else "force plan of {0}")
         return pattern(listed(_links(panel)))
     if panel.startswith(f"{LEVER} "):
-        return said("lever {0}", panel.removeprefix(f"{LEVER} "))
+        return said("lever {0}", _whose(panel.removeprefix(f"{LEVER} ")))
     name, _, part = panel.partition(", part ")
     plan = PLANS[name]() if name in PLANS else arranged("{0}", name)
     return said("{0}, part {1}", plan, part) if part else plan
@@ -29,14 +29,7 @@ def spoken(panel: str) -> Said:
 def caption(panel: str, kinds: Collection[str]) -> Said:
     """What a plan is; `kinds` are the kinds of vector drawn on it."""
     if panel == MECHANISM:
-        match "velocity" in kinds, "load" in kinds:
-            case True, True:
-                return said("Mechanism plan with orthogonal velocities and loads")
-            case True, False:
-                return said("Mechanism plan with orthogonal velocities")
-            case False, True:
-                return said("Mechanism plan with loads")
-        return said("Mechanism plan")
+        return _over_the_mechanism(kinds)
     if panel == "N-plan":
         return said("N-plan: relative normal accelerations")
     if panel.startswith(FORCE_PLAN):
@@ -46,6 +39,28 @@ def caption(panel: str, kinds: Collection[str]) -> Said:
     if panel.startswith(f"{LEVER} "):
         return _served(panel.removeprefix(f"{LEVER} "))
     return arranged("{0:capital}", spoken(panel))
+
+
+def _over_the_mechanism(kinds: Collection[str]) -> Said:
+    """What the mechanism's plan shows; where only compasses and straightedge draw, all plans lie on it."""
+    if not {"part", "reaction", "balance"}.isdisjoint(kinds):
+        return said("Mechanism, velocities, accelerations and forces in one plane")
+    match "velocity" in kinds, "acceleration" in kinds, "load" in kinds:
+        case True, True, _:
+            return said("Mechanism, velocities and accelerations in one plane")
+        case True, False, True:
+            return said("Mechanism plan with orthogonal velocities and loads")
+        case True, False, False:
+            return said("Mechanism plan with orthogonal velocities")
+        case False, _, True:
+            return said("Mechanism plan with loads")
+    return said("Mechanism plan")
+
+
+def _whose(what: str) -> Said:
+    """What a lever serves, in short: a balance by its number, or a reaction with its axis, as `2 at B, x`."""
+    site, _, axis = what.rpartition(", ")
+    return joined((acting(site), axis)) if site else arranged("{0}", what)
 
 
 def _served(what: str) -> Said:
@@ -83,4 +98,21 @@ def link_named(link: str) -> Said:
 
 def slide_named(slide: Slide) -> Said:
     """A slide by its links: 3 along 2, or 3 along the frame."""
-    return said("{0} along {1}", *(said("frame") if link == FRAME else link for link in (slide.link, slide.along)))
+    return sliding(slide.name)
+
+
+def sliding(name: str) -> Said:
+    """A slide by its name in results, such as `3 along frame`."""
+    link, _, guide = name.partition(" along ")
+    return said("{0} along {1}", _bare(link), _bare(guide))
+
+
+def acting(name: str) -> Said:
+    """The link and the joint of a reaction by its name in results, such as `2 at B`."""
+    link, _, point = name.rpartition(" at ")
+    return joined((_bare(link), said("at {0}", point)), " ")
+
+
+def _bare(link: str) -> str:
+    """A link's name alone, or the frame."""
+    return said("frame") if link == FRAME else link

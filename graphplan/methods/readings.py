@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from graphplan.methods.panels import acting, sliding
 from graphplan.phrases import Said, phrase
 
 KINDS = {
@@ -19,3 +20,10 @@ KINDS = {
 def kind_named(kind: str) -> Said:
     """A kind of reading in words."""
     return KINDS[kind]()
+
+
+def thing_named(kind: str, of: str) -> str:
+    """What a reading of a kind is of, in words: a slide, a link at a joint, else a point, link or number as it is."""
+    if kind.startswith("slide "):
+        return sliding(of)
+    return acting(of) if kind == "reaction" else of

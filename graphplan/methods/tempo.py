@@ -40,7 +40,10 @@ class Tempo(NamedTuple):
 
 
 def tempo(scene: Scene) -> Tempo:
-    """The scene's tempo: that of its first turning drive; else the fastest speed is drawn a fifth of the mechanism."""
+    """The scene's tempo: that of the scales its sheet names, or of its first turning drive; else the fastest speed is
+    drawn a fifth of the mechanism."""
+    if scene.sheet.kappa:
+        return Tempo(1 / scene.sheet.kappa)
     for drive in scene.drives:
         if isinstance(drive, TurningDrive) and drive.omega:
             return Tempo(drive.omega if drive.omega > 0 else -drive.omega)

@@ -7,19 +7,43 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from graphplan.sheet.composition import Composition
+    from graphplan.sheet.display import Sheet
     from graphplan.sheet.planes import Drawing
 
 
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-        composition: Composition | None = None, language: str = "en") -> str:
-    """The construction sheet as SVG text, in a language by its code, such as de.
+        composition: Composition | None = None, language: str | None = None) -> str:
+    """The construction sheet as SVG text, in a language by its code, such as de; without it in that of the scene.
 
     Reads a construction, the name of a sheet (such as `A3` or `A4 portrait`; without it the smallest good one is
     taken) and what the check against the analytic solver found, by kind; or the composition of the sheet, if it is
     composed already, such as with the expected drawing errors. Fails with `Refused` where the words do not fit.
     """
     from graphplan.backends.svg import svg as write
+
+    return write(_laid_out(drawing, paper, check, composition, language))
+
+
+def pdf(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+        composition: Composition | None = None, language: str | None = None) -> bytes:
+    """The construction sheet as a PDF document of one page, in true size; reads and fails as :func:`svg` does."""
+    from graphplan.backends.ink import pdf as write
+
+    return write([_laid_out(drawing, paper, check, composition, language)])
+
+
+def png(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+        composition: Composition | None = None, language: str | None = None, *, dpi: float = 150) -> bytes:
+    """The construction sheet as a picture of so many dots per inch; else reads and fails as :func:`svg` does."""
+    from graphplan.backends.ink import png as write
+
+    return write(_laid_out(drawing, paper, check, composition, language), dpi)
+
+
+def _laid_out(drawing: Drawing, paper: str | None, check: Mapping[str, Any] | None, composition: Composition | None,
+              language: str | None) -> Sheet:
+    """The sheet as a display list, in a language by its code."""
     from graphplan.sheet.layout import layout
     from graphplan.words.tongue import tongue
 
-    return write(layout(drawing, paper, check, composition, tongue(language)))
+    return layout(drawing, paper, check, composition, tongue(language) if language else None)

@@ -11,7 +11,7 @@ from graphplan.sheet.pens import BORDER
 from graphplan.sheet.rows import LEADING, Cell, Placed, Row, lettered
 from graphplan.sheet.tables import APART, Table
 
-TALL = 6.5  # mm: a box has room for a number by hand
+TALL, TIGHT = 6.5, 5.2  # mm: a box has room for a number by hand, also where space is short
 NARROW = 11.0  # mm: the least that a number by hand needs
 TOGETHER = 15  # rows of a table stand in one column
 TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
@@ -56,6 +56,14 @@ def ticked(row: Row) -> Blank:
     low = (SIZE * LEADING - TICK) / 2
     box = Rect(0.0, low, TICK, low + TICK)
     return Blank(row.cells, gap=row.gap, step=row.step, keep=row.keep, boxes=(box,))
+
+
+def tightened(row: Row) -> Row:
+    """The row where space is short: nearer to the one above, its boxes for numbers lower."""
+    if isinstance(row, Blank) and row.tall > TIGHT:
+        boxes = tuple(replace(box, top=TIGHT) for box in row.boxes)
+        return replace(row, gap=row.gap / 2, tall=TIGHT, boxes=boxes)
+    return replace(row, gap=row.gap / 2)
 
 
 def written(placed: Sequence[Placed]) -> Iterator[Item]:

@@ -13,7 +13,8 @@ from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.planes import Planes
 from graphplan.sheet.scales import Scales, times
 
-HEAD, LINE = 3.0, 3.7  # mm: the size of a plan's name, from base line to base line
+HEAD = 3.0  # mm: the size of a plan's name
+LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base line, and from base line to base line
 
 
 def captions(rect: Rect, panel: str, planes: Planes, scales: Scales) -> Iterator[Text]:
@@ -23,7 +24,8 @@ def captions(rect: Rect, panel: str, planes: Planes, scales: Scales) -> Iterator
     heads = wrap(sentence_runs(planes.tongue(head)), HEAD, rect.width - 5, bold=True)
     told = planes.tongue(joined(scales.said(panel, kinds), ",  "))
     lines: list[Runs] = [*heads, *wrap(sentence_runs(told), SIZE, rect.width - 5)]
+    first, pitch = LINES[min(max(len(lines), 2), 3)]
     for i, runs in enumerate(lines[:3]):
         bold = i < len(heads)
-        yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - 4.6 - LINE * i), runs,
+        yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - first - pitch * i), runs,
                    HEAD if bold else SIZE, bold=bold)  # fmt: skip

@@ -8,15 +8,18 @@ from typing import Any
 
 from graphplan.sheet.composition import Composition, composed
 from graphplan.sheet.deviations import Deviations
+from graphplan.sheet.frame import frame_of
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.texts import Words
-from graphplan.sheet.title import TitleBlock
-from graphplan.words.tongue import ENGLISH, Tongue
+from graphplan.words.tongue import Tongue
+from graphplan.words.tongue import tongue as tongue_of
 
 
 def compose(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-            pencil: Deviations | None = None, tongue: Tongue = ENGLISH) -> Composition:
-    """Where everything goes: on the paper named, or on the smallest good one.
+            pencil: Deviations | None = None, tongue: Tongue | None = None) -> Composition:
+    """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
+
+    Without a tongue it speaks that of the scene's sheet.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
@@ -27,12 +30,13 @@ class Composer:
     """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
 
     def __init__(self, drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-                 tongue: Tongue = ENGLISH):
-        self.planes, self.paper = Planes(drawing, tongue), paper
-        self.words = Words(self.planes, check or {})
-        self.title = TitleBlock(drawing.scene.title, drawing.scene.source, tongue)
+                 tongue: Tongue | None = None):
+        scene = drawing.scene
+        say = tongue or tongue_of(scene.sheet.language or "en")
+        self.planes, self.paper = Planes(drawing, say), paper or scene.sheet.paper or None
+        self.words, self.title = Words(self.planes, check or {}), frame_of(scene).block(scene, say)
 
     def compose(self, pencil: Deviations | None = None) -> Composition:
         """The composition with these drawing errors told on it."""
         rows = cache(partial(self.words.rows, pencil=pencil or Deviations()))
-        return composed(self.planes, rows, cache(self.title.height), self.paper)
+        return composed(self.planes, rows, self.title, self.paper)

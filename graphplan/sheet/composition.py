@@ -9,13 +9,18 @@ from fractions import Fraction
 
 from graphplan.errors import Refused
 from graphplan.methods.panels import FRICTION, MECHANISM
-from graphplan.sheet.paper import SIZES, Arrangement, Measure, arrangements, inside, room
+from graphplan.sheet.frame import frame_of
+from graphplan.sheet.given_scales import ROUNDING, GivenScales, given_scales
+from graphplan.sheet.paper import Arrangement, Measure, arrangements, inside, room
 from graphplan.sheet.planes import Figure, Planes, around
 from graphplan.sheet.rows import Row
-from graphplan.sheet.scales import Scales
-from graphplan.sheet.view import View, plan_box, plan_multiple, plan_scale, view, whole
+from graphplan.sheet.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.scales import times as as_multiple
+from graphplan.sheet.title import TitleBlock
+from graphplan.sheet.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
+TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
 FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
@@ -37,13 +42,22 @@ class Composition:
     def score(self) -> tuple[float, float]:
         """How large the plans are, and among equals how large the smallest is beside its need.
 
-        The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has.
+        The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
+        plan without marks, as where nothing is asked, needs nothing.
         """
         marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
-        return round(large, 9), min(self._size(panel) / need for panel, need in self.needs.items())
+        shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
+        return round(large, 9), min(shown, default=0.0)
+
+    @property
+    def oversized(self) -> dict[str, float]:
+        """The plans that do not fit their panels at a given scale, and by how much they are too large."""
+        much = {panel: least(self.figures[panel].core, inside(window.rect)) * window.scale
+                for panel, window in self.views.items()}
+        return {panel: times for panel, times in much.items() if times > 1 + ROUNDING}
 
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
@@ -56,25 +70,49 @@ class Composition:
         return max(core.width, core.height) * self.views[panel].scale
 
 
-def composed(planes: Planes, rows: Measure[Sequence[Row]], title: Measure[float], paper: str | None) -> Composition:
+def composed(planes: Planes, rows: Measure[Sequence[Row]], title: TitleBlock, paper: str | None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
-    Fails with `Refused` where the words do not fit the paper named.
+    Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     figures = {panel: planes.figure(panel) for panel in planes.panels}
     needs = {panel: math.sqrt(len(planes.points(panel))) for panel in planes.panels}
-    papers = [paper] if paper else ["A4", "A4 portrait", *list(SIZES)[1:]]
+    frame, given = frame_of(planes.drawing.scene), given_scales(planes)
     best: Composition | None = None
-    for name in papers:
-        found = list(arrangements(name, needs, rows, title))
+    tried: list[Composition] = []
+    for name in [frame.paper(paper)] if paper else frame.papers:
+        found = list(arrangements(name, needs, rows, frame, title))
         good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
-        if good:
-            best = max((_windows(a, figures, needs, planes) for a in good), key=lambda c: c.score)
-            if _legible(planes, best.views, name):
+        tried = [_windows(a, figures, needs, planes, given) for a in good] or tried
+        fitting = [composition for composition in tried if not composition.oversized]
+        if good and fitting:
+            best = max(fitting, key=lambda c: c.score)
+            if given.k_s or _legible(planes, best.views, name):
                 return best
     if best is None:
-        raise Refused(f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
+        raise _too_large(tried) if tried else _too_small(paper)
     return best
+
+
+def _too_small(paper: str | None) -> Refused:
+    """The refusal of paper that has no room for the words."""
+    return Refused(f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
+
+
+def _too_large(tried: Sequence[Composition]) -> Refused:
+    """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
+    nearest = min(tried, key=lambda composition: max(composition.oversized.values()))
+    scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversized
+    if MECHANISM in oversized:
+        k_s = round_up(scales.k_s * oversized[MECHANISM])
+        most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
+        return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
+                       f"{most}, or a larger sheet")  # fmt: skip
+    panel, times = max(oversized.items(), key=lambda item: item[1])
+    multiple = scales.multiples[panel]
+    most = f"{as_multiple(multiple_below(float(multiple) / times))} or less in [sheet.multiples]"
+    return Refused(f"sheet: the {panel} {as_multiple(multiple)}", f"it does not fit on {paper}",
+                   f"{most}, or a larger sheet")  # fmt: skip
 
 
 def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
@@ -84,24 +122,21 @@ def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
 
 
 def _open(arrangement: Arrangement) -> bool:
-    """Whether every panel has any room for its figure."""
-    rooms = [inside(room(rect)) for rect in arrangement.panels.values()]
-    return all(rect.width > 0 and rect.height > 0 for rect in rooms)
+    """Whether every panel has room for its caption and a figure, however small."""
+    return all(min(rect.width, rect.height) >= TIGHTEST for rect in arrangement.panels.values())
 
 
-def _windows(
-    arrangement: Arrangement, figures: Mapping[str, Figure], needs: Mapping[str, float], planes: Planes
-) -> Composition:
-    """The round scales and the windows for one arrangement."""
+def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], needs: Mapping[str, float], planes: Planes,
+             given: GivenScales) -> Composition:
+    """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    k_s, box = plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))
-    views = {MECHANISM: view(box, rooms[MECHANISM], k_s)}
+    k_s = given.k_s or plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))[0]
     multiples = _alike({p: plan_multiple(figures[p], inside(rooms[p]), k_s) for p in planes.panels[1:]})
-    for panel, multiple in multiples.items():
-        units = k_s / float(multiple)
-        views[panel] = view(plan_box(figures[panel], inside(rooms[panel]), units), rooms[panel], units)
     drawing, names = planes.drawing, planes.drawing.scene.units
-    scales = Scales(k_s, drawing.kappa, names.length, multiples, float(drawing.phi), names.force)
+    scales = Scales(k_s, drawing.kappa, names.length, multiples | given.multiples, float(drawing.phi), names.force,
+                    drawing.scene.sheet.convention)  # fmt: skip
+    boxes = {panel: plan_box(figure, inside(rooms[panel]), scales.of(panel)) for panel, figure in figures.items()}
+    views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
     return Composition(arrangement, scales, views, needs, figures, planes)
 
 

@@ -10,15 +10,18 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
 from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import Said
 from graphplan.sheet.blanks import written
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.labels import placed
+from graphplan.sheet.layout import titled
 from graphplan.sheet.lettering import listed
-from graphplan.sheet.pages import paged
+from graphplan.sheet.pages import packed
 from graphplan.sheet.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.places import Wish
 from graphplan.sheet.task import Task
+from graphplan.sheet.title import GUIDED, TASK
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 EDGE = 0.01  # mm by which what is on an edge may be beyond it
@@ -27,25 +30,27 @@ FREE = 4.0  # mm about a beginning without crosses
 
 def task(solution: Sheet, composition: Composition) -> list[Sheet]:
     """The task of a solution: the mechanism, what is given and asked, empty plans, and a table to fill."""
-    return list(_pages(solution, composition, guided=False))
+    return list(_pages(solution, composition, TASK))
 
 
 def guided(solution: Sheet, composition: Composition) -> list[Sheet]:
     """The same with the steps in words, a box to tick before each; the drawing is the student's."""
-    return list(_pages(solution, composition, guided=True))
+    return list(_pages(solution, composition, GUIDED))
 
 
-def _pages(solution: Sheet, composition: Composition, guided: bool) -> Iterator[Sheet]:
+def _pages(solution: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The sheet with its plans, and the pages of words that do not fit beside them."""
     arrangement = composition.arrangement
-    words = Task(composition.planes).lines(arrangement.columns[0].width, guided)
-    bare = [item for item in solution.items if item.step is None and not _within(item, arrangement.columns)]
+    words = Task(composition.planes).lines(arrangement.columns[0].width, document == GUIDED)
+    apart = (*arrangement.columns, arrangement.title)
+    bare = [item for item in solution.items if item.step is None and not _within(item, apart)]
     plans = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not _within(item, arrangement.panels.values())]
-    for number, page in enumerate(paged(words, arrangement)):
-        items = [*empty, *written(page)] if number else [*bare, *plans, *written(page)]
-        panels = {} if number else solution.panels
-        yield replace(solution, items=tuple(items), panels=panels)
+    pages = packed(words, arrangement)
+    for number, page in enumerate(pages, 1):
+        block = titled(composition, document, number, len(pages))
+        items = [*(bare + plans if number == 1 else empty), *block, *written(page)]
+        yield replace(solution, items=tuple(items), panels=solution.panels if number == 1 else {})
 
 
 def _within(item: Item, rects: Iterable[Rect]) -> bool:

@@ -16,7 +16,7 @@ from graphplan.sheet import pens
 from graphplan.sheet.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.lettering import CAPS
 from graphplan.sheet.obstacles import Lines, Marks, Surfaces, around, meet
-from graphplan.sheet.places import AIR, BALLOON, OUTWARDS, Array, Places, Wish, places
+from graphplan.sheet.places import AIR, BALLOON, OUTWARDS, SMALL, Array, Places, Wish, places
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
 NEXT = 1.5  # a place dearer by no more than this is a choice as well
@@ -119,5 +119,8 @@ def _items(wish: Wish, place: Places) -> Iterator[Item]:
         base = middle[0], middle[1] - wish.size * CAPS / 2
         yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, "middle", label=wish.label)
     else:
-        base = left, low + wish.size * wish.depth
-        yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, bold=wish.bold, label=wish.label)
+        x, y = left, low + wish.size * wish.depth
+        yield Text(wish.pen, "letters", wish.step, (x, y), wish.runs, wish.size, bold=wish.bold, label=wish.label)
+        if wish.raised:
+            yield Text(pens.FAINT, "letters", wish.step, (x + wish.tail, y + wish.lift), wish.figures, SMALL,
+                       label=f"step {wish.raised}")

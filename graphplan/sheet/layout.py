@@ -6,40 +6,40 @@ from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
 from graphplan.methods.panels import spoken
-from graphplan.phrases import joined, said
+from graphplan.phrases import Said, joined, said
 from graphplan.sheet import pens
 from graphplan.sheet.captions import captions
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.display import Item, Polygon, Sheet
-from graphplan.sheet.paper import Arrangement
+from graphplan.sheet.frame import BORDER, frame_of
 from graphplan.sheet.picture import picture
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.rows import fill, lettered
 from graphplan.sheet.texts import RESULTS
-from graphplan.sheet.title import TitleBlock, ratio
-from graphplan.words.tongue import ENGLISH, Tongue
+from graphplan.sheet.title import CONSTRUCTION, Page
+from graphplan.words.tongue import Tongue
 
-BACK, FRONT = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
+BACK, FRONT = ("paper", BORDER, "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
 
 
 def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
-           composition: Composition | None = None, tongue: Tongue = ENGLISH) -> Sheet:
+           composition: Composition | None = None, tongue: Tongue | None = None,
+           document: Said = CONSTRUCTION) -> Sheet:
     """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.
 
-    Fails with `Refused` where the words do not fit the paper named.
+    `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
     planes = composition.planes
-    block = TitleBlock(drawing.scene.title, drawing.scene.source, planes.tongue)
     arrangement, scales = composition.arrangement, composition.scales
-    items = list(_frame(arrangement))
+    items = list(_framed(composition))
     for panel, window in composition.views.items():
         items += captions(arrangement.panels[panel], panel, planes, scales)
         items += picture(planes, panel, window)
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
-    items += block.items(arrangement.title, arrangement.paper.split()[0], ratio(scales.k_s, scales.length))
+    items += titled(composition, document)
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
         drawing.scene.title, _description(composition, planes), tuple(map(planes.tongue, drawing.sentences())), scales,
@@ -47,10 +47,19 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     )  # fmt: skip
 
 
-def _frame(arrangement: Arrangement) -> Iterator[Item]:
-    for rect, pen in ((arrangement.frame, pens.FRAME), *((rect, pens.BORDER) for rect in arrangement.panels.values())):
-        corners = (rect.left, rect.bottom), (rect.right, rect.bottom), (rect.right, rect.top), (rect.left, rect.top)
-        yield Polygon(pen, "paper", None, corners)
+def _framed(composition: Composition) -> Iterator[Item]:
+    """The frame with its border, and the panels."""
+    arrangement, planes = composition.arrangement, composition.planes
+    yield from frame_of(planes.drawing.scene).items(arrangement.paper, arrangement.frame, planes.tongue)
+    for rect in arrangement.panels.values():
+        yield Polygon(pens.BORDER, "paper", None, rect.corners)
+
+
+def titled(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:
+    """The title block of a page."""
+    arrangement, scene = composition.arrangement, composition.planes.drawing.scene
+    page = Page(document, arrangement.paper, composition.scales.ratio, number, of)
+    return frame_of(scene).block(scene, composition.planes.tongue).items(arrangement.title, page)
 
 
 def stacked(items: Iterable[Item]) -> list[Item]:

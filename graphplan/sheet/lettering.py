@@ -64,7 +64,7 @@ def name_runs(name: str) -> Runs:
     return _joined((Run(letter + primes), Run(GREEK.get(index, index), -1)))
 
 
-_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha)\b")
+_PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha|mu)\b")
 
 
 @lru_cache(maxsize=1024)  # the words of a sheet are set for every width of column that is tried

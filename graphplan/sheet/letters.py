@@ -3,26 +3,27 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet import clip, pens
 from graphplan.sheet.display import Spot
 from graphplan.sheet.lettering import listed, name_runs, sentence_runs
-from graphplan.sheet.places import Wish
-from graphplan.sheet.planes import Vector, corner
+from graphplan.sheet.places import SMALL, Wish
+from graphplan.sheet.planes import Vector, around, corner
 from graphplan.sheet.strokes import Stretch, Strokes, towards
 from graphplan.sheet.symbols import RADIUS
 
-SMALL = 2.0  # the figures of marks without a letter
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
 NEAR = 0.25
+NUMBERED = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
+STRUCK = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
 
 Span = tuple[Spot, Spot]
 
@@ -38,11 +39,13 @@ class Letters:
         return self.strokes.planes.drawing.drawn
 
     def wishes(self) -> Iterator[Wish]:
-        """The letters of the plan: marks, loci, vectors, and the numbers of marks without a letter."""
+        """The letters of the plan: marks, loci, vectors, and the numbers of marks that are spoken of by them."""
         yield from self._point_letters()
         for step in self.strokes.steps:
             if step.index in self.strokes.stretches:
                 yield from self._line_letters(step, self.strokes.stretches[step.index])
+            elif step.op.gives == CIRCLE and self._numbered:
+                yield from self._arc_number(step)
         spans = self._spans()
         for (start, end), vectors in spans.items():
             yield from self._vector_letter(vectors, any(_same(span, (end, start)) for span in spans))
@@ -54,11 +57,23 @@ class Letters:
             lettered = [step for step in steps if step.name]
             if lettered:
                 names, bold = [step.name for step in lettered], all(map(corner, lettered))
-                yield Wish(listed(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold)
+                yield Wish(listed(names), (spot,), clear, step=lettered[0].index, label=",".join(names), bold=bold,
+                           raised=self._raised(*lettered))
             numbered = [step for step in steps if not step.name]
             if numbered:
-                said = ", ".join(str(self.drawn.number(step.index)) for step in numbered)
+                said = self._numbers(*numbered)
                 yield Wish(sentence_runs(said), (spot,), clear, SMALL, pens.FAINT, numbered[0].index, f"point {said}")
+
+    @property
+    def _numbered(self) -> bool:
+        return self.strokes.planes.numbered
+
+    def _numbers(self, *steps: Step) -> str:
+        return ", ".join(str(self.drawn.number(step.index)) for step in steps)
+
+    def _raised(self, *steps: Step) -> str:
+        """The numbers that letters bear, where they do."""
+        return self._numbers(*steps) if self._numbered else ""
 
     def _places(self) -> dict[Spot, list[Step]]:
         """The marks that need a letter or number, by where they lie."""
@@ -76,8 +91,8 @@ class Letters:
         return any(math.dist(view(planes.place(name)), spot) < 1.0 for name in planes.drawing.scene.points)
 
     def _spoken(self, step: Step) -> bool:
-        """Whether a mark has a letter, or is spoken of by its number in a later step."""
-        return bool(step.name) or step.index in self._read
+        """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
+        return bool(step.name) or step.index in self._read or self._numbered
 
     @cached_property
     def _read(self) -> set[int]:
@@ -88,16 +103,39 @@ class Letters:
     def _line_letters(self, step: Step, stretch: Stretch) -> Iterator[Wish]:
         """A locus' letter or a line's number, near an end; and where a line that breaks off goes."""
         drawn = self.drawn
-        spots = tuple(clip.between(stretch.start, stretch.end, t) for t in ALONG)
+        spots = tuple(clip.between(stretch.start, stretch.end, t) for t in self._along(step, stretch))
         if step.name:
-            yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True)
-        elif step.index in self._read:
-            number = str(drawn.number(step.index))
+            yield Wish(name_runs(step.name), spots, 0.5, step=step.index, label=step.name, free=True,
+                       raised=self._raised(step))
+        elif self._spoken(step):
+            number = self._numbers(step)
             yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
         for tip, tail, mark in stretch.breaks:
             name, near = drawn.text(mark), (towards(tip, tail, 2.0),)
             runs = sentence_runs(self.strokes.planes.tongue(said("to {0}", name)), (name,))
             yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
+
+    def _along(self, step: Step, stretch: Stretch) -> Sequence[float]:
+        """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""
+        if not self._numbered:
+            return ALONG
+        if self.strokes.directs(step):
+            return NUMBERED
+        out = math.dist(stretch.end, self._middle) >= math.dist(stretch.start, self._middle)
+        return (1.0, 0.0, *ALONG) if out else (0.0, 1.0, *(1.0 - t for t in ALONG))
+
+    @cached_property
+    def _middle(self) -> Spot:
+        """The middle of the plan's marks."""
+        return around([spot for i, spot in self.strokes.spots.items() if self.strokes.shown(i)]).centre
+
+    def _arc_number(self, step: Step) -> Iterator[Wish]:
+        """An arc's number, near an end of it."""
+        arcs = list(self.strokes.arcs(step))
+        spots = [arc.at(arc.start + (arc.end - arc.start) * t) for t in STRUCK for arc in arcs]
+        if inside := tuple(filter(self.strokes.view.rect.holds, spots)):
+            number = self._numbers(step)
+            yield Wish(sentence_runs(number), inside, 0.5, SMALL, pens.FAINT, step.index, f"arc {number}", free=True)
 
     def _spans(self) -> dict[Span, list[Vector]]:
         """The vectors by where they begin and end: some lie on each other."""

@@ -166,7 +166,9 @@ class Linkage:
         others = [p for p in self.scene.links[drive.link] if p not in pairs]
         if pairs and others:
             here = self.spots[pairs[0]]
-            yield from symbols.drive(here, unit(here, self.spots[others[0]]), 1.0 if drive.omega > 0 else -1.0)
+            ground = self._ground(pairs[0]) if pairs[0] in self._pivots else None
+            sign = 1.0 if drive.omega > 0 else -1.0
+            yield from symbols.drive(here, unit(here, self.spots[others[0]]), sign, ground)
 
     # ---- letters ---------------------------------------------------------------------------------------------------
 

@@ -1,10 +1,11 @@
-"""Paper: sheet sizes, the frame, and where the plans, the text columns and the title block lie.
+"""Paper: where the plans, the text columns and the title block lie on a sheet.
 
 The smallest sheet is taken on which the whole step list stands in legible lettering and the plans keep a good size.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -12,10 +13,12 @@ from typing import TypeVar
 from graphplan.errors import Refused
 from graphplan.sheet.display import Rect
 from graphplan.sheet.divisions import divisions
+from graphplan.sheet.frame import SIZES, Frame
 from graphplan.sheet.rows import Row, fill
+from graphplan.sheet.title import TitleBlock
 
-SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
-BINDING, EDGE, GUTTER, COLUMN = 20.0, 10.0, 5.0, 96.0
+GUTTER, COLUMN = 5.0, 96.0
+SLACK = 1e-6  # mm by which edges that should be one may differ
 CAPTION, MARGIN = 11.0, 9.0  # a panel's caption strip, and what is kept free for letters around its figure
 
 T = TypeVar("T")
@@ -56,56 +59,61 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 def arrangements(
-    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[Row]], title: Measure[float]
+    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[Row]], frame: Frame, title: TitleBlock
 ) -> Iterator[Arrangement]:
-    """The ways to divide one sheet that hold all the text.
-
-    `needs` says how much room each plan wants beside the others; `title` gives the title block's height for its width.
-    """
+    """The ways to divide one sheet that hold all the text; `needs` says how much room plans want beside each other."""
     wide, high = sheet_size(paper)
-    frame = Rect(BINDING, EDGE, wide - EDGE, high - EDGE)
-    for plans, columns, block in (*_beside(frame, rows, title), *_below(frame, rows, title)):
+    space = frame.space(wide, high)
+    for plans, columns, block in (*_beside(space, rows, title), *_below(space, rows, title)):
         for division in divisions(plans, needs):
-            yield Arrangement(paper, wide, high, frame, division, columns, block, tuple(rows(columns[0].width)))
+            yield Arrangement(paper, wide, high, space, division, columns, block, tuple(rows(columns[0].width)))
 
 
 Division = tuple[Rect, tuple[Rect, ...], Rect]
 
 
-def _beside(frame: Rect, rows: Measure[Sequence[Row]], title: Measure[float]) -> Iterator[Division]:
-    """Text in as few columns as hold it, to the right of the plans."""
+def _beside(space: Rect, rows: Measure[Sequence[Row]], title: TitleBlock) -> Iterator[Division]:
+    """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(COLUMN)
     pitch = COLUMN + GUTTER
-    for count in range(1, int(frame.width // pitch) + 1):
-        left = frame.right - count * pitch
-        block = Rect(left + (count - 1) * pitch, frame.bottom, frame.right, frame.bottom + title(pitch))
-        columns = _columns(Rect(left, frame.bottom, frame.right, frame.top), count, block)
+    block = lower_right(space, pitch, title)
+    for count in range(1, int(space.width // pitch) + 1):
+        left = space.right - count * pitch
+        columns = _columns(Rect(left, space.bottom, space.right, space.top), count, block)
         if fill(text, columns) is not None:
-            yield Rect(frame.left, frame.bottom, left, frame.top), columns, block
+            foot = block.top if block.left < left else space.bottom
+            yield Rect(space.left, foot, left, space.top), columns, block
             return
 
 
-def _below(frame: Rect, rows: Measure[Sequence[Row]], title: Measure[float]) -> Iterator[Division]:
+def _below(space: Rect, rows: Measure[Sequence[Row]], title: TitleBlock) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
-    count = int((frame.width + GUTTER) // (COLUMN + GUTTER))
-    pitch = frame.width / count
-    text, high = rows(pitch - GUTTER), title(pitch)
-    block = Rect(frame.right - pitch, frame.bottom, frame.right, frame.bottom + high)
-    strip, needed = max(high, 20.0), sum(row.height for row in text)
-    while count * strip - high < needed:  # whatever the columns, they cannot hold it
+    count = int((space.width + GUTTER) // (COLUMN + GUTTER))
+    pitch = space.width / count
+    text, block = rows(pitch - GUTTER), lower_right(space, pitch, title)
+    strip, needed = max(block.height, 20.0), sum(row.height for row in text)
+    covered = math.ceil(block.width / pitch - SLACK) * block.height
+    while count * strip - covered < needed:  # whatever the columns, they cannot hold it
         strip += 4.0
-    while strip < 0.75 * frame.height:
-        top = frame.bottom + strip
-        columns = _columns(Rect(frame.left, frame.bottom, frame.right, top), count, block)
+    while strip < 0.75 * space.height:
+        top = space.bottom + strip
+        columns = _columns(Rect(space.left, space.bottom, space.right, top), count, block)
         if fill(text, columns) is not None:
-            yield Rect(frame.left, top, frame.right, frame.top), columns, block
+            yield Rect(space.left, top, space.right, space.top), columns, block
             return
         strip += 4.0
+
+
+def lower_right(space: Rect, pitch: float, title: TitleBlock) -> Rect:
+    """Where the title block lies: in the lower right corner."""
+    wide = title.width(space, pitch)
+    return Rect(space.right - wide, space.bottom, space.right, space.bottom + title.height(wide))
 
 
 def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
-    """Equal columns; the last one ends above the title block."""
+    """Equal columns; those over the title block end above it."""
     pitch = region.width / count
-    lefts, feet = [region.left + i * pitch for i in range(count)], [region.bottom] * (count - 1) + [block.top]
+    lefts = [region.left + i * pitch for i in range(count)]
+    feet = [block.top if left + pitch > block.left + SLACK else region.bottom for left in lefts]
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
     return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2, 2.0) for slot in slots)

@@ -11,17 +11,17 @@ import numpy as np
 
 from graphplan.sheet import pens
 from graphplan.sheet.display import Rect, Spot
-from graphplan.sheet.lettering import CAPS, DEPTH, DROP, SIZE, Runs, width
+from graphplan.sheet.lettering import CAPS, DEPTH, DROP, SIZE, Run, Runs, width
 from graphplan.sheet.pens import Pen
 
 DIRECTIONS = np.array([(math.cos(i * math.pi / 8), math.sin(i * math.pi / 8)) for i in range(16)])
 TASTE = 0.02 * ((np.arange(16) - 2) % 16)  # among equals up and to the right, then on counter-clockwise
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
-FREE_RINGS = 3  # of a letter that may stand anywhere along a line
-LED = 3.4  # mm from which a thin leader ties a letter to its mark
+LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 AIR = 0.3  # mm free around a letter
 BALLOON = 2.1
+SMALL, APART = 2.0, 0.3  # mm: the figures of steps, and how far raised ones are from their letter
 
 Array = np.ndarray[Any, Any]
 OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
@@ -31,7 +31,8 @@ OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
 class Wish:
     """A letter that wants a place: near one of its spots, at least `clear` away from it.
 
-    `balloon` puts it in a circle, as link numbers are; `free` says that it may stand anywhere along a line.
+    `balloon` puts it in a circle, as link numbers are; `free` says that it may stand anywhere along a line; `raised`
+    are the numbers of steps that follow it as small raised figures.
     """
 
     runs: Runs
@@ -44,12 +45,27 @@ class Wish:
     bold: bool = False
     balloon: bool = False
     free: bool = False
+    raised: str = ""
 
     @property
     def extent(self) -> tuple[float, float]:
         if self.balloon:
             return 2 * BALLOON, 2 * BALLOON
-        return width(self.runs, self.size, self.bold), self.size * (CAPS + self.depth)
+        return self.tail + width(self.figures, SMALL), self.lift + SMALL * CAPS + self.size * self.depth
+
+    @property
+    def figures(self) -> Runs:
+        return (Run(self.raised),) if self.raised else ()
+
+    @property
+    def tail(self) -> float:
+        """Where the raised figures begin, beside the letters."""
+        return width(self.runs, self.size, self.bold) + (APART if self.raised else 0.0)
+
+    @property
+    def lift(self) -> float:
+        """How far above the base line the figures stand: half a capital; without any, they end where the letters do."""
+        return self.size * CAPS / 2 if self.raised else (self.size - SMALL) * CAPS
 
     @property
     def depth(self) -> float:
@@ -86,16 +102,16 @@ def places(wishes: Sequence[Wish], rect: Rect) -> Places:
     number = np.concatenate([np.arange(count) for count in counts])
     letter = np.repeat(np.arange(len(wishes)), counts)
     free, clear = np.array([(wish.free, wish.clear) for wish in wishes])[letter].T
-    at, ring = np.nonzero((free == 0)[:, None] | (np.arange(len(RINGS)) < FREE_RINGS))
+    at, ring = np.divmod(np.arange(len(spots) * len(RINGS)), len(RINGS))
     extent = np.array([wish.extent for wish in wishes])[letter[at]][:, None]
     gaps, costs = RINGS[ring].T
     sides = DIRECTIONS / abs(DIRECTIONS).max(axis=1, keepdims=True)  # to the edge of a square
     centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * DIRECTIONS + sides * extent / 2
     boxes = np.concatenate([centres - extent / 2, centres + extent / 2], axis=-1)
-    cost = costs[:, None] + (TASTE + (0.05 * number * free)[at][:, None])
+    led = gaps > LED
+    cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
-    led = (gaps > LED) & (free[at] == 0)
     found = Places(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
     return _with_outsiders(found, wishes, rect)
 

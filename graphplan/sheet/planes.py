@@ -81,10 +81,14 @@ class Figure:
 
 @dataclass(frozen=True)
 class Planes:
-    """A construction seen plan by plan, and the tongue in which its sheet speaks."""
+    """A construction seen plan by plan, and the tongue in which its sheet speaks.
+
+    Where it is `numbered`, every mark bears the number of its step, lettered marks too.
+    """
 
     drawing: Drawing
     tongue: Tongue = ENGLISH
+    numbered: bool = False
 
     @cached_property
     def homes(self) -> list[str]:

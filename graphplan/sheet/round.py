@@ -99,7 +99,8 @@ def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[An
     """Whether the drawn steps give the points that the rules do."""
     wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
     pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
-    return max(math.dist(*pair) for pair in pairs) <= SAME * max(math.hypot(*true) for _, true in pairs)
+    size = max((math.hypot(*true) for _, true in pairs), default=0.0)
+    return all(math.dist(*pair) <= SAME * size for pair in pairs)
 
 
 def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:

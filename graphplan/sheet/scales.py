@@ -4,18 +4,24 @@ The mechanism plan is drawn at k_s; the construction's kappa then ties the veloc
 accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan; forces are phi lengths
 long for each unit, k_F = k_s/phi. A plan that would be too small or too large is drawn at a round multiple of the
 scale, and says so.
+
+Round are the steps 1, 2, 2.5, 4 and 5 of GOST 2.302 in each power of ten; ISO 5455 has 1, 2 and 5 of them. Multiples
+are 1, 2, 3, 5 and powers of ten, as the sources draw vectors two or three times as large.
 """
 
 from __future__ import annotations
 
 import math
 from bisect import bisect_right
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphplan.phrases import Said, joined, said, unit
+from graphplan.mechanism.units import METRES
+from graphplan.phrases import Said, arranged, joined, said, unit
 from graphplan.sheet.pens import FORCES
 
+VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
 WHOLE = tuple(m * 10**n for n in range(12) for m in (1, 2, 3, 5))
 MULTIPLES = (*(Fraction(1, m) for m in reversed(WHOLE)), *map(Fraction, WHOLE[1:]))
@@ -57,7 +63,7 @@ def times(multiple: Fraction) -> str:
 @dataclass(frozen=True)
 class Scales:
     """The scales of one sheet: `k_s` in lengths per mm, the multiples of the other plans, the construction's kappa and
-    phi, and the units of length and force."""
+    phi, the units of length and force, and whether scales are told as `real` per drawn or as `drawn` per real."""
 
     k_s: float
     kappa: float
@@ -65,6 +71,7 @@ class Scales:
     multiples: dict[str, Fraction]
     phi: float = 1.0
     unit: str = "N"
+    convention: str = "real"
 
     def of(self, panel: str) -> float:
         """Scene lengths for one mm on a panel."""
@@ -84,12 +91,40 @@ class Scales:
 
     def said(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
-        length = self.length
-        lines = [joined(("k_s =", digits(self.k_s), unit(f"{length}/mm")), " ")] if panel not in self.multiples else []
-        if kinds & {"velocity", "relative"}:
-            lines.append(said("k_v = {0} {1} per mm", digits(self.speed(panel)), unit(f"{length}/s")))
-        if kinds & {"acceleration", "normal"}:
-            lines.append(said("k_a = {0} {1} per mm", digits(self.acceleration(panel)), unit(f"{length}/s²")))
+        tell = self._drawn if self.convention == "drawn" else self._real
+        return list(tell(panel, kinds))
+
+    def _real(self, panel: str, kinds: set[str]) -> Iterator[Said]:
+        """What a millimetre stands for."""
+        if panel not in self.multiples:
+            yield joined(("k_s =", digits(self.k_s), unit(f"{self.length}/mm")), " ")
+        if kinds & VELOCITIES:
+            yield said("k_v = {0} {1} per mm", digits(self.speed(panel)), unit(f"{self.length}/s"))
+        if kinds & ACCELERATIONS:
+            yield said("k_a = {0} {1} per mm", digits(self.acceleration(panel)), unit(f"{self.length}/s²"))
         if kinds & FORCES:
-            lines.append(joined(("k_F =", digits(self.force(panel)), unit(f"{self.unit}/mm")), " "))
-        return lines
+            yield joined(("k_F =", digits(self.force(panel)), unit(f"{self.unit}/mm")), " ")
+
+    def _drawn(self, panel: str, kinds: set[str]) -> Iterator[Said]:
+        """How many millimetres stand for one."""
+        if panel not in self.multiples:
+            yield joined(("mu_s =", digits(1 / self.k_s), unit(f"mm/{self.length}")), " ")
+        if kinds & VELOCITIES:
+            yield said("mu_v = {0} mm per {1}", digits(1 / self.speed(panel)), unit(f"{self.length}/s"))
+        if kinds & ACCELERATIONS:
+            yield said("mu_a = {0} mm per {1}", digits(1 / self.acceleration(panel)), unit(f"{self.length}/s²"))
+        if kinds & FORCES:
+            yield joined(("mu_F =", digits(1 / self.force(panel)), unit(f"mm/{self.unit}")), " ")
+
+    @property
+    def ratio(self) -> Said:
+        """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
+        told = ratio(self.k_s, self.length)
+        plan = next(iter(self.said("", set())))
+        return joined((told, plan), "; ") if self.convention == "drawn" else arranged("{0}", told)
+
+
+def ratio(k_s: float, length: str) -> str:
+    """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
+    size = k_s * 1000 * float(METRES[length])
+    return f"1 : {digits(size)}" if size >= 1 else f"{digits(1 / size)} : 1"

@@ -1,4 +1,5 @@
-"""What of a sheet is shown: as it stands after a step, or some steps in ink over what was drawn before them in grey."""
+"""What of a sheet is shown: as it stands after a step, some steps in ink over what was drawn before them in grey, or
+the number of every step at the mark that it makes."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ from dataclasses import replace
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
+from graphplan.sheet.composition import Composition
 from graphplan.sheet.display import Item, Sheet
 from graphplan.sheet.pens import pale
 from graphplan.sheet.texts import RESULTS
@@ -29,6 +31,11 @@ def selected(sheet: Sheet, last: int, first: int = 0) -> Sheet:
     items = [item for item in sheet.items
              if (complete or item.layer != RESULTS if item.step is None else item.step <= last)]
     return replace(sheet, items=tuple([inked(item, first) for item in items]))
+
+
+def with_numbers(composition: Composition) -> Composition:
+    """The composition with every mark numbered by its step, lettered marks too."""
+    return replace(composition, planes=replace(composition.planes, numbered=True))
 
 
 def inked(item: Item, first: int) -> Item:

@@ -1,7 +1,8 @@
 """The film strip: picture by picture how the construction grows, each with the steps that were just drawn.
 
 A picture shows one plan. What was drawn before is grey, what is new is in ink, and its steps stand below in words. A
-picture takes the steps up to the next mark that gets a letter, a dozen at most, or one step alone.
+picture takes the steps up to the next mark that gets a letter, a dozen at most, or one step alone. Every mark bears the
+number of its step.
 """
 
 from __future__ import annotations
@@ -16,30 +17,37 @@ from graphplan.methods.panels import spoken
 from graphplan.phrases import arranged, said
 from graphplan.sheet import pens
 from graphplan.sheet.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
+from graphplan.sheet.frame import frame_of
 from graphplan.sheet.layout import stacked
 from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
-from graphplan.sheet.paper import BINDING, COLUMN, EDGE, inside, sheet_size
+from graphplan.sheet.paper import COLUMN, inside, lower_right, sheet_size
 from graphplan.sheet.picture import picture
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.rows import LEADING, Cell, Row, lettered
 from graphplan.sheet.scales import Scales
 from graphplan.sheet.selection import inked
-from graphplan.sheet.title import TitleBlock
+from graphplan.sheet.title import STRIP, Page
 from graphplan.sheet.view import View, least, plan_scale, view
-from graphplan.words.tongue import ENGLISH, Tongue
+from graphplan.words.tongue import Tongue
+from graphplan.words.tongue import tongue as tongue_of
 
 WIDTHS = 92.0, 125.0, 170.0  # mm: of a picture; the wider where the letters of a plan need more room
 ASPECT, GAP, INDENT, CAPTION = 0.72, 4.0, 7.0, 5.0
 MOST = 12  # steps in a picture
+NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 Group = tuple[Step, ...]
 
 
-def strip(drawing: Drawing, paper: str = "A3", *, single: bool = False, tongue: Tongue = ENGLISH) -> list[Sheet]:
+def strip(drawing: Drawing, paper: str | None = None, *, single: bool = False,
+          tongue: Tongue | None = None) -> list[Sheet]:
     """The film strip of a construction, page by page; `single` has a picture for every step.
 
-    Fails with `Refused` where a picture with its words is larger than the paper.
+    Paper and tongue are those of the scene's sheet if none are named, and else A3 and English. Fails with `Refused`
+    where a picture with its words is larger than the paper.
     """
-    return Strip(Planes(drawing, tongue), single).sheets(paper)
+    wished = drawing.scene.sheet
+    say = tongue or tongue_of(wished.language or "en")
+    return Strip(Planes(drawing, say, numbered=True), single).sheets(paper or wished.paper or "A3")
 
 
 @dataclass(frozen=True)
@@ -83,15 +91,17 @@ class Strip:
 
     def sheets(self, paper: str) -> list[Sheet]:
         """The strip on sheets of this paper."""
+        scene, say = self.planes.drawing.scene, self.planes.tongue
+        style = frame_of(scene)
+        paper = style.paper(paper)
         wide, high = sheet_size(paper)
-        frame = Rect(BINDING, EDGE, wide - EDGE, high - EDGE)
-        title = TitleBlock(self.planes.drawing.scene.title, self.planes.drawing.scene.source, self.planes.tongue)
-        block = Rect(frame.right - COLUMN, frame.bottom, frame.right, frame.bottom + title.height(COLUMN))
+        frame, title = style.space(wide, high), style.block(scene, say)
+        block = lower_right(frame, COLUMN, title)
         pages = list(self._pages(frame, block))
         sheets = []
         for number, cells in enumerate(pages, 1):
-            items: list[Item] = [Polygon(pens.FRAME, "paper", None, frame.corners)]
-            items += title.items(block, f"{paper.split()[0]}, {number}/{len(pages)}", "—")
+            page = Page(STRIP, paper, NO_SCALE, number, len(pages))
+            items = [*style.items(paper, frame, say), *title.items(block, page)]
             items += [item for place, spot in cells for item in self._cell(place, spot)]
             sheets.append(self._sheet(wide, high, frame, tuple(items)))
         return sheets

@@ -75,7 +75,7 @@ class Strokes:
         if step.op.gives == LINE:
             yield from self._line(step)
         elif step.op.gives == CIRCLE:
-            yield from self._arcs(step)
+            yield from self.arcs(step)
         elif step.op.gives == POINT and step.op.name != "given":
             yield from self._point(step)
 
@@ -141,7 +141,7 @@ class Strokes:
         if stretch is None:
             return
         pen = pens.LOCUS if step.name else pens.PRODUCED if step.op.name in ("line", "guide") else pens.THIN
-        if step.op.name == "line" and len(self._on(step)) == 2:
+        if self.directs(step):
             pen = pens.THIN
         start, end = stretch.start, stretch.end
         links = self._links_along(start, end) if self.panel == MECHANISM else ()
@@ -193,9 +193,13 @@ class Strokes:
         return Stretch(clip.between(start, end, inside[0]), clip.between(start, end, inside[1]),
                        None if self.shown(low) else low, None if self.shown(high) else high)  # fmt: skip
 
+    def directs(self, step: Step) -> bool:
+        """Whether a line only serves as a direction: from one mark to another."""
+        return step.op.name == "line" and len(self._on(step)) == 2
+
     def _beyond(self, step: Step, long: float) -> float:
         """How far past its outermost marks a line goes; one that only serves as a direction ends at them."""
-        if step.op.name == "line" and len(self._on(step)) == 2:
+        if self.directs(step):
             return 0.0
         if long < 1.0:
             return ALONE
@@ -203,7 +207,8 @@ class Strokes:
 
     # ---- arcs ------------------------------------------------------------------------------------------------------
 
-    def _arcs(self, step: Step) -> Iterator[Item]:
+    def arcs(self, step: Step) -> Iterator[Arc]:
+        """What of an arc is struck: about its crossings, or a half circle over its diameter."""
         x, y, r2 = (float(part) for part in self.planes.drawing.values[step.index])
         centre, radius = self.view((x, y)), math.sqrt(max(r2, 0.0)) * self.view.scale
         if radius < 1e-6:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from itertools import combinations
 
 from graphplan.sheet import pens
 from graphplan.sheet.display import Arc, Circle, Item, Polygon, Polyline, Spot
@@ -16,6 +17,9 @@ STAND, FOOT, GROUND = 4.6, 2.6, 4.4  # the triangle under a fixed pivot: height,
 HATCH, PITCH = 1.7, 1.25
 LONG, HIGH, GUIDE = 4.4, 2.3, 13.0  # half the length and height of a block, half the length of its guide
 ELBOW = 2.6
+SHADED = 9.0  # of the sides of a plate, at its hatched corner
+AROUND, DRIVEN, SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: its radius, how far off the crank, how long, in degrees
+GROUNDED = 0.35  # the cosine of the angle within which it would run into the ground
 
 Vector = tuple[float, float]
 
@@ -87,13 +91,41 @@ def elbow(at: Spot, along: Vector, side: float) -> Item:
 
 
 def plate(spots: Sequence[Spot]) -> Iterator[Item]:
-    """A link of three or more points: its hull, tinted, with strokes to any point inside."""
+    """A link of three or more points: its hull, tinted, one corner hatched, with strokes to any point inside."""
     corners = hull(spots)
     yield Polygon(pens.PLATE, "plates", None, corners)
+    yield from rigid(corners)
     yield Polyline(pens.LINK, "links", None, (*corners, corners[0]))
     for inner in (spot for spot in spots if spot not in corners):
         nearest = min(corners, key=lambda corner: (math.dist(corner, inner), corner))
         yield Polyline(pens.LINK, "links", None, (nearest, inner))
+
+
+def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
+    """The mark of a rigid link: the widest of its corners hatched at 45 degrees, for at most a third of the sides."""
+
+    def opening(i: int) -> float:
+        (x, y), (u, v) = unit(corners[i], corners[i - 1]), unit(corners[i], corners[i + 1 - len(corners)])
+        return round(x * u + y * v, 9)
+
+    i = min(range(len(corners)), key=opening)
+    corner, sides = corners[i], (corners[i - 1], corners[i + 1 - len(corners)])
+    ends = [off(corner, unit(corner, side), min(SHADED, math.dist(corner, side) / 3)) for side in sides]
+    yield from _shading((corner, *ends))
+
+
+def _shading(corners: Sequence[Spot]) -> Iterator[Item]:
+    """Strokes at 45 degrees over a triangle."""
+    levels = [y - x for x, y in corners]
+    low, high = min(levels), max(levels)
+    count = int((high - low) / (PITCH * math.sqrt(2)))
+    for k in range(count):
+        level = low + (k + 0.5) * (high - low) / count
+        cuts = []
+        for (p, at), (q, to) in combinations(zip(corners, levels, strict=True), 2):
+            if (at < level) != (to < level):
+                cuts.append(off(p, unit(p, q), math.dist(p, q) * (level - at) / (to - at)))
+        yield Polyline(pens.HATCH, "plates", None, tuple(cuts))
 
 
 def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
@@ -123,11 +155,15 @@ def straight(spots: Sequence[Spot]) -> bool:
     return long < 1e-9 or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
 
 
-def drive(at: Spot, towards: Vector, sign: float) -> Iterator[Item]:
-    """The sense of a driving crank: an arc about its pivot with an arrowhead."""
-    radius, middle = 7.0, math.degrees(math.atan2(towards[1], towards[0]))
-    start, end = (middle + 14.0, middle + 68.0) if sign > 0 else (middle - 68.0, middle - 14.0)
-    arc = Arc(pens.DRIVE, "drive", None, at, radius, start, end)
+def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) -> Iterator[Item]:
+    """The sense of a driving crank: an arc about its pivot with an arrowhead, ahead of the crank or, where the ground
+    is, behind it."""
+    middle, side = math.atan2(towards[1], towards[0]), sign * math.radians(DRIVEN)
+    if ground and ground[0] * math.cos(middle + side) + ground[1] * math.sin(middle + side) > GROUNDED:
+        side = -side
+    centre = math.degrees(middle + side)
+    start, end = centre - SWEEP / 2, centre + SWEEP / 2
+    arc = Arc(pens.DRIVE, "drive", None, at, AROUND, start, end)
     yield arc
     tip = arc.at(end if sign > 0 else start)
     back = off(tip, unit(at, tip), 0.0, -sign * 2.2)

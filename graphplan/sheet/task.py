@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.methods.panels import slide_named
@@ -13,10 +12,10 @@ from graphplan.sheet.deviations import Deviations
 from graphplan.sheet.given import data, question
 from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.rows import Cell, Row
-from graphplan.sheet.tables import Table, scalars, vectors
+from graphplan.sheet.tables import Table
 from graphplan.sheet.texts import Words
+from graphplan.sheet.title import GUIDED, TASK, TITLE
 
-TITLE = 3.5
 INSTRUMENTS = {
     SET_SQUARES: phrase("set squares"), STRAIGHTEDGE: phrase("straightedge"), COMPASSES: phrase("compasses"),
     DIVIDERS: phrase("dividers"), SCALE: phrase("scale"),
@@ -28,17 +27,17 @@ class Task(Words):
 
     def lines(self, wide: float, guided: bool) -> list[Row]:
         """Everything, for a column of this width."""
-        title = said("Guided construction") if guided else said("Task")
-        return [self._heading(title, TITLE, 0.0), *self._given(wide), *(self._steps(wide) if guided else ()),
-                *self._blanks(wide), *(() if guided else self._hints(wide))]
+        return [self._heading(GUIDED if guided else TASK, TITLE, 0.0), *self._given(wide),
+                *(self._steps(wide) if guided else ()), *self._blanks(wide), *(() if guided else self._hints(wide))]
 
     def _given(self, wide: float) -> Iterator[Row]:
         scene = self.drawing.scene
         yield self._heading(said("Given"))
         for sentence in data(scene):
             yield from self._said(sentence, wide)
-        yield self._heading(said("To find"))
-        for sentence in question(scene, self.values):
+        asked = list(question(scene, self.values))
+        yield from [self._heading(said("To find"))] if asked else []
+        for sentence in asked:
             yield from self._said(sentence, wide)
 
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
@@ -66,32 +65,21 @@ class Task(Words):
 
     def _blanks(self, wide: float) -> Iterator[Row]:
         """A box for every number that the construction gives, in the order of the solution."""
-        yield self._heading(said("Results"))
-        for one, two in self._pairs():
+        pairs = [pair for pair in self._pairs() if any(pair)]
+        yield from [self._heading(said("Results"))] if pairs else []
+        for one, two in pairs:
             both = [[*left, *right[1:]] for left, right in zip(one, two, strict=False)]
             together = one and two and [row[0] for row in one] == [row[0] for row in two] and fits(both, wide)
             for table in filter(None, (both,) if together else (one, two)):
                 yield from blanks(table, wide)
 
     def _pairs(self) -> Iterator[tuple[Table, Table]]:
-        """The tables of the solution: those of velocities and of accelerations side by side."""
-        scene, say, values = self.drawing.scene, self.planes.tongue, self.values
-        speed, rate = say(unit(f"{scene.units.length}/s")), say(unit("1/s"))
-
-        def told(what: str, kinds: tuple[str, str], order: Any, **spoken: Any) -> tuple[Table, Table]:
-            one, two = (values.get(kind, {}) for kind in kinds)
-            return (vectors(say(what), "v", speed, one, order, {}, **spoken),
-                    vectors(say(what), "a", f"{speed}²", two, order, {}, **spoken))
-
-        yield told(said("point"), ("velocity", "acceleration"), scene.points)
-        yield (scalars(say(said("link")), "omega", rate, values.get("omega", {}), scene.links, {}),
-               scalars(say(said("link")), "alpha", f"{rate}²", values.get("alpha", {}), scene.links, {}))
-        slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
-        yield told(said("slide"), ("slide velocity", "slide acceleration"), slides, spoken=slides.__getitem__)
-        if scene.loads:
+        """The tables of the solution, two by two as they stand side by side."""
+        yield from self._motion(Deviations())
+        if self.drawing.scene.loads:
             from graphplan.sheet.force_tables import ForceTables  # most scenes have no loads
 
-            tables = ForceTables(self.drawing, values, Deviations(), say)
+            tables = ForceTables(self.drawing, self.values, Deviations(), self.planes.tongue)
             yield tables.reactions(), self._seats()
             yield tables.balance(), []
 

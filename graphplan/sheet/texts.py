@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
@@ -17,7 +17,7 @@ from graphplan.sheet.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.rows import Cell, Row
 from graphplan.sheet.scales import digits
-from graphplan.sheet.tables import ROUNDING, joined_tables, largest_size, rows, scalars, vectors
+from graphplan.sheet.tables import ROUNDING, Table, joined_tables, largest_size, rows, scalars, vectors
 
 HEADING, INDENT = 3.0, 8.5
 RESULTS = "results"  # the layer of what is read when all is drawn
@@ -83,33 +83,32 @@ class Words:
             yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[Row]:
-        values, off = self.values, pencil.of
-        scene, say, length = self.drawing.scene, self.planes.tongue, self.drawing.scene.units.length
-        point, link, speed, rate = say(said("point")), say(said("link")), say(unit(f"{length}/s")), say(unit("1/s"))
         yield self._heading(said("Results"))
-        velocity = vectors(point, "v", speed, values.get("velocity", {}), scene.points, off("velocity"))
-        acceleration = vectors(point, "a", f"{speed}²", values.get("acceleration", {}), scene.points,
-                               off("acceleration"))
-        yield from joined_tables(velocity, acceleration, wide)
-        omega = scalars(link, "omega", rate, values.get("omega", {}), scene.links, off("omega"))
-        alpha = scalars(link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, off("alpha"))
-        yield from joined_tables(omega, alpha, wide)
-        if scene.slides:
-            yield from self._sliding(wide, pencil)
-        if scene.loads:
+        for one, two in self._motion(pencil):
+            yield from joined_tables(one, two, wide)
+        if self.drawing.scene.loads:
             yield from self._forces(wide, pencil)
 
-    def _sliding(self, wide: float, pencil: Deviations) -> Iterator[Row]:
-        """The motion of slides, beside the fastest and the sharpest of all."""
-        values, off, say, scene = self.values, pencil.of, self.planes.tongue, self.drawing.scene
+    def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
+        """The tables of points, links and slides: each that of velocities and that of accelerations."""
+        values, scene, say = self.values, self.drawing.scene, self.planes.tongue
+        point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
+        yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
+        yield (scalars(link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
+               scalars(link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
         slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
-        what, speed = say(said("slide")), say(unit(f"{scene.units.length}/s"))
-        fastest, sharpest = (largest_size(values.get(kind, {})) for kind in ("velocity", "acceleration"))
-        moving, speeding = (values.get(kind, {}) for kind in ("slide velocity", "slide acceleration"))
-        velocity = vectors(what, "v", speed, moving, slides, off("slide velocity"), fastest, slides.__getitem__)
-        acceleration = vectors(what, "a", f"{speed}²", speeding, slides, off("slide acceleration"), sharpest,
-                               slides.__getitem__)
-        yield from joined_tables(velocity, acceleration, wide)
+        yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
+
+    def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
+                 spoken: Callable[[str], str] = str) -> tuple[Table, Table]:
+        """The tables of two kinds of vector, whose numbers are rounded beside the fastest and the sharpest of points.
+        """
+        speed = self.planes.tongue(unit(f"{self.drawing.scene.units.length}/s"))
+        heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
+        one, two = (vectors(what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
+                            largest_size(self.values.get(beside, {})), spoken)
+                    for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
+        return one, two
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         from graphplan.sheet.force_tables import ForceTables  # most scenes have no loads

@@ -1,64 +1,76 @@
-"""The title block in the lower right corner, after ISO 7200: what the sheet shows, whence, how large, who drew it."""
+"""Title blocks: what they say of a sheet, and how lettering stands in their cells."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import Protocol
 
-from graphplan.phrases import said
-from graphplan.sheet.display import Item, Polyline, Rect, Text
-from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.errors import Refused
+from graphplan.phrases import Said, said
+from graphplan.sheet.display import Item, Polyline, Rect, Spot, Text
+from graphplan.sheet.lettering import CAPS, SIZE, sentence_runs, wrap
 from graphplan.sheet.pens import BORDER, FAINT, FRAME, LETTERS
-from graphplan.sheet.scales import digits
-from graphplan.words.tongue import ENGLISH, Tongue
 
-TITLE, FOOT, PAD, HEADING = 3.5, 9.0, 2.0, 1.8
-MILLIMETRES = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4, "ft": 304.8}
+CONSTRUCTION, SOLUTION, STRIP = said("Construction sheet"), said("Solution"), said("Film strip")
+TASK, GUIDED = said("Task"), said("Guided construction")
+DOCUMENTS = (CONSTRUCTION, SOLUTION, TASK, GUIDED, STRIP)
+TITLE, HEADING, LEADING = 3.5, 1.8, 1.35
+SIDE = 1.0  # mm that lettering keeps from the edges of its cell
 
 
 @dataclass(frozen=True)
-class TitleBlock:
-    """The words of the title block; its height follows from its width."""
+class Page:
+    """What a title block says of one page: the kind of document, the page and how many there are, paper and scale."""
 
-    title: str
-    source: str
-    tongue: Tongue = ENGLISH
+    document: Said
+    paper: str
+    scale: str
+    number: int = 1
+    of: int = 1
 
-    def lines(self, wide: float) -> list[tuple[Runs, float, bool]]:
-        """The wrapped title and source with their sizes."""
-        room = wide - 2 * PAD
-        title = [(runs, TITLE, True) for runs in wrap(sentence_runs(self.title), TITLE, room, bold=True)]
-        source = [(runs, SIZE, False) for runs in wrap(sentence_runs(self.source), SIZE, room)]
-        return title + source
+    @property
+    def numbered(self) -> str:
+        """Such as 2/3."""
+        return f"{self.number}/{self.of}"
 
-    def height(self, wide: float) -> float:
-        return FOOT + 2 * PAD + sum(1.45 * size for _, size, _ in self.lines(wide))
-
-    def items(self, rect: Rect, paper: str, scale: str) -> Iterator[Item]:
-        """The block in its rectangle."""
-        foot = rect.bottom + FOOT
-        yield _stroke((rect.left, rect.bottom), (rect.left, rect.top), FRAME.width)
-        yield _stroke((rect.left, rect.top), (rect.right, rect.top), FRAME.width)
-        yield _stroke((rect.left, foot), (rect.right, foot))
-        y = rect.top - PAD
-        for runs, size, bold in self.lines(rect.width):
-            y -= 1.45 * size
-            yield Text(LETTERS, "text", None, (rect.left + PAD, y + 0.45 * size), runs, size, "start", bold)
-        words = ((said("Scale"), scale), (said("Sheet"), paper), (said("Drawn by"), "graphplan"))
-        for i, (heading, word) in enumerate(words):
-            x = rect.left + i * rect.width / len(words)
-            if i:
-                yield _stroke((x, rect.bottom), (x, foot))
-            head = sentence_runs(self.tongue(heading))
-            yield Text(FAINT, "text", None, (x + PAD, foot - HEADING - 1.0), head, HEADING)
-            yield Text(LETTERS, "text", None, (x + PAD, rect.bottom + 1.9), sentence_runs(word), SIZE)
+    @property
+    def size(self) -> str:
+        """The paper without the way in which it lies."""
+        return self.paper.partition(" ")[0]
 
 
-def _stroke(start: tuple[float, float], end: tuple[float, float], width: float = BORDER.width) -> Polyline:
-    return Polyline(FRAME if width == FRAME.width else BORDER, "paper", None, (start, end))
+class TitleBlock(Protocol):
+    """A title block of one scene; its width follows from the frame and the columns of words, its height from that."""
+
+    def width(self, frame: Rect, pitch: float) -> float: ...
+    def height(self, wide: float) -> float: ...
+    def items(self, rect: Rect, page: Page) -> Iterator[Item]: ...
 
 
-def ratio(k_s: float, length: str) -> str:
-    """The drawing scale as it is written in a title block, such as 1 : 5."""
-    size = k_s * MILLIMETRES.get(length, 1.0)
-    return f"1 : {digits(size)}" if size >= 1 else f"{digits(1 / size)} : 1"
+def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
+    """A line of a title block."""
+    return Polyline(FRAME if wide else BORDER, "paper", None, (start, end))
+
+
+def heading(at: Spot, text: str, size: float = HEADING) -> Text:
+    """What a cell tells, in small letters."""
+    return Text(FAINT, "text", None, at, sentence_runs(text), size)
+
+
+def filled(cell: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
+           middle: bool = True) -> Iterator[Text]:
+    """Lettering that fills a cell, half-way up, in the first of some sizes in which all its lines have room.
+
+    Fails with `Refused` where they have not.
+    """
+    for size in sizes:
+        lines = wrap(sentence_runs(text), size, cell.width - 2 * SIDE, bold)
+        if len(lines) == 1 or LEADING * size * len(lines) <= cell.height:
+            break
+    else:
+        raise Refused(what, "it is too long for its place in the title block", "fewer words")
+    x, anchor = (cell.centre[0], "middle") if middle else (cell.left + SIDE, "start")
+    top = cell.centre[1] + (len(lines) - 1) * LEADING * size / 2 - CAPS * size / 2
+    for i, runs in enumerate(lines):
+        yield Text(LETTERS, "text", None, (x, top - i * LEADING * size), runs, size, anchor, bold)

@@ -7,7 +7,10 @@ import math
 import pytest
 from objects import NAMES, ONE, TWO, coordinates, drafted_figure, gap, objects, programs
 
+import graphplan as gp
+from graphplan.backends.figure import figure
 from graphplan.backends.formula import Language, formula, operations
+from graphplan.sheet.compose import compose
 from graphplan.sheet.layout import layout
 from graphplan.sheet.symbols import turn
 
@@ -86,3 +89,15 @@ def test_a_length_is_carried_over_by_the_scales() -> None:
     *_, last = objects(*next(programs("transfer")), apart=True)
     assert (last.plan, last.args[1].plan) == (ONE, TWO)
     assert last.factor(last.args[1]) == ONE.scale / TWO.scale
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "slotted-link"])
+def test_the_symbols_are_those_of_the_sheet(name: str) -> None:
+    """Ground, blocks and the sense of the drive are decoration of the figure: as many strokes as on the sheet."""
+    drawing = gp.construct(gp.load(name))
+    composition = compose(drawing)
+    found, sheet = figure(drawing, composition).symbols, layout(drawing, composition=composition)
+    for layer in ("ground", "blocks", "drive"):
+        there = [item for item in sheet.items if item.layer == layer]
+        assert len(there) == len([symbol for symbol in found if symbol.layer == layer]) > 0
+    assert all(sheet.panels["mechanism"].holds(spot) for symbol in found for spot in symbol.spots)

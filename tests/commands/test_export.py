@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import subprocess
 import sys
 from functools import cache
 from pathlib import Path
+from zipfile import ZipFile
 
 import pytest
 
@@ -121,3 +123,14 @@ def test_a_step_export_loads_no_renderer(tmp_path: Path) -> None:
             "print([m for m in ('matplotlib', 'ezdxf') if m in sys.modules])")
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.strip() == "[]"
+
+
+@pytest.mark.parametrize("name", ["ggb", "jsxgraph", "gcl", "tikz", "tkz-euclide", "json"])
+def test_exports_speak_the_language(name: str, tmp_path: Path) -> None:
+    """Sentences and captions of every step format come in the language asked for."""
+    path = tmp_path / f"a{FORMATS[name].suffix}"
+    assert main(["export", "four-bar", "-o", str(path), "--format", name, "--language", "de"]) == 0
+    text = ZipFile(path).read("geogebra.xml").decode() if name == "ggb" else path.read_text(encoding="utf-8")
+    assert "Schneide" in text
+    assert name == "json" or "Lageplan mit orthogonalen Geschwindigkeiten" in text
+    assert not re.search(r"\b(Draw|Mark|Mechanism plan|drawable|plan:)\b", text)

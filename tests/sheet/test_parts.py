@@ -18,8 +18,7 @@ from graphplan.sheet.labels import placed
 from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.places import Wish
 from graphplan.sheet.rows import Cell, Row, fill
-from graphplan.sheet.scales import Scales, digits, multiple_below, round_up
-from graphplan.sheet.title import ratio
+from graphplan.sheet.scales import Scales, digits, multiple_below, ratio, round_up
 
 SQUARE = Rect(0, 0, 100, 100)
 
@@ -183,6 +182,19 @@ def test_a_bent_link_is_a_plate_and_a_straight_one_a_bar() -> None:
     assert not symbols.straight([(0, 0), (10, 4), (20, 0)])
     plates = [item for item in symbols.plate([(0, 0), (10, 4), (20, 0), (10, 1)]) if isinstance(item, Polygon)]
     assert set(plates[0].spots) == {(0, 0), (10, 4), (20, 0)}
+
+
+def test_one_corner_of_a_plate_is_hatched() -> None:
+    """The widest corner has strokes at 45 degrees, all inside the plate, for no more than a third of its sides."""
+    corners = [(0.0, 0.0), (30.0, 0.0), (12.0, 9.0)]
+    sides = list(zip(corners, corners[1:] + corners[:1], strict=True))
+    strokes = [item for item in symbols.plate(corners) if isinstance(item, Polyline) and item.pen == pens.HATCH]
+    assert len(strokes) > 2
+    for (x, y), (u, v) in (stroke.spots for stroke in strokes):
+        assert v - y == pytest.approx(u - x)
+        for spot in ((x, y), (u, v)):
+            assert all(symbols.turn(start, end, spot) >= -1e-9 for start, end in sides)
+            assert math.dist(spot, corners[2]) <= math.dist(corners[1], corners[2]) / 3
 
 
 def test_a_block_is_turned_to_its_guide() -> None:

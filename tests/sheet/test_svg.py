@@ -92,8 +92,12 @@ def test_everything_drawn_measures_what_is_printed(name: str, plan: str) -> None
 
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link"])
 def test_numbers_are_rounded_and_finite(name: str) -> None:
-    """No coordinate has more than two decimals, none is nan or minus zero."""
+    """No coordinate has more than two decimals and no radius more than four; none is nan or minus zero."""
     text = re.sub(r"<(title|desc|text|tspan)[^>]*>[^<]*", "", svg_of(name))
+    radii = re.findall(r'(?:\br="|\bA )([\d.]+)', text)
+    assert radii
+    assert all(len(r.partition(".")[2]) <= 4 for r in radii)
+    text = re.sub(r'\br="[\d.]+"|\bA [\d.]+ [\d.]+', "", text)
     numbers = re.findall(r"(?<![\w#.])-?\d+\.?\d*(?:e-?\d+)?(?![\w.])", text)
     assert all(len(n.partition(".")[2]) <= 2 for n in numbers if n != "1.0")
     assert not re.search(r"\bnan\b|\binf\b|[\" ,]-0(\.0*)?[\" ,]", text)

@@ -1,0 +1,71 @@
+"""Words and symbols that give way: rows closer to each other, a drive's arrow beside its ground, one plane for all."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+from sheets import drawing_of
+
+import graphplan as gp
+from graphplan.methods.panels import caption
+from graphplan.sheet import symbols
+from graphplan.sheet.blanks import TALL, TIGHT, Blank, tightened
+from graphplan.sheet.compose import compose
+from graphplan.sheet.display import Arc, Rect
+from graphplan.sheet.lettering import Run, plain, sentence_runs
+from graphplan.sheet.pages import packed, paged
+from graphplan.sheet.planes import Planes
+from graphplan.sheet.rows import Cell, Row
+from graphplan.sheet.task import Task
+
+
+@pytest.mark.parametrize(("name", "saved"), [("stephenson", True), ("four-bar", False)])
+def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> None:
+    """A guided handout whose last table would need a page of its own is set closer; any other is not."""
+    composition = compose(drawing_of(name))
+    arrangement = composition.arrangement
+    rows = Task(composition.planes).lines(arrangement.columns[0].width, guided=True)
+    loose, found = list(paged(rows, arrangement)), packed(rows, arrangement)
+    assert len(found) == len(loose) - saved
+    assert (found == loose) != saved
+    assert sum(map(len, found)) == len(rows)
+
+
+def test_a_box_for_a_number_gets_lower_but_not_narrower() -> None:
+    """Closer rows keep their words and the widths of their boxes."""
+    blank = Blank((Cell(0.0, (Run("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
+    tight = tightened(blank)
+    assert isinstance(tight, Blank)
+    assert (tight.cells, tight.gap, tight.height) == (blank.cells, 0.5, TIGHT)
+    assert tight.boxes == (Rect(10.0, 0.0, 30.0, TIGHT),)
+    assert tightened(Row(blank.cells, gap=2.0)) == Row(blank.cells, gap=1.0)
+
+
+def test_the_coefficient_of_friction_is_a_greek_letter() -> None:
+    """The mu of a task is set as a textbook sets it, but not the letters mu in a word."""
+    assert plain(sentence_runs("Friction at B: mu = 0.1.")) == "Friction at B: μ = 0.1."
+    assert plain(sentence_runs("mud")) == "mud"
+
+
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("angle", range(0, 360, 30))
+def test_the_arrow_of_a_drive_stays_off_the_ground(angle: int, sign: float) -> None:
+    """The arrow lies beside its crank, ahead or behind, and nowhere over the ground, however the crank stands."""
+    turn = math.radians(angle)
+    if math.sin(turn) < -0.6:
+        return  # there the ground itself goes elsewhere
+    arc, _ = symbols.drive((0.0, 0.0), (math.cos(turn), math.sin(turn)), sign, (0.0, -1.0))
+    assert isinstance(arc, Arc)
+    assert not any(abs(x) < symbols.GROUND and y < 0 for x, y in arc.spots())
+    assert min(abs((end - angle + 180) % 360 - 180) for end in (arc.start, arc.end)) == pytest.approx(14.0)
+
+
+def test_plans_that_lie_as_one_say_so() -> None:
+    """Over a strict drawing stands that mechanism, velocities and accelerations have one plane; forces too."""
+    planes = Planes(gp.construct(gp.load("four-bar"), strict=True))
+    assert planes.panels == ["mechanism"]
+    told = caption("mechanism", planes.kinds("mechanism"))
+    assert told == "Mechanism, velocities and accelerations in one plane"
+    loaded = {"acceleration", "load", "part", "reaction"}
+    assert caption("mechanism", loaded) == "Mechanism, velocities, accelerations and forces in one plane"

@@ -74,6 +74,11 @@ class Linkage:
         here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
         return [other for name in here for other in self.neighbours(name)]
 
+    def _joined(self, at: Spot) -> bool:
+        """Whether several links have points at a place."""
+        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return len({link for name in here for link in self.scene.links_of[name]}) > 1
+
     def _ground(self, name: str) -> Vector:
         """Downwards, unless a link goes there."""
         here = self.spots[name]
@@ -137,7 +142,7 @@ class Linkage:
         along = unit(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
         spots.sort(key=lambda s: s[0] * along[0] + s[1] * along[1])
         yield from symbols.bar(spots)
-        for inner in spots[1:-1]:
+        for inner in filter(self._joined, spots[1:-1]):
             yield symbols.elbow(inner, along, self._free_side(inner, along))
 
     def _rail(self, slide: Slide, spots: list[Spot]) -> Iterator[Item]:

@@ -37,7 +37,9 @@ FRONT = {"__init__", "__main__", "commands"}
 # Who may import what does not come with Python.
 OUTSIDE = {
     "matplotlib": {"backends"},
-    "ezdxf": {"backends"},
+    "ezdxf": {"backends", "handed"},
+    "cv2": {"handed"},
+    "pypdfium2": {"handed"},
     "numba": {"kernel/tape/compiled.py"},
     "distributed": {"methods/crew.py"},
     "flint": {"kernel/numbers/enclosures.py", "check"},

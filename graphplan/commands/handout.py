@@ -85,22 +85,18 @@ def _positions(options: argparse.Namespace) -> int:
 def _pages(composition: Composition, only: str | None) -> bytes:
     """The parts that are wanted as pages."""
     from graphplan.backends.ink import pdf
-    from graphplan.sheet.handout import guided, task
-    from graphplan.sheet.layout import layout
-    from graphplan.sheet.selection import with_numbers
-    from graphplan.sheet.title import SOLUTION
+    from graphplan.sheet.handout import guided, solution, task
 
-    composition = with_numbers(composition)
-    solution = layout(composition.planes.drawing, composition=composition, document=SOLUTION)
+    solved = solution(composition)
     sheets: list[Sheet] = []
     for part in (only,) if only else PARTS:
         match part:
             case "task":
-                sheets += task(solution, composition)
+                sheets += task(solved, composition)
             case "guided":
-                sheets += guided(solution, composition)
+                sheets += guided(solved, composition)
             case _:
-                sheets.append(solution)
+                sheets.append(solved)
     return pdf(sheets)
 
 

@@ -13,44 +13,60 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
 from graphplan.sheet.blanks import written
 from graphplan.sheet.composition import Composition
+from graphplan.sheet.corner_marks import corner_marks, sheet_code
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.labels import placed
-from graphplan.sheet.layout import titled
+from graphplan.sheet.layout import layout, titled
 from graphplan.sheet.lettering import listed
 from graphplan.sheet.pages import packed
 from graphplan.sheet.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.places import Wish
+from graphplan.sheet.selection import with_numbers
 from graphplan.sheet.task import Task
-from graphplan.sheet.title import GUIDED, TASK
+from graphplan.sheet.title import GUIDED, SOLUTION, TASK
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 EDGE = 0.01  # mm by which what is on an edge may be beyond it
 FREE = 4.0  # mm about a beginning without crosses
 
 
-def task(solution: Sheet, composition: Composition) -> list[Sheet]:
+def solution(composition: Composition) -> Sheet:
+    """The solved sheet of a handout: every mark with the number of its step."""
+    composition = with_numbers(composition)
+    return layout(composition.planes.drawing, composition=composition, document=SOLUTION)
+
+
+def code(composition: Composition) -> int:
+    """What tells a handout's sheet from any other: its scene, and where its plans lie."""
+    plans = (f"{panel}: {view.scale:.6g} mm, {view.origin[0]:.2f} {view.origin[1]:.2f}"
+             for panel, view in composition.views.items())
+    return sheet_code("\n".join((composition.planes.drawing.scene.text, composition.arrangement.paper, *plans)))
+
+
+def task(solved: Sheet, composition: Composition) -> list[Sheet]:
     """The task of a solution: the mechanism, what is given and asked, empty plans, and a table to fill."""
-    return list(_pages(solution, composition, TASK))
+    return list(_pages(solved, composition, TASK))
 
 
-def guided(solution: Sheet, composition: Composition) -> list[Sheet]:
+def guided(solved: Sheet, composition: Composition) -> list[Sheet]:
     """The same with the steps in words, a box to tick before each; the drawing is the student's."""
-    return list(_pages(solution, composition, GUIDED))
+    return list(_pages(solved, composition, GUIDED))
 
 
-def _pages(solution: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
+def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The sheet with its plans, and the pages of words that do not fit beside them."""
     arrangement = composition.arrangement
     words = Task(composition.planes).lines(arrangement.columns[0].width, document == GUIDED)
     apart = (*arrangement.columns, arrangement.title)
-    bare = [item for item in solution.items if item.step is None and not _within(item, apart)]
+    bare = [item for item in solved.items if item.step is None and not _within(item, apart)]
     plans = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not _within(item, arrangement.panels.values())]
     pages = packed(words, arrangement)
+    marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
     for number, page in enumerate(pages, 1):
         block = titled(composition, document, number, len(pages))
-        items = [*(bare + plans if number == 1 else empty), *block, *written(page)]
-        yield replace(solution, items=tuple(items), panels=solution.panels if number == 1 else {})
+        items = [*(bare + plans + marks if number == 1 else empty), *block, *written(page)]
+        yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
 
 
 def _within(item: Item, rects: Iterable[Rect]) -> bool:

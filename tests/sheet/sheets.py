@@ -7,6 +7,7 @@ from pathlib import Path
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
+from graphplan.sheet.corner_marks import MARKS
 from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.frame import BORDER
 from graphplan.sheet.layout import layout
@@ -46,4 +47,4 @@ def spots(item: Item) -> list[Spot]:
 def outside(sheet: Sheet) -> list[Item]:
     """What leaves the frame, but for what stands in its border."""
     return [item for item in sheet.items
-            if item.layer != BORDER and not all(sheet.frame.holds(spot, 0.01) for spot in spots(item))]
+            if item.layer not in (BORDER, MARKS) and not all(sheet.frame.holds(spot, 0.01) for spot in spots(item))]

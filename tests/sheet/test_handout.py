@@ -17,9 +17,9 @@ from graphplan.methods.construction import NUMBERS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
+from graphplan.sheet.corner_marks import corner_marks
 from graphplan.sheet.display import Polygon, Sheet, Text
-from graphplan.sheet.handout import guided, task
-from graphplan.sheet.layout import layout
+from graphplan.sheet.handout import code, guided, solution, task
 from graphplan.sheet.lettering import plain
 from graphplan.sheet.pages import paged
 from graphplan.sheet.round import posed, turning
@@ -32,8 +32,8 @@ Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 def handout_of(name: str) -> Handout:
     """The composition of a scene, its solution, its task and its guided version."""
     composition = compose(drawing_of(name))
-    solution = layout(drawing_of(name), composition=composition)
-    return composition, solution, task(solution, composition), guided(solution, composition)
+    solved = solution(composition)
+    return composition, solved, task(solved, composition), guided(solved, composition)
 
 
 def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
@@ -45,12 +45,28 @@ def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
 @pytest.mark.parametrize("name", SCENES)
 def test_all_pages_are_those_of_the_solution(name: str) -> None:
     """Every page has the solution's size and frame, the first its panels; nothing leaves the frame."""
-    _, solution, *parts = handout_of(name)
+    _, solved, *parts = handout_of(name)
     for pages in parts:
-        assert pages[0].panels == solution.panels
+        assert pages[0].panels == solved.panels
         for page in pages:
-            assert (page.width, page.height, page.frame) == (solution.width, solution.height, solution.frame)
+            assert (page.width, page.height, page.frame) == (solved.width, solved.height, solved.frame)
             assert outside(page) == []
+
+
+def test_only_sheets_with_plans_bear_marks() -> None:
+    """The first page of a task and of its guided version has the marks of this sheet, the pages of words have none."""
+    composition, solved, *parts = handout_of("alt-eight-link")
+    marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
+    for first, *others in parts:
+        assert [item for item in first.items if item in marks] == marks
+        assert not any(item in marks for page in others for item in page.items)
+
+
+def test_every_sheet_has_a_code_of_its_own() -> None:
+    """Another scene, other plans or another paper make another code."""
+    sheets = [compose(drawing_of(name), paper) for name, paper in (("four-bar", None), ("four-bar", "A2"),
+                                                                   ("slider-crank", None))]
+    assert len({code(sheet) for sheet in sheets}) == 3
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -68,11 +84,11 @@ def test_no_words_cover_each_other(name: str) -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_a_task_shows_the_mechanism_and_where_plans_begin(name: str) -> None:
     """The mechanism is drawn as in the solution; of the steps there are only the marks where plans begin."""
-    _, solution, pages, _ = handout_of(name)
+    _, solved, pages, _ = handout_of(name)
     steps = drawing_of(name).drawn.steps
     begins = {step.index for step in steps if step.op.name == "begin"}
     assert {item.step for page in pages for item in page.items if item.step is not None} == begins
-    plates = [item for item in solution.items if item.layer in ("plates", "links", "blocks", "pairs", "ground")]
+    plates = [item for item in solved.items if item.layer in ("plates", "links", "blocks", "pairs", "ground")]
     assert set(plates) <= set(pages[0].items)
 
 
@@ -101,9 +117,9 @@ def test_guided_steps_are_all_there_with_a_box_to_tick(name: str) -> None:
 
 def test_results_are_not_given_away() -> None:
     """No number of the solution's result table stands on the task sheet."""
-    _, solution, pages, _ = handout_of("jaanimets-10")
+    _, solved, pages, _ = handout_of("jaanimets-10")
     told = {plain(item.runs) for page in pages for item in page.items if isinstance(item, Text)}
-    results = {plain(item.runs) for item in solution.items
+    results = {plain(item.runs) for item in solved.items
                if isinstance(item, Text) and item.layer == "results" and item.anchor == "end"}
     figures = {text for text in results if text.lstrip("−").replace(".", "").isdigit() and len(text) > 2}
     assert len(figures) > 20
@@ -148,17 +164,17 @@ def test_a_posed_drawing_reads_what_the_construction_gives_there(name: str) -> N
 
 def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
     """In all poses of a slider-crank panels and scales are those of the solution, and its joints are on paper."""
-    composition, solution, *_ = handout_of("slider-crank")
+    composition, solved, *_ = handout_of("slider-crank")
     drawing = drawing_of("slider-crank")
     turn = follow(drawing.scene, 12)
     found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
     assert [still.travel for still in found.stills] == [30.0 * k for k in range(12)]
     assert found.lost == ()
     for still in found.stills:
-        assert (still.sheet.panels, still.sheet.scales) == (solution.panels, solution.scales)
+        assert (still.sheet.panels, still.sheet.scales) == (solved.panels, solved.scales)
         joints = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
         assert len(joints) == 4
-        assert all(map(solution.panels[MECHANISM].holds, joints))
+        assert all(map(solved.panels[MECHANISM].holds, joints))
 
 
 def test_poses_that_cannot_be_drawn_are_told_in_stretches() -> None:

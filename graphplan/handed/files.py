@@ -1,0 +1,88 @@
+"""What a student hands in, read by the kind of its file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.errors import Refused
+from graphplan.handed.traces import Frame, Handed
+
+if TYPE_CHECKING:
+    from graphplan.sheet.display import Sheet
+
+IMAGES = (".png", ".jpg", ".jpeg", ".pdf")
+
+
+def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
+         printed: Callable[[], Sheet] | None = None, code: int | None = None) -> Handed:
+    """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
+
+    A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
+    marks. Fails with `Refused` where the file is none that can be read, says why and what to do.
+    """
+    suffix = path.suffix.casefold()
+    if suffix in IMAGES:
+        return _scanned(path, frames, printed, code)
+    if suffix not in READERS:
+        kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
+        raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
+                      f"give one of {' '.join([*READERS, *IMAGES])}")
+    return READERS[suffix](path, panels, frames)
+
+
+def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Sheet] | None, code: int | None) -> Handed:
+    """A scan or photo."""
+    if printed is None:
+        raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
+                      "measured points or a CAD file")
+    from graphplan.handed.scan import read_scan
+
+    return read_scan(path, printed(), frames, code)
+
+
+def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+    """Measured points or results: the names of the columns tell."""
+    from graphplan.handed.table_rows import columns
+
+    names = columns(path)
+    if {"mark", "x", "y"} <= set(names):
+        from graphplan.handed.points import read_table
+
+        return read_table(path, panels)
+    if "quantity" in names:
+        from graphplan.handed.results import read_results
+
+        return read_results(path)
+    raise Refused(f"{path}", "its first line names no columns that are read",
+                  "mark,x,y for measured points or quantity,of,x,y,unit for results")
+
+
+def _toml(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+    from graphplan.handed.points import read_toml
+
+    return read_toml(path, panels)
+
+
+def _svg(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+    from graphplan.handed.vector_svg import read_svg
+
+    return read_svg(path, frames)
+
+
+def _dxf(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+    from graphplan.handed.vector_dxf import read_dxf
+
+    return read_dxf(path, frames)
+
+
+def _ggb(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+    from graphplan.handed.vector_ggb import read_ggb
+
+    return read_ggb(path)
+
+
+READERS: dict[str, Callable[[Path, Collection[str], Mapping[str, Frame]], Handed]] = {
+    ".csv": _table, ".toml": _toml, ".svg": _svg, ".dxf": _dxf, ".ggb": _ggb,
+}  # fmt: skip

@@ -1,0 +1,175 @@
+"""A straightened page that can be asked: what was drawn on it, and whether something is drawn near where it belongs.
+
+Faint lines, of which there is too little to be found in the whole page, are found where they are expected.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.handed.dots import dots, off_crossings
+from graphplan.handed.ink import Ink
+from graphplan.handed.lines import FEW, Row, line
+from graphplan.handed.ridges import Ridges, clear
+from graphplan.handed.rims import Rim, grown
+from graphplan.handed.runs import Run, runs
+from graphplan.handed.strokes import Strokes
+from graphplan.handed.traces import Spot, Trace
+
+Values = NDArray[np.float64]
+ASKEW = 20.0  # degrees by which a crest's own direction is unsure
+CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far its crests are off it
+BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
+SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
+TURNED = 40.0  # degrees of a rim from which on it tells its own centre
+LEAST = 1.0  # mm of a rim
+FAINT, OVAL = 0.05, 0.25  # darkness of a dot where one is expected, and how round it is: it may lie on a line
+
+
+@dataclass(frozen=True)
+class Page:
+    """The pencil on a page, its crests, and how unsure their places are, as a standard deviation in mm."""
+
+    ink: Ink
+    found: Ridges
+    error: float
+
+    @cached_property
+    def traces(self) -> tuple[Trace, ...]:
+        """Everything that is found without knowing what is expected."""
+        drawn = Strokes.of(clear(self.found, self.ink), self.ink).traces()
+        return tuple(self._blurred(trace) for trace in (*drawn, *off_crossings(self._dots, drawn)))
+
+    def hidden(self, spots: Sequence[Spot]) -> float:
+        """The share of some spots at which print hides what may be drawn."""
+        return float(self.ink.covered(np.asarray(spots, float)).mean())
+
+    def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
+        """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
+        more than this angle, in degrees."""
+        ends = np.array([one, two], float)
+        long = math.dist(one, two)
+        way = (ends[1] - ends[0]) / long
+        normal, middle = np.array([-way[1], way[0]]), ends.mean(axis=0)
+        out = self.found.spots - middle
+        along, off = out @ way, out @ normal
+        steep = math.tan(math.radians(angle))
+        near = np.flatnonzero((np.abs(along) < long / 2 + BEYOND) & (np.abs(off) < within + np.abs(along) * steep)
+                              & (np.abs(self.found.normals @ normal) > math.cos(math.radians(ASKEW + angle))))
+        lying = _aligned(along[near], off[near], self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        turned = math.atan(slope)
+        ahead = way * math.cos(turned) + normal * math.sin(turned)
+        aside = normal * math.cos(turned) - way * math.sin(turned)
+        at = middle + level * normal
+        own = near[which]
+        crests = Row(at, ahead, aside, own, (self.found.spots[own] - at) @ ahead, (self.found.spots[own] - at) @ aside)
+        run = _whole(crests, self.ink, long / 2)
+        return None if run is None else self._blurred(line(crests, run))
+
+    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+        """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
+        middle, at = np.array(centre), np.asarray(spots, float)
+        aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
+        out = self.found.spots - middle
+        far = np.maximum(np.hypot(out[:, 0], out[:, 1]), 1e-9)
+        along, reach = (_turns(out, aim) * radius, np.abs(_turns(at - middle, aim)).max() * radius + BEYOND)
+        square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far
+        near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
+        steep = within / max(reach, within)
+        lying = _aligned(along[near], far[near] - radius, self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        own = near[which]
+        if np.ptp(along[own]) > math.radians(TURNED) * radius:
+            rim = grown(self.found, near, own, self.ink)
+        else:
+            rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
+        return None if rim is None or rim.run.long < LEAST else self._blurred(rim.trace())
+
+    def dot(self, spot: Spot, within: float) -> Trace | None:
+        """The dot nearest to where one is expected."""
+        near = [dot for dot in self._faint if math.dist(dot.spots[0], spot) < within]
+        return min(near, key=lambda dot: math.dist(dot.spots[0], spot), default=None)
+
+    @cached_property
+    def _dots(self) -> list[Trace]:
+        return dots(self.ink)
+
+    @cached_property
+    def _faint(self) -> list[Trace]:
+        return [self._blurred(dot) for dot in dots(self.ink, FAINT, OVAL)]
+
+    def _blurred(self, trace: Trace) -> Trace:
+        """With what the page itself is unsure by."""
+        return replace(trace, blur=math.hypot(trace.blur, self.error))
+
+
+def _aligned(along: Values, off: Values, strength: Values, within: float,
+             steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
+    """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
+    if len(along) < FEW:
+        return None
+    reach = max(float(np.abs(along).max()), 1.0)
+    slopes = np.linspace(-steep, steep, 2 * math.ceil(steep * reach / CELL) + 1)
+    count = math.ceil(within / CELL)
+    cells = np.rint((off - np.outer(slopes, along)) / CELL).astype(int) + count
+    inside = (cells >= 0) & (cells <= 2 * count)
+    flat = (np.arange(len(slopes))[:, None] * (2 * count + 1) + cells)[inside]
+    weight = np.broadcast_to(np.minimum(strength, 12.0), cells.shape)[inside]
+    counted = np.bincount(flat, weight, len(slopes) * (2 * count + 1)).reshape(len(slopes), -1)
+    votes = np.asarray(counted, np.float64)
+    votes[:, 1:-1] += (votes[:, :-2] + votes[:, 2:]) / 2
+    best, cell = divmod(int(votes.argmax()), votes.shape[1])
+    slope, level = float(slopes[best]), (cell - count) * CELL
+    which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    for _ in range(2):
+        if len(which) < FEW or np.ptp(along[which]) < 1.0:
+            return None
+        slope, level = (float(value) for value in np.polyfit(along[which], off[which], 1))
+        which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    return slope, level, which
+
+
+def _whole(crests: Row, ink: Ink, half: float) -> Run | None:
+    """All the stretches of a row between the expected ends as one, where enough of it is seen."""
+    drawn = [run for run in runs(crests.along, lambda along: ink.crossed(crests.spots(along)))
+             if run.seen >= SEEN and run.long >= 1.0 and run.start < half and run.end > -half]
+    if sum(run.long for run in drawn) < SHORTEST:
+        return None
+    whole = Run(drawn[0].start, drawn[-1].end, 1.0)
+    return replace(whole, seen=sum(run.long * run.seen for run in drawn) / whole.long)
+
+
+def _turns(out: Values, aim: float) -> Values:
+    """Angles of spots about a centre, from the side at which it is looked."""
+    return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - aim + math.pi) % (2 * math.pi) - math.pi)
+
+
+def _short(page: Page, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
+           level: float) -> Rim | None:
+    """A short arc: it is as far off the expected one, and as askew, as its crests are."""
+    turned = math.atan(slope)
+    side = np.array([math.cos(aim), math.sin(aim)])
+    across = np.array([-side[1], side[0]])
+    moved = centre - across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
+
+    def hidden(at: Values) -> NDArray[np.bool_]:
+        turns = aim + at / radius
+        return page.ink.crossed(centre + (radius + level) * np.column_stack([np.cos(turns), np.sin(turns)]))
+
+    drawn = [run for run in runs(along, hidden) if run.seen >= SEEN]
+    if not drawn:
+        return None
+    run = max(drawn, key=lambda run: run.long)
+    rough = float(np.std(off - slope * along - level))
+    return Rim(moved, radius + level, aim, run, np.arange(len(along)), rough)

@@ -1,0 +1,152 @@
+"""Files of strangers, read with bounds: on their size, on what they unpack to, on how deep and how many things are.
+
+Nothing is fetched, run or written, and no name inside a file is used as a path.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+import zipfile
+import zlib
+from pathlib import Path
+from xml.etree.ElementTree import Element, TreeBuilder
+from xml.parsers import expat
+
+from graphplan.errors import Refused
+
+MB = 2**20
+TRACES = 20_000  # more things are on no sheet
+ELEMENTS = 60_000  # of an XML document, and of what its copies amount to
+DEEPEST = 100  # elements within each other
+FARTHEST = 1e6  # mm: a kilometre of paper
+LONGEST = 40  # characters of a numeral
+NUMERAL = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+PLAIN = "-//W3C//DTD SVG"  # the public name under which older programs declare SVG; nothing is looked up by it
+
+
+def contents(path: Path, most: int) -> bytes:
+    """The bytes of a file, if they are at most so many."""
+    try:
+        if path.is_dir():
+            raise Refused(f"{path}", "this is a directory", "give one drawing")
+        if not path.exists():
+            raise Refused(f"{path}", "no such file", "the path of a drawing")
+        if not path.is_file():
+            raise Refused(f"{path}", "this is no ordinary file", "give a drawing")
+        with path.open("rb") as file:
+            data = file.read(most + 1)
+    except (OSError, ValueError) as error:  # ValueError: a path that no file system has
+        why = f"it cannot be read ({getattr(error, 'strerror', None) or error})"
+        raise Refused(f"{path}", why, "a readable file") from None
+    if len(data) > most:
+        raise Refused(f"{path}", f"it is larger than {most / MB:g} MB", "a file of the drawing alone")
+    if not data.strip():
+        raise Refused(f"{path}", "it is empty", "give a drawing")
+    return data
+
+
+def text(path: Path, most: int) -> str:
+    """The text of a file: UTF-8, or UTF-16 where it says so, as spreadsheets do."""
+    data = contents(path, most)
+    try:
+        return data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Refused(f"{path}", f"byte {error.start + 1} is no text", "save it as text in UTF-8") from None
+
+
+def unpacked(path: Path, data: bytes, name: str, most: int) -> bytes:
+    """One member of a ZIP archive, if it has at most so many bytes; the others are not looked at."""
+    try:
+        with zipfile.ZipFile(io.BytesIO(data)) as archive:
+            member = archive.getinfo(name)
+            if member.file_size > most:
+                raise Refused(f"{path}", f"its {name} unpacks to more than {most / MB:g} MB", "save the drawing anew")
+            if member.compress_type not in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED):
+                raise Refused(f"{path}", f"its {name} is packed in an unusual way", "save the drawing anew")
+            with archive.open(member) as file:
+                return file.read(most)
+    except KeyError:
+        raise Refused(f"{path}", f"the archive has no {name}", "save the drawing anew") from None
+    except (zipfile.BadZipFile, zlib.error, EOFError, RuntimeError, NotImplementedError, ValueError, OSError) as error:
+        raise Refused(f"{path}", f"the archive is damaged ({error})", "save the drawing anew") from None
+
+
+def tree(path: Path, data: bytes) -> Element:
+    """The elements of an XML document that declares no entities; names are without their namespaces."""
+    try:
+        return _Reader(path).read(data)
+    except (expat.ExpatError, LookupError, ValueError) as error:
+        raise Refused(f"{path}", f"this is no well-formed XML ({error})", "save the drawing anew") from None
+
+
+class _Reader:
+    """Builds the tree while it counts."""
+
+    def __init__(self, path: Path):
+        self.path, self.builder, self.budget = path, TreeBuilder(), Budget(path, ELEMENTS, "elements")
+        self.depth = 0
+        self.parser = expat.ParserCreate(namespace_separator="}")
+        self.parser.buffer_text = True
+        self.parser.StartDoctypeDeclHandler = self._doctype
+        self.parser.EntityDeclHandler = self._entity
+        self.parser.StartElementHandler = self._start
+        self.parser.EndElementHandler = self._end
+        self.parser.CharacterDataHandler = self.builder.data
+
+    def read(self, data: bytes) -> Element:
+        self.parser.Parse(data, True)
+        return self.builder.close()
+
+    def _doctype(self, name: str, system: str | None, public: str | None, subset: int) -> None:
+        if subset or (system is not None and not (public or "").startswith(PLAIN)):
+            raise Refused(f"{self.path}", "it declares a document type of its own, which is not read",
+                          "save the drawing without <!DOCTYPE ...>")
+
+    def _entity(self, *_: object) -> None:
+        raise Refused(f"{self.path}", "it declares entities, which are not read",
+                      "save the drawing without <!ENTITY ...>")
+
+    def _start(self, name: str, attributes: dict[str, str]) -> None:
+        self.budget.spend()
+        self.depth += 1
+        if self.depth > DEEPEST:
+            raise Refused(f"{self.path}", f"more than {DEEPEST} elements are nested", "ungroup the drawing")
+        self.builder.start(_bare(name), {_bare(key): value for key, value in attributes.items()})
+
+    def _end(self, name: str) -> None:
+        self.depth -= 1
+        self.builder.end(_bare(name))
+
+
+def _bare(name: str) -> str:
+    return name.rpartition("}")[2]
+
+
+class Budget:
+    """Counts things, and refuses the file when they are too many."""
+
+    def __init__(self, path: Path, most: int, things: str):
+        self.path, self.most, self.things, self.spent = path, most, things, 0
+
+    def spend(self, count: int = 1) -> None:
+        self.spent += count
+        if self.spent > self.most:
+            raise Refused(f"{self.path}", f"it has more than {self.most} {self.things}", "a file of the drawing alone")
+
+
+def number(written: str) -> float:
+    """The number that a numeral says.
+
+    Fails with `ValueError` where it is none, or of no use.
+    """
+    bare = written.strip().replace("−", "-")
+    if len(bare) > LONGEST or not NUMERAL.fullmatch(bare) or not math.isfinite(float(bare)):
+        raise ValueError(f"{bare[:LONGEST]!r} is no number" if bare else "a number is missing")
+    return float(bare)
+
+
+def on_paper(*lengths: float) -> bool:
+    """Whether lengths in mm, or coordinates, are numbers and fall on a conceivable sheet."""
+    return all(abs(length) <= FARTHEST for length in lengths)

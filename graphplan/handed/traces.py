@@ -1,0 +1,95 @@
+"""What is seen on a student's sheet: points, lines and circles in its own millimetres, and numbers in a table.
+
+Nothing here knows mechanics. A sheet may lie, be turned and be scaled as it likes; where a plan of it is known to
+lie, as on a printed handout, its frame says so.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+
+Spot = tuple[float, float]
+SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
+
+
+@dataclass(frozen=True)
+class Trace:
+    """One thing on the sheet, in mm, x to the right and y up.
+
+    A point has one spot, a line two of its own (the ends that were drawn), a circle three or more of its rim, as far
+    as it was drawn. `label` is what stands beside it, `panel` the plan it is said to lie on, both empty where nobody
+    says; `blur` is the standard deviation, in mm, with which it was read.
+    """
+
+    kind: str
+    spots: tuple[Spot, ...]
+    label: str = ""
+    panel: str = ""
+    blur: float = 0.0
+
+    def __post_init__(self) -> None:
+        if len(self.spots) < SPOTS[self.kind]:
+            raise ValueError(f"a {self.kind} needs {SPOTS[self.kind]} spots, {self.label or 'one'} has {self.spots}")
+
+
+@dataclass(frozen=True)
+class Frame:
+    """Where a plan lies on the sheet: its origin in mm, and what one unit of it along x is there, as a vector in mm.
+    """
+
+    origin: complex
+    unit: complex
+
+    def onto(self, spot: complex) -> complex:
+        """From the plan to the sheet."""
+        return self.origin + self.unit * spot
+
+    def back(self, spot: complex) -> complex:
+        """From the sheet to the plan."""
+        return (spot - self.origin) / self.unit
+
+
+@dataclass(frozen=True)
+class Number:
+    """One entry of a result table: a vector's components or a single number, and the unit that was written."""
+
+    kind: str
+    of: str
+    value: tuple[float, ...]
+    unit: str = ""
+
+
+class Searched(Protocol):
+    """A picture of a sheet that can be asked for what is expected on it; all in mm of the sheet."""
+
+    def near(self, one: Spot, two: Spot, within: float) -> Trace | None:
+        """The line about the expected one between two spots."""
+
+    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+        """The arc about the expected one, near some spots of it."""
+
+    def dot(self, spot: Spot, within: float) -> Trace | None:
+        """The point about the expected one."""
+
+    def hidden(self, spots: Sequence[Spot]) -> float:
+        """The share of some spots at which nothing could be seen."""
+
+
+@dataclass(frozen=True)
+class Handed:
+    """A drawing as it was handed in; `shows` are the kinds of thing it could show, `frames` those that are known.
+
+    A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
+    they are expected: its `page` is asked for them.
+    """
+
+    name: str
+    traces: tuple[Trace, ...] = ()
+    numbers: tuple[Number, ...] = ()
+    shows: frozenset[str] = frozenset()
+    frames: Mapping[str, Frame] = field(default_factory=dict)
+    page: Searched | None = None

@@ -13,8 +13,8 @@ from typing import NoReturn
 from graphplan import __version__
 from graphplan.errors import GraphplanError, Refused
 
-SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout", "chart",
-               "gallery", "schema", "completion")
+SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout",
+               "verify", "chart", "gallery", "schema", "completion")
 MODULES = {"list": "catalogue"}  # a module called list would hide the built-in one here
 SCENELESS = ("new", "list", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
 

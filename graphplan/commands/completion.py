@@ -19,7 +19,7 @@ from graphplan.commands.choices import write
 if TYPE_CHECKING:
     from graphplan.commands.shells import Argument, Command
 
-PLACES = {"SCENE": "scene", "FOLDER": "folder"}  # what completes an argument of this name, besides files
+PLACES = {"SCENE": "scene", "FOLDER": "folder", "DRAWING": "file"}  # what completes an argument, by its name
 
 
 def options(command: argparse.ArgumentParser) -> None:

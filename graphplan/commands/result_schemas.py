@@ -1,4 +1,4 @@
-"""The JSON Schemas of what `graphplan solve` and `graphplan steps --json` print."""
+"""The JSON Schemas of what `graphplan solve`, `graphplan steps --json` and `graphplan verify --json` print."""
 
 from __future__ import annotations
 
@@ -7,12 +7,17 @@ from collections.abc import Collection
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.mechanism.schema import DRAFT, FROM_0, NUMBER, TEXT, Fragment, listed, table, told
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.verify.verdict import STATES
 
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 EXACT: Fragment = {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}
 TEXTS = listed(TEXT)
+PERCENT: Fragment = {"type": "number", "minimum": 0, "maximum": 100}
+VERDICT = told("follows is right after an earlier slip; unseen is of a kind that the drawing does not show",
+               {"enum": [*STATES]})
 STEP = told("the number of the step, 0 for what is given", COUNT)
+MARKED = {"step": STEP, "mark": told("its letter, or what it is", TEXT)}
 
 
 def _value() -> Fragment:
@@ -169,3 +174,77 @@ def steps() -> Fragment:
         "steps": told("the pose, then every step in order", listed(_step())),
         "pencil": told("how far off the pencil is", _pencil()),
     }, optional=())
+
+
+# --- verify --------------------------------------------------------------------------------------------------------
+
+
+def _or_none(entry: Fragment) -> Fragment:
+    """An entry, or null where there is none."""
+    return {"anyOf": [entry, {"type": "null"}]}
+
+
+def _judged() -> Fragment:
+    """One step as it was judged."""
+    return table({
+        **MARKED,
+        "verdict": VERDICT,
+        "off_mm": told("how far off the student's own earlier marks ask for it; null where it is not seen",
+                       _or_none(FROM_0)),
+        "tolerance_mm": told("how far off a pencil may be there", _or_none(FROM_0)),
+        "astray_mm": told("how far from the true drawing", _or_none(FROM_0)),
+        "mistake": told("what was probably done", _or_none(TEXT)),
+    })
+
+
+def _first_wrong() -> Fragment:
+    """The first wrong step."""
+    return table({
+        **MARKED, "sentence": told("the step in words", TEXT), "off_mm": _or_none(FROM_0),
+        "tolerance_mm": _or_none(FROM_0), "mistake": _or_none(TEXT),
+        "kind": told("the kind of mistake", _or_none(TEXT)),
+        "guilty": told("the earlier step, not to be seen itself, that is probably to blame", _or_none(table(MARKED))),
+    })
+
+
+def _quantity() -> Fragment:
+    """One number of the result table, in the scene's units."""
+    return table({
+        "kind": TEXT, "of": TEXT, "value": listed(NUMBER), "unit": told("as it was written", TEXT),
+        "verdict": VERDICT, "true": listed(NUMBER), "off": _or_none(FROM_0), "tolerance": _or_none(FROM_0),
+        "mistake": _or_none(TEXT),
+    })
+
+
+def _drawing() -> dict[str, Fragment]:
+    """What is found of one drawing."""
+    return {
+        "title": TEXT,
+        "drawing": told("the name of the file", TEXT),
+        "first_wrong": told("null where no step is wrong", _or_none(_first_wrong())),
+        "steps": listed(_judged()),
+        "numbers": listed(_quantity()),
+        "not_needed": told("marks that no step asks for", COUNT),
+        "score": told("out of 100: in all, and by kind of step", _by_name(_or_none(PERCENT))),
+        "counts": told("how many steps there are of each verdict", table(dict.fromkeys(STATES, COUNT))),
+    }
+
+
+def _class() -> dict[str, Fragment]:
+    """What is found of a folder of drawings."""
+    row = {"file": TEXT, "score": _or_none(PERCENT), "first_wrong": _or_none(STEP), "mistake": _or_none(TEXT)}
+    return {
+        "title": TEXT,
+        "drawings": listed(table(row)),
+        "not_judged": listed(table({"file": TEXT, "why": TEXT})),
+        "mean_score": _or_none(PERCENT),
+        "most_frequent_mistake": told("its kind", _or_none(TEXT)),
+        "most_frequent_first_wrong": _or_none(STEP),
+        "mistakes": told("how many drawings first go wrong by each kind of mistake", _by_name(COUNT)),
+        "first_wrong_steps": listed(table({**MARKED, "drawings": COUNT})),
+    }
+
+
+def verify() -> Fragment:
+    """What `graphplan verify --json` prints: of one drawing, or of a folder of them."""
+    return {"$schema": DRAFT, "title": "graphplan verify", "oneOf": [table(_drawing()), table(_class())]}

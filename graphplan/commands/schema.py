@@ -7,6 +7,7 @@ examples:
   graphplan schema > scene.schema.json
   graphplan schema solve
   graphplan schema steps
+  graphplan schema verify
 """
 
 from __future__ import annotations
@@ -18,14 +19,15 @@ from graphplan.commands.choices import write
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "solve", "steps"),
-                         help="scene (default), solve, or steps")
+    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "solve", "steps", "verify"),
+                         help="scene (default), solve, steps, or verify")
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands import result_schemas
     from graphplan.mechanism.schema import scene
 
-    schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps}
+    schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps,
+               "verify": result_schemas.verify}
     write(json.dumps(schemas[options.of](), indent=2, ensure_ascii=False) + "\n", None)
     return 0

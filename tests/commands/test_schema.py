@@ -42,7 +42,7 @@ def printed(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
     return json.loads(capsys.readouterr().out)
 
 
-@pytest.mark.parametrize("of", ["scene", "solve", "steps"])
+@pytest.mark.parametrize("of", ["scene", "solve", "steps", "verify"])
 def test_schemas_are_sound(of: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `graphplan schema` prints is a JSON Schema of the draft it names."""
     schema = printed(capsys, "schema", of)

@@ -1,0 +1,236 @@
+"""Verify a drawing made by hand: the first wrong step, by how much it is off, and what a pencil allows.
+
+DRAWING is a file of measured points or results (.csv, .toml), of a CAD or geometry program (.svg, .dxf, .ggb), a scan
+or a photo (.png, .jpg, .pdf), or a folder of them, of a whole class. Say --plan, --method and --paper as for the
+handout that was drawn on.
+
+examples:
+  graphplan verify four-bar points.csv
+  graphplan verify scene.toml scan.png --report report.html
+  graphplan verify four-bar points.csv --pencil point=0.2 --weights follows=0.5,numbers=3
+  graphplan verify four-bar drawings/ --report class.html
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_choices, add_pencil, add_sheet, presented, write
+from graphplan.commands.messages import Messages, error
+from graphplan.errors import GraphplanError, Refused
+
+if TYPE_CHECKING:
+    from graphplan.drafting.pencil import Pencil
+    from graphplan.methods.construction import Construction
+    from graphplan.phrases import Said
+    from graphplan.sheet.composition import Composition
+    from graphplan.sheet.display import Sheet
+    from graphplan.verify.classroom import Classroom, Marked
+    from graphplan.verify.score import Weights
+
+SUFFIXES, CLASS_SUFFIXES = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
+    command.add_argument("--report", metavar="FILE",
+                         help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over "
+                         "the true one")
+    command.add_argument("--weights", default="", metavar="WEIGHTS",
+                         help="what a step earns by its verdict, and how many steps a number counts for: such as "
+                         "right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); follows is right after an "
+                         "earlier slip")
+    command.add_argument("--json", action="store_true", help="as data")
+    add_sheet(command)
+    add_choices(command)
+    add_pencil(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.drafting.pencil import pencil
+    from graphplan.verify.score import weights
+
+    path, hand, weighed = Path(options.drawing), pencil(options.pencil), weights(options.weights)
+    _check(options.report, path)
+    desk = Desk(*_composed(options, hand), hand, weighed, options)
+    if path.is_dir():
+        return _class(desk, path, options)
+    one = desk.marked(path)
+    if options.report:
+        write(_report(one, Path(options.report).suffix.lower()), options.report)
+    write(_record(one) if options.json else desk.said(_lines(one)), None)
+    return 0
+
+
+@dataclass(frozen=True)
+class Desk:
+    """Where drawings are judged, one after the other: beside the construction on its sheet."""
+
+    drawing: Construction
+    composition: Composition
+    pencil: Pencil
+    weights: Weights
+    options: argparse.Namespace
+
+    def marked(self, path: Path) -> Marked:
+        """A drawing judged; fails with `Refused` where it cannot be."""
+        from graphplan.handed.files import read
+        from graphplan.handed.traces import Frame
+        from graphplan.sheet.handout import code
+        from graphplan.verify.classroom import Marked
+        from graphplan.verify.judge import judge
+        from graphplan.verify.score import score
+        from graphplan.verify.ways import judge_by_any
+
+        frames = {panel: Frame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
+        handed = read(path, list(self.composition.views), frames, self._printed, code(self.composition))
+        task = self.drawing, self.composition, handed, self.pencil
+        found = (judge(*task) if self.options.method
+                 else judge_by_any(*task, self.options.plan, self.options.inertia))
+        judgement = replace(found, name=printable(path.name))
+        return Marked(judgement.name, judgement, score(judgement, self.weights))
+
+    def _printed(self) -> Sheet:
+        """The page that was drawn on: of a task and of its guided version the plans are the same."""
+        from graphplan.sheet.handout import solution, task
+
+        return task(solution(self.composition), self.composition)[0]
+
+    def said(self, lines: Iterator[Said]) -> str:
+        """Lines in the language of the sheet."""
+        return "".join(f"{self.composition.planes.tongue(line)}\n" for line in lines)
+
+
+def printable(name: str) -> str:
+    """A name as it can be told: a file may be called by what no terminal should obey and no text can hold."""
+    return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
+
+
+def _composed(options: argparse.Namespace, hand: Pencil) -> tuple[Construction, Composition]:
+    """The construction on its sheet, as the handout has it."""
+    from graphplan.check.report import report
+    from graphplan.drafting.drafted import drafted
+    from graphplan.mechanism.scene import load
+    from graphplan.words.tongue import tongue
+
+    scene = presented(options, load(options.scene))
+    found = report(scene, method=options.method, plan=options.plan, inertia=options.inertia)
+    say = tongue(scene.sheet.language or "en")
+    return found.drawing, drafted(found.drawing, hand, check=found.check, tongue=say).composition
+
+
+def _check(output: str | None, path: Path) -> None:
+    """Refuse a report that could not be written, before anything is judged."""
+    suffixes = CLASS_SUFFIXES if path.is_dir() else SUFFIXES
+    suffix = Path(output or "").suffix.lower()
+    if output and suffix not in suffixes:
+        what = "of a folder is" if suffix in SUFFIXES else "is"
+        raise Refused(f"--report {output}", f"no report {what} written as {suffix or 'a file without a suffix'}",
+                      f"a name in {', '.join(suffixes)}")
+
+
+# ---- one drawing ---------------------------------------------------------------------------------------------------
+
+
+def _lines(one: Marked) -> Iterator[Said]:
+    """The verdict in a few lines."""
+    from graphplan.phrases import arranged
+    from graphplan.verify.findings import asked, counted, lacking, miss, opinion
+    from graphplan.verify.verdict import MISSING, STATES, WRONG
+
+    yield opinion(one.judgement)
+    yield from asked(one.judgement)
+    yield arranged("{0:capital}.", counted(one.judgement))
+    if numbers := lacking(one.judgement):
+        yield arranged("{0:capital}: {1}.", STATES[MISSING](), numbers)
+    for number in one.judgement.numbers:
+        if number.state == WRONG:
+            yield miss(number)
+    yield one.score.told
+
+
+def _record(one: Marked) -> str:
+    """The verdict as data."""
+    from graphplan.verify.record import record
+
+    return json.dumps(record(one.judgement, one.score), indent=1, ensure_ascii=False) + "\n"
+
+
+def _report(one: Marked, suffix: str) -> str | bytes:
+    """The report as a file of this kind."""
+    if suffix == ".json":
+        return _record(one)
+    from graphplan.verify.overlay import overlay
+
+    sheets = overlay(one.judgement, one.score)
+    match suffix:
+        case ".pdf":
+            from graphplan.backends.ink import pdf
+
+            return pdf(sheets)
+        case ".svg":
+            from graphplan.backends.svg import svg
+
+            return svg(sheets[0])
+    from graphplan.backends.marked import marked
+
+    return marked(one.judgement, one.score, sheets)
+
+
+# ---- a class -------------------------------------------------------------------------------------------------------
+
+
+def _class(desk: Desk, folder: Path, options: argparse.Namespace) -> int:
+    """Judge every file of a folder; one that cannot be judged is told, and the others go on."""
+    from graphplan.verify.classroom import lines
+
+    found = _judged(desk, folder, options)
+    if options.report:
+        write(_class_report(desk, found, Path(options.report).suffix.lower()), options.report)
+    write(_data(found) if options.json else desk.said(lines(found)), None)
+    return 0 if found.marked else 2
+
+
+def _judged(desk: Desk, folder: Path, options: argparse.Namespace) -> Classroom:
+    """All drawings of a folder, with those that cannot be judged."""
+    from graphplan.verify.classroom import Classroom, Unread
+
+    messages, paths = Messages(options.quiet), _files(folder, options.report)
+    marked, unread = [], []
+    for count, path in enumerate(paths):
+        messages.progress(f"{count}/{len(paths)} {printable(path.name)}")
+        try:
+            marked.append(desk.marked(path))
+        except GraphplanError as fault:
+            error(printable(fault.lines[0]))
+            unread.append(Unread(printable(path.name), printable(fault.lines[0].removeprefix(f"{path}: "))))
+    messages.progress("")
+    return Classroom(desk.drawing.scene.title, desk.drawing.drawn, tuple(marked), tuple(unread))
+
+
+def _files(folder: Path, report: str | None) -> list[Path]:
+    """The files of a folder that were handed in, by name: hidden ones were not, nor was an earlier report."""
+    found = [path for path in sorted(folder.iterdir()) if path.is_file() and not path.name.startswith(".")
+             and not (report and path.resolve() == Path(report).resolve())]
+    if not found:
+        raise Refused(f"{folder}", "there is no drawing in it", "a folder of drawings, each a file of its own")
+    return found
+
+
+def _data(found: Classroom) -> str:
+    """The class as data."""
+    return json.dumps(found.data, indent=1, ensure_ascii=False) + "\n"
+
+
+def _class_report(desk: Desk, found: Classroom, suffix: str) -> str:
+    """The report of a class as a file of this kind."""
+    if suffix == ".json":
+        return _data(found)
+    from graphplan.backends.class_list import class_list
+
+    return class_list(found, desk.composition.planes.tongue)

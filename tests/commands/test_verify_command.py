@@ -1,0 +1,184 @@
+"""Drawings verified at the command line: the verdict, reports of every kind, a class, and what is refused."""
+
+from __future__ import annotations
+
+import json
+import os
+from functools import cache
+from pathlib import Path
+from typing import Any
+from xml.etree import ElementTree
+
+import pytest
+from jsonschema import Draft202012Validator
+
+import graphplan as gp
+from graphplan.commands import main, result_schemas
+from graphplan.kernel.kinds import POINT
+from graphplan.sheet.planes import Planes
+
+SCALE = 0.4  # mm of the student's sheet for a unit of the scene
+LAST = 39  # the last step of the four-bar's construction, where lines 37 and 38 meet
+
+
+@cache
+def points(off: float = 0.0) -> str:
+    """The measured points of a four-bar, the last one so many mm off."""
+    drawing = gp.construct(gp.load("four-bar"))
+    planes, drawn = Planes(drawing), drawing.drawn
+    rows = ["mark,x,y,panel"]
+    for step in drawn.steps:
+        if step.op.gives == POINT:
+            x, y = (SCALE * part for part in planes.spot(step.index))
+            x += off if drawn.number(step.index) == LAST else 0.0
+            rows.append(f"{step.name or drawn.number(step.index)},{x:.3f},{y:.3f},{planes.homes[step.index]}")
+    return "\n".join(rows) + "\n"
+
+
+@pytest.fixture
+def good(tmp_path: Path) -> Path:
+    path = tmp_path / "good.csv"
+    path.write_text(points())
+    return path
+
+
+@pytest.fixture
+def wrong(tmp_path: Path) -> Path:
+    path = tmp_path / "wrong.csv"
+    path.write_text(points(6.0))
+    return path
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """A class: two drawings, a file that is none, and one that is hidden."""
+    path = tmp_path / "class"
+    path.mkdir()
+    (path / "a.csv").write_text(points())
+    (path / "b.csv").write_text(points(6.0))
+    (path / "c.txt").write_text("none")
+    (path / ".d").write_text("hidden")
+    return path
+
+
+def printed(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
+    """The JSON that is printed, valid after its schema."""
+    assert main(["verify", "four-bar", *arguments, "--json"]) == 0
+    data = json.loads(capsys.readouterr().out)
+    assert [error.message for error in Draft202012Validator(result_schemas.verify()).iter_errors(data)] == []
+    return data
+
+
+def test_a_faultless_drawing_is_called_right(good: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The verdict is a few lines, and the status is 0."""
+    assert main(["verify", "four-bar", str(good)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0] == "No step is wrong."
+    assert lines[-1] == "Score: 100 of 100 (velocity 100, acceleration 100)."
+
+
+def test_the_first_wrong_step_is_named(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It is told with its distance and what is allowed; the status is 0, as the drawing could be judged."""
+    assert main(["verify", "four-bar", str(wrong)]) == 0
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].startswith(f"First wrong is step {LAST}: ")
+    assert "6 mm off" in lines[0]
+    assert f"Step {LAST}: Mark m where line 37 meets line 38." in lines
+
+
+def test_data_is_after_its_schema(good: Path, wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """--json has the first wrong step, or null, and the verdict of every step."""
+    assert printed(capsys, str(good))["first_wrong"] is None
+    data = printed(capsys, str(wrong))
+    assert data["first_wrong"]["step"] == LAST
+    assert data["first_wrong"]["off_mm"] == pytest.approx(6.0, abs=0.5)
+    assert data["counts"]["wrong"] == [step["verdict"] for step in data["steps"]].count("wrong") == 1
+
+
+@pytest.mark.parametrize(("suffix", "begins"), [(".html", b"<!DOCTYPE html>"), (".svg", b"<?xml"), (".pdf", b"%PDF"),
+                                                (".json", b"{")])
+def test_a_report_is_written(suffix: str, begins: bytes, wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Its name says of what kind it is; the verdict is printed all the same."""
+    path = wrong.parent / f"report{suffix}"
+    assert main(["verify", "four-bar", str(wrong), "--report", str(path)]) == 0
+    assert path.read_bytes().startswith(begins)
+    assert capsys.readouterr().out.startswith("First wrong is")
+
+
+def test_weights_and_pencil_are_taken_from_the_command_line(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A wrong step may earn its share all the same; with a blunt enough pencil there is none."""
+    assert printed(capsys, str(wrong), "--weights", "wrong=1")["score"]["total"] == 100.0
+    assert printed(capsys, str(wrong), "--pencil", "point=3,edge=3")["first_wrong"] is None
+
+
+def test_one_bad_file_does_not_stop_a_class(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """It is told in one line; the other drawings are judged, and the status is 0."""
+    assert main(["verify", "four-bar", str(folder)]) == 0
+    told = capsys.readouterr()
+    assert told.err.count("\n") == 1
+    assert "c.txt: files of this kind (.txt) are not read" in told.err
+    assert told.out.splitlines()[0] == "a.csv: 100 of 100; no wrong step"
+    assert told.out.splitlines()[1].startswith("b.csv: ")
+    assert "Not judged: 1." in told.out
+
+
+def test_the_data_of_a_class_is_after_its_schema(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """--json has a row for each drawing, and its report is not taken for a drawing the next time."""
+    path = folder / "report.json"
+    for _ in range(2):
+        data = printed(capsys, str(folder), "--report", str(path))
+        assert json.loads(path.read_text()) == data
+    assert [row["first_wrong"] for row in data["drawings"]] == [None, LAST]
+    assert [one["file"] for one in data["not_judged"]] == ["c.txt"]
+
+
+def test_a_class_has_a_page(folder: Path, tmp_path: Path) -> None:
+    """--report in .html has a row for each drawing."""
+    path = tmp_path / "class.html"
+    assert main(["verify", "four-bar", str(folder), "--report", str(path), "-q"]) == 0
+    assert all(name in path.read_text() for name in ("a.csv", "b.csv", "c.txt"))
+
+
+def test_a_class_of_which_nothing_can_be_read_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A folder without a drawing, or with bad files alone, ends with status 2."""
+    assert main(["verify", "four-bar", str(tmp_path)]) == 2
+    assert "there is no drawing in it" in capsys.readouterr().err
+    (tmp_path / "a.txt").write_text("none")
+    assert main(["verify", "four-bar", str(tmp_path)]) == 2
+
+
+@pytest.mark.parametrize(("arguments", "why"), [
+    (["--report", "report.txt"], "no report is written as .txt"),
+    (["--weights", "wright=1"], "nothing of this name is weighed"),
+    (["--pencil", "point=-1"], "this is no size of an error"),
+])
+def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, good: Path, monkeypatch: pytest.MonkeyPatch,
+                                        capsys: pytest.CaptureFixture[str]) -> None:
+    """One line says what is wrong; nothing is judged, and nothing written."""
+    monkeypatch.chdir(good.parent)
+    assert main(["verify", "four-bar", str(good), *arguments]) == 2
+    told = capsys.readouterr()
+    assert why in told.err
+    assert told.out == ""
+    assert list(good.parent.iterdir()) == [good]
+
+
+def test_a_folder_has_no_single_sheet(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """The overlay of a class is refused before anything is judged."""
+    assert main(["verify", "four-bar", str(folder), "--report", str(folder / "class.svg")]) == 2
+    assert "no report of a folder is written as .svg" in capsys.readouterr().err
+
+
+def test_names_that_are_no_text_are_told_all_the_same(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A file may be called by any bytes: what would move the cursor, or is no text, is replaced."""
+    (folder / "a.csv").rename(folder / os.fsdecode(b"\xff\x1b[2J.csv"))
+    assert [row["file"] for row in printed(capsys, str(folder))["drawings"]] == ["b.csv", "\ufffd\ufffd[2J.csv"]
+    path = folder.parent / "sheet.svg"
+    assert main(["verify", "four-bar", str(folder / os.fsdecode(b"\xff\x1b[2J.csv")), "--report", str(path)]) == 0
+    ElementTree.parse(path)
+
+
+def test_a_drawing_that_is_not_there_is_bad_input(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """One line, status 2."""
+    assert main(["verify", "four-bar", str(tmp_path / "none.csv")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1

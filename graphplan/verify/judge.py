@@ -24,6 +24,7 @@ from graphplan.verify.verdict import WRONG, Judgement
 from graphplan.verify.walk import Loose, Rules, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
+HORIZON = 60  # how many steps further it is seen what a mistake explains
 NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 ALARM = 0.002  # how often a faultless drawing may be called wrong
 
@@ -42,6 +43,7 @@ class Judge:
     def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil):
         self.drawing, self.composition, self.handed, self.pencil = drawing, composition, handed, pencil
         homes = Board(drawing, {}, pencil).homes
+        self.sought: Sought | None = None
         self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
         self.labels = labelled(drawing.drawn, homes, handed.traces)
         taken = set(self.labels.values())
@@ -127,8 +129,9 @@ class Judge:
         """Before the first step, in these frames."""
         board = Board(self.drawing, fits, self.pencil)
         loose = Loose(board, self.traces, self.loose, len(self.handed.traces))
-        sought = Sought(board, self.handed.page) if self.handed.page else None
-        return Walk(board, self.rules, self.traces, self.labels, loose, sought)
+        if self.handed.page and not self.sought:
+            self.sought = Sought(board, self.handed.page)  # of a picture the frames are known: one board serves all
+        return Walk(board, self.rules, self.traces, self.labels, loose, self.sought)
 
     def _search(self, walk: Walk, gain: int, found: dict[int, int | Slip]) -> None:
         """Where no trace fits a step, enter whichever suspect or slip makes most of the others fit, and go on."""
@@ -143,10 +146,11 @@ class Judge:
                     and not walk.hidden(step)):
                 tried: list[int | Slip] = [*walk.assumptions(left)] if gain > 1 and place is None else []
                 tried += walk.suspects(left, half_right=gain > 1)
-                forks = [(walk.fork().go(one).through(found), one) for one in tried]
-                longest = max(forks, key=lambda fork: len(fork[0].used), default=None)
-                if longest and len(longest[0].used) >= len(ahead.used) + gain:
-                    ahead, found[step.index] = longest
+                end = min(step.index + HORIZON, len(walk.steps))
+                forks = [(walk.fork().go(one).until(end, found), one) for one in tried]
+                longest, best = max(forks, key=lambda fork: len(fork[0].used), default=(None, None))
+                if longest and best is not None and len(longest.used) >= len(ahead.before(end)) + gain:
+                    ahead, found[step.index] = longest.through(found), best
             walk.go(found.get(step.index))
 
 

@@ -11,8 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.errors import Undrawable
 from graphplan.handed.traces import Searched, Spot, Trace
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.sheet.planes import Planes
 from graphplan.verify.board import Board, plain
@@ -58,7 +60,7 @@ class Sought:
         home = self.board.homes[step.index]
         frame, mm = self.board.fits[home].frame, self.board.mm(home)
         way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
-        along = [((z - foot) * way.conjugate()).real for z in self._marks(step, own)] or [0.0]
+        along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
         spare = ALONE / mm if max(along) - min(along) < ALONE / mm else 0.0
         start, end = (frame.onto(foot + way * far) for far in (min(along) - spare, max(along) + spare))
         return (start.real, start.imag), (end.real, end.imag)
@@ -74,7 +76,7 @@ class Sought:
             return self.page.dot(onto(complex(*value[:2])), within)
         if step.op.gives == LINE:
             return self.page.near(*self._stretch(step, value, own), within)
-        marks, mm = self._marks(step, own), self.board.mm(self.board.homes[step.index])
+        marks, mm = self._marks(step, value, own), self.board.mm(self.board.homes[step.index])
         centre, radius = complex(value[0], value[1]), math.sqrt(value[2])
         if not marks or radius * mm < STRUCK:
             return None
@@ -83,11 +85,24 @@ class Sought:
                  for k in (-1, 0, 1)]
         return self.page.rim(onto(centre), radius * mm, spots, within)
 
-    def _marks(self, step: Step, own: Sequence[Any]) -> list[complex]:
-        """Where the marks on a line or an arc are: those that are drawn, and of those to come where they should be."""
-        values = self.board.drawing.values
-        return [complex(*plain(own[i] if i < len(own) else values[i])[:2])
-                for i in self._on.get(step.index, ()) if np.all(np.isfinite(values[i][:2]))]
+    def _marks(self, step: Step, value: tuple[float, ...], own: Sequence[Any]) -> list[complex]:
+        """Where the marks on a line or an arc are: those that are drawn, and those that it makes with them; where
+        others to come should be."""
+        found = [self._mark(index, step, value, own) for index in self._on.get(step.index, ())]
+        return [complex(*spot) for spot in found if np.all(np.isfinite(spot))]
+
+    def _mark(self, index: int, step: Step, value: tuple[float, ...], own: Sequence[Any]) -> tuple[float, ...]:
+        """Where one of the marks on what a step makes is, or would be."""
+        if index < len(own):
+            return plain(own[index])[:2]
+        other, drawing = self.board.drawing.drawn.steps[index], self.board.drawing
+        if all(arg < len(own) or arg == step.index for arg in other.args):
+            read = [value if arg == step.index else plain(own[arg]) for arg in other.args]
+            try:
+                return plain(other.op.rule(Floats(), *read, **other.params))[:2]
+            except Undrawable:
+                pass
+        return plain(drawing.values[index])[:2]
 
     @cached_property
     def _on(self) -> dict[int, tuple[int, ...]]:

@@ -138,6 +138,11 @@ class Walk:
             self.go((found or {}).get(len(self.own)))
         return self
 
+    def before(self, end: int) -> set[int]:
+        """The traces that were taken before the step of this place."""
+        places = [taken.place for taken in self.taken[:end] if taken.place is not None]
+        return {*places, *(twin for place in places for twin in self.loose.twins(place))}
+
     def go(self, found: int | Slip | None) -> Walk:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Slip):

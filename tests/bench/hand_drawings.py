@@ -22,7 +22,7 @@ from typing import Any
 import beside  # noqa: F401  (makes hands and raster importable)
 import cv2
 import numpy as np
-from hands import Drawn, draw, frames, in_panel, off_paper, points, slipped, strokes, traced, wrong_by
+from hands import Drawn, apart, draw, frames, in_panel, off_paper, points, slipped, strokes, traced, wrong_by
 from raster import Printed, photo, printed, scan
 
 import graphplan as gp
@@ -175,7 +175,7 @@ def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[
         drawn = draw(drawing, where, PENCIL, seed, {step.index: slip})
         tolerance = clean.verdicts[step.index].tolerance
         there = drawn.values[step.index] is not None and not off_paper(drawn) and (
-            kind not in PRINTED or in_panel(drawn, sheet))
+            kind not in PRINTED or (in_panel(drawn, sheet) and apart(drawn, step)))
         if there and wrong_by(drawn, step) > LARGE * max(tolerance, LEAST):
             return slip, drawn
     return None

@@ -183,3 +183,22 @@ def in_panel(drawn: Drawn, sheet: Composition) -> bool:
             if rect.holds((spots[1].real, spots[1].imag)) and not rect.holds((spots[0].real, spots[0].imag)):
                 return False
     return True
+
+
+def apart(drawn: Drawn, step: Step) -> bool:
+    """Whether what a step made can be told from all else on the paper: no other mark or line lies upon it."""
+    traces = {trace.label: trace for trace in traced(drawn)}
+    label = step.name or str(drawn.drawing.drawn.number(step.index))
+    one = traces.pop(label)
+    return not any(_upon(one, other) for other in traces.values() if (other.kind, other.panel) == (one.kind, one.panel))
+
+
+def _upon(one: Trace, other: Trace) -> bool:
+    """Whether a mark or a line lies upon another of its kind."""
+    if one.kind == POINT:
+        return math.dist(one.spots[0], other.spots[0]) < 1.0
+    if one.kind != LINE:
+        return False
+    start, end = (complex(*spot) for spot in other.spots)
+    way = (end - start) / abs(end - start)
+    return all(abs(((complex(*spot) - start) * way.conjugate()).imag) < 0.5 for spot in one.spots)

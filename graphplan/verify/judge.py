@@ -68,6 +68,8 @@ class Judge:
             return {panel: Fit(Frame(complex(*view.origin), view.scale))
                     for panel, view in self.composition.views.items()}
         register = Register(self.drawing, self.composition, self.handed, self.pencil, self.labels)
+        if self.handed.frames.keys() >= set(register.panels):
+            return {panel: Fit(self.handed.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
         register.taken |= self._there({MECHANISM: mechanism}, register.panels)
         expected = {panel: register.expected(panel, mechanism) for panel in register.panels[1:]}

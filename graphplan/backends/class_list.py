@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 
 from graphplan.backends.marked import FIGURE, Cell, page, table
 from graphplan.phrases import said
 from graphplan.verify.classroom import NOT_JUDGED, Classroom, Row, mistaken
-from graphplan.verify.findings import named
 from graphplan.words.tongue import Tongue
 
 LONGEST = 16.0  # em: the longest bar
@@ -35,7 +34,7 @@ class _ClassList:
         """What stands on the page."""
         yield f"<h1>{escape(self.found.title)}</h1>"
         yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
-        first = {self.say(named(self.found.drawn, index)): count for index, count in self.found.histogram.items()}
+        first = {self.say(step.told): count for step, count in self.found.histogram.items()}
         yield from self._bars(said("First wrong step"), first)
         kinds = {self.say(mistaken(kind)): count for kind, count in self.found.mistakes.items()}
         yield from self._bars(said("Mistakes"), kinds)
@@ -44,7 +43,7 @@ class _ClassList:
 
     def _drawings(self) -> Iterator[str]:
         heads = (said("Drawing"), said("Score"), said("First wrong step"), said("Likely mistake"), said("Verdict"))
-        rows = [("" if row.told is None else "wrong", self._row(row)) for row in self.found.rows]
+        rows = [("" if row.step is None else "wrong", self._row(row)) for row in self.found.rows]
         yield f"<h2>{self.say(said('Drawings'))}</h2>"
         yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
                          [self.say(head) for head in heads], rows)
@@ -52,8 +51,8 @@ class _ClassList:
     def _row(self, row: Row) -> tuple[Cell, ...]:
         return (
             Cell(escape(row.file)), Cell("" if row.score is None else f"{row.score:.0f}", FIGURE),
-            Cell("" if row.step is None else str(row.step), FIGURE), Cell(self.say(row.mistake or "")),
-            Cell(self.say(said("no wrong step") if row.told is None else row.told)),
+            Cell("" if row.step is None else escape(row.step.short), FIGURE), Cell(self.say(row.mistake or "")),
+            Cell(self.say(row.told)),
         )  # fmt: skip
 
     def _unread(self) -> Iterator[str]:
@@ -63,7 +62,7 @@ class _ClassList:
             yield from table(self.say(said("Files that could not be read, or show no such drawing.")),
                              (self.say(said("Drawing")), self.say(said("Reason"))), rows)
 
-    def _bars(self, head: str, counts: dict[str, int]) -> Iterator[str]:
+    def _bars(self, head: str, counts: Mapping[str, int]) -> Iterator[str]:
         """Counts as a table with a bar for each; nothing if there are none."""
         if not counts:
             return

@@ -18,7 +18,7 @@ from graphplan.phrases import Said, arranged, said
 from graphplan.sheet.display import Sheet
 from graphplan.sheet.lettering import sentence_runs
 from graphplan.sheet.scales import digits
-from graphplan.verify.findings import ALLOWED, FIGURES, OFF, counted, measured, named, opinion, place, quantity
+from graphplan.verify.findings import ALLOWED, FIGURES, OFF, blamed, called, counted, measured, named, opinion, quantity
 from graphplan.verify.remarks import figures, written
 from graphplan.verify.score import GROUPS, Score
 from graphplan.verify.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
@@ -132,11 +132,10 @@ class _Report:
 
     def _step(self, verdict: Verdict) -> tuple[Cell, ...]:
         drawn, planes = self.judgement.drawing.drawn, self.judgement.composition.planes
-        number = place(drawn, verdict.step)
         seen = measured(self.judgement, verdict)
         sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
-            Cell(str(number) if number else self.set(drawn.text(verdict.step)), FIGURE),
+            Cell(self.set(called(drawn, verdict.step).short), FIGURE),
             Cell(self.say(spoken(planes.homes[verdict.step]))),
             Cell(self.set(drawn.sentence(verdict.step))),
             Cell(self.say(STATES[verdict.state]()), STATE),
@@ -148,9 +147,10 @@ class _Report:
         """What was probably done, with the earlier step at which it was if that is another."""
         if verdict.mistake is None:
             return ""
-        if verdict.guilty in (None, verdict.step):
+        guilty = blamed(verdict)
+        if guilty is None:
             return verdict.mistake
-        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, verdict.guilty or 0), verdict.mistake)
+        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, guilty), verdict.mistake)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 

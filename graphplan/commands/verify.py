@@ -4,6 +4,15 @@ DRAWING is a file of measured points or results (.csv, .toml), of a CAD or geome
 or a photo (.png, .jpg, .pdf), or a folder of them, of a whole class. Say --plan, --method and --paper as for the
 handout that was drawn on.
 
+Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
+circle and precision may be left out:
+  mark,x,y,panel
+  A,32.1,46.0,mechanism
+Results are a table with x and y, or value:
+  quantity,of,x,y,value,unit
+  velocity,A,-1100,200,,mm/s
+  omega,2,,,-5.2,rad/s
+
 examples:
   graphplan verify four-bar points.csv
   graphplan verify scene.toml scan.png --report report.html
@@ -15,6 +24,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -56,11 +66,14 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.verify.score import weights
 
     path, hand, weighed = Path(options.drawing), pencil(options.pencil), weights(options.weights)
-    _check(options.report, path)
+    _check(options.report, path, options.scene)
     desk = Desk(*_composed(options, hand), hand, weighed, options)
-    if path.is_dir():
+    if os.path.isdir(path):
         return _class(desk, path, options)
+    messages = Messages(options.quiet)
+    messages.progress(printable(path.name))
     one = desk.marked(path)
+    messages.progress("")
     if options.report:
         write(_report(one, Path(options.report).suffix.lower()), options.report)
     write(_record(one) if options.json else desk.said(_lines(one)), None)
@@ -88,12 +101,13 @@ class Desk:
         from graphplan.verify.ways import judge_by_any
 
         frames = {panel: Frame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
-        handed = read(path, list(self.composition.views), frames, self._printed, code(self.composition))
+        size = self.composition.arrangement.width, self.composition.arrangement.height
+        handed = read(path, list(self.composition.views), frames, self._printed, code(self.composition), size)
         task = self.drawing, self.composition, handed, self.pencil
         found = (judge(*task) if self.options.method
                  else judge_by_any(*task, self.options.plan, self.options.inertia))
         judgement = replace(found, name=printable(path.name))
-        return Marked(judgement.name, judgement, score(judgement, self.weights))
+        return Marked(judgement, score(judgement, self.weights))
 
     def _printed(self) -> Sheet:
         """The page that was drawn on: of a task and of its guided version the plans are the same."""
@@ -124,14 +138,25 @@ def _composed(options: argparse.Namespace, hand: Pencil) -> tuple[Construction, 
     return found.drawing, drafted(found.drawing, hand, check=found.check, tongue=say).composition
 
 
-def _check(output: str | None, path: Path) -> None:
-    """Refuse a report that could not be written, before anything is judged."""
-    suffixes = CLASS_SUFFIXES if path.is_dir() else SUFFIXES
+def _check(output: str | None, path: Path, scene: str) -> None:
+    """Refuse a report that could not be written, or would be written over what it is of, before anything is judged."""
+    suffixes = CLASS_SUFFIXES if os.path.isdir(path) else SUFFIXES
     suffix = Path(output or "").suffix.lower()
     if output and suffix not in suffixes:
         what = "of a folder is" if suffix in SUFFIXES else "is"
         raise Refused(f"--report {output}", f"no report {what} written as {suffix or 'a file without a suffix'}",
                       f"a name in {', '.join(suffixes)}")
+    for kept, what in ((path, "drawing"), (scene, "scene")):
+        if output and _same(output, kept):
+            raise Refused(f"--report {output}", f"the {what} itself would be overwritten", "another name")
+
+
+def _same(one: str, other: str | Path) -> bool:
+    """Whether two names are those of one file that is there."""
+    try:
+        return os.path.samefile(one, other)
+    except (OSError, ValueError):  # one of them is not there, or no file system has it
+        return False
 
 
 # ---- one drawing ---------------------------------------------------------------------------------------------------
@@ -205,21 +230,33 @@ def _judged(desk: Desk, folder: Path, options: argparse.Namespace) -> Classroom:
     for count, path in enumerate(paths):
         messages.progress(f"{count}/{len(paths)} {printable(path.name)}")
         try:
+            _enclosed(path)
             marked.append(desk.marked(path))
         except GraphplanError as fault:
             error(printable(fault.lines[0]))
             unread.append(Unread(printable(path.name), printable(fault.lines[0].removeprefix(f"{path}: "))))
     messages.progress("")
-    return Classroom(desk.drawing.scene.title, desk.drawing.drawn, tuple(marked), tuple(unread))
+    return Classroom(desk.drawing.scene.title, tuple(marked), tuple(unread))
 
 
 def _files(folder: Path, report: str | None) -> list[Path]:
-    """The files of a folder that were handed in, by name: hidden ones were not, nor was an earlier report."""
-    found = [path for path in sorted(folder.iterdir()) if path.is_file() and not path.name.startswith(".")
-             and not (report and path.resolve() == Path(report).resolve())]
+    """All in a folder that was handed in, by name: what is hidden was not, nor was an earlier report."""
+    try:
+        held = sorted(folder.iterdir())
+    except OSError as fault:
+        raise Refused(f"{folder}", f"it cannot be read ({fault.strerror})", "a readable folder") from None
+    found = [path for path in held if not path.name.startswith(".") and not (report and _same(report, path))]
     if not found:
         raise Refused(f"{folder}", "there is no drawing in it", "a folder of drawings, each a file of its own")
     return found
+
+
+def _enclosed(path: Path) -> None:
+    """Refuse what is in a folder and no drawing, whatever it is called."""
+    if os.path.isdir(path):
+        raise Refused(f"{path}", "this is a folder within the folder", "move its drawings out of it")
+    if not os.path.exists(path):
+        raise Refused(f"{path}", "this link leads nowhere", "the drawing itself")
 
 
 def _data(found: Classroom) -> str:

@@ -7,13 +7,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from graphplan.errors import Refused
 from graphplan.handed.image import Grey
+from graphplan.handed.warp import Spots, enclosed
 from graphplan.sheet.corner_marks import numbers
 
-Spots = NDArray[np.float64]  # rows of x and y
 CORNERS, BITS = 4, 8  # marks of a sheet, and the bits of the code in each
 ALIKE = 2.0  # how much larger one mark of a sheet may look than another
 SMALLEST = 48.0  # pixels of a mark's rim, below which its cells are not told apart
@@ -37,7 +36,7 @@ def find(image: Grey, code: int | None, name: str) -> Found:
     """
     seen = _detected(image)
     if code is None:
-        small_first = sorted(seen, key=lambda mark: abs(_area(mark[1])))  # what looks like a mark by chance is small
+        small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
         return Found({number >> BITS: rim for number, rim in small_first})
     own = {number: corner for corner, number in enumerate(numbers(code))}
     found = Found({own[number]: corners for number, corners in seen if number in own})
@@ -68,11 +67,5 @@ def _detected(image: Grey) -> list[tuple[int, Spots]]:
 
 def _of_one_sheet(marks: list[tuple[int, Spots]]) -> bool:
     """Whether the large ones among marks are those of several corners; print may look like a small mark by chance."""
-    sizes = [math.sqrt(abs(_area(rim))) for _, rim in marks]
+    sizes = [math.sqrt(abs(enclosed(rim))) for _, rim in marks]
     return len({corner for (corner, _), size in zip(marks, sizes, strict=True) if size * ALIKE > max(sizes)}) > 1
-
-
-def _area(rim: Spots) -> float:
-    """What a rim encloses, by Gauss's formula."""
-    ahead = np.roll(rim, -1, axis=0)
-    return float((rim[:, 0] * ahead[:, 1] - ahead[:, 0] * rim[:, 1]).sum() / 2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import chain
 from pathlib import Path
@@ -14,6 +15,13 @@ from graphplan.kernel.kinds import LINE
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
                         "drive"})  # layers of graphplan's own sheets with nothing that a construction draws
+ROUNDED = 1e-4  # of a size: as files write their numbers
+
+
+def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> bool:
+    """Whether one of graphplan's own files is of the size of paper that is asked for, if one is."""
+    return asked is None or all(math.isclose(*pair, rel_tol=ROUNDED) for pair in zip(size, asked, strict=True))
+
 
 def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Mapping[str, Frame]) -> Handed:
     """A drawing as it was handed in: what is drawn twice is one thing, and words name what they stand beside.

@@ -12,15 +12,19 @@ from graphplan.handed.traces import Frame, Handed
 if TYPE_CHECKING:
     from graphplan.sheet.display import Sheet
 
+Size = tuple[float, float] | None  # width and height in mm, where they are known
+Reader = Callable[[Path, Collection[str], Mapping[str, Frame], Size], Handed]
 IMAGES = (".png", ".jpg", ".jpeg", ".pdf")
 
 
 def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
-         printed: Callable[[], Sheet] | None = None, code: int | None = None) -> Handed:
+         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Handed:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
-    marks. Fails with `Refused` where the file is none that can be read, says why and what to do.
+    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere.
+
+    Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
     """
     suffix = path.suffix.casefold()
     if suffix in IMAGES:
@@ -29,7 +33,10 @@ def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
                       f"give one of {' '.join([*READERS, *IMAGES])}")
-    return READERS[suffix](path, panels, frames)
+    found = READERS[suffix](path, panels, frames, size)
+    if not found.traces and not found.numbers:
+        raise Refused(f"{path}", "nothing is measured in it, no mark and no result", "fill it in")
+    return found
 
 
 def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Sheet] | None, code: int | None) -> Handed:
@@ -42,7 +49,7 @@ def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Shee
     return read_scan(path, printed(), frames, code)
 
 
-def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
     """Measured points or results: the names of the columns tell."""
     from graphplan.handed.table_rows import columns
 
@@ -59,30 +66,30 @@ def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> 
                   "mark,x,y for measured points or quantity,of,x,y,unit for results")
 
 
-def _toml(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+def _toml(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
     from graphplan.handed.points import read_toml
 
     return read_toml(path, panels)
 
 
-def _svg(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+def _svg(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
     from graphplan.handed.vector_svg import read_svg
 
-    return read_svg(path, frames)
+    return read_svg(path, frames, size)
 
 
-def _dxf(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+def _dxf(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
     from graphplan.handed.vector_dxf import read_dxf
 
-    return read_dxf(path, frames)
+    return read_dxf(path, frames, size)
 
 
-def _ggb(path: Path, panels: Collection[str], frames: Mapping[str, Frame]) -> Handed:
+def _ggb(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
     from graphplan.handed.vector_ggb import read_ggb
 
     return read_ggb(path)
 
 
-READERS: dict[str, Callable[[Path, Collection[str], Mapping[str, Frame]], Handed]] = {
+READERS: dict[str, Reader] = {
     ".csv": _table, ".toml": _toml, ".svg": _svg, ".dxf": _dxf, ".ggb": _ggb,
 }  # fmt: skip

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from graphplan.handed.image import Grey
 from graphplan.handed.printed import Light, pieces
-from graphplan.handed.warp import Spots, Warp
+from graphplan.handed.warp import Spots, Warp, enclosed
 from graphplan.sheet.display import Rect, Sheet
 
 SIDE = 2400  # pixels of the picture's longer side, in which a frame is searched
@@ -69,7 +69,7 @@ def _rectangles(image: Grey) -> Iterator[Spots]:
 def _sharp(hull: Spots, four: Spots) -> Spots | None:
     """The corners of a rectangle, in the sense in which a frame's go round, from the middles of its sides: whatever
     its corners themselves have lost."""
-    around = four if _area(four) < 0 else four[::-1]
+    around = four if enclosed(four) < 0 else four[::-1]
     around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
     rim = _every_pixel(hull)
     sides = [_side(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
@@ -98,12 +98,6 @@ def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | No
     at = middle.mean(axis=0)
     normal = np.linalg.eigh((middle - at).T @ (middle - at))[1][:, 0]
     return float(normal[0]), float(normal[1]), float(normal @ at)
-
-
-def _area(rim: Spots) -> float:
-    """What a rim encloses, positive in the sense of the clock on a picture, whose rows count down."""
-    ahead = np.roll(rim, -1, axis=0)
-    return float((rim[:, 0] * ahead[:, 1] - ahead[:, 0] * rim[:, 1]).sum() / 2)
 
 
 def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:

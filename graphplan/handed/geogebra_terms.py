@@ -63,29 +63,39 @@ def _circle(centre: complex, other: Any) -> Round:
     return Round(centre, abs(other - centre) if isinstance(other, complex) else float(other))
 
 
+def _vector(start: complex, end: complex | None = None) -> Vector:
+    return Vector(start if end is None else end - start)
+
+
 def _if(holds: bool, one: Any, other: Any) -> Any:
     return one if holds else other
 
 
-CALLS: dict[str, Callable[..., Any]] = {
-    "Line": _line, "Ray": _line, "Segment": _line, "Intersect": _meet, "Distance": _distance, "Circle": _circle,
-    "Vector": lambda start, end=None: Vector(start if end is None else end - start),
-    "OrthogonalLine": lambda point, other: Ray(point, 1j * _along(other)),
-    "PerpendicularLine": lambda point, other: Ray(point, 1j * _along(other)),
-    "LineBisector": lambda one, two: Ray((one + two) / 2, 1j * (two - one)),
-    "PerpendicularBisector": lambda one, two: Ray((one + two) / 2, 1j * (two - one)),
-    "Midpoint": lambda one, two: (one + two) / 2,
-    "Center": lambda round_one: round_one.at, "Radius": lambda round_one: round_one.radius,
-    "Direction": lambda line: Vector(line.along),
-    "UnitVector": lambda thing: Vector(_along(thing) / abs(_along(thing))),
-    "OrthogonalVector": lambda thing: Vector(1j * _along(thing)),
-    "UnitOrthogonalVector": lambda thing: Vector(1j * _along(thing) / abs(_along(thing))),
-    "Translate": lambda point, vector: point + vector.z,
-    "Rotate": lambda point, angle, centre: centre + (point - centre) * cmath.exp(1j * angle),
-    "If": _if, "sqrt": math.sqrt, "abs": abs, "sgn": lambda value: (value > 0) - (value < 0),
-    "x": lambda thing: (thing.z if isinstance(thing, Vector) else thing).real,
-    "y": lambda thing: (thing.z if isinstance(thing, Vector) else thing).imag,
-    "sin": math.sin, "cos": math.cos,
+NUMBER = float | int
+DIRECTED = Ray | Vector
+CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
+    "Line": (_line, (complex, complex | DIRECTED)), "Ray": (_line, (complex, complex | DIRECTED)),
+    "Segment": (_line, (complex, complex)), "Intersect": (_meet, (Ray, Ray)),
+    "Distance": (_distance, (complex, complex | Ray)), "Circle": (_circle, (complex, complex | NUMBER)),
+    "Vector": (_vector, (complex, complex)),
+    "OrthogonalLine": (lambda point, other: Ray(point, 1j * _along(other)), (complex, DIRECTED)),
+    "PerpendicularLine": (lambda point, other: Ray(point, 1j * _along(other)), (complex, DIRECTED)),
+    "LineBisector": (lambda one, two: Ray((one + two) / 2, 1j * (two - one)), (complex, complex)),
+    "PerpendicularBisector": (lambda one, two: Ray((one + two) / 2, 1j * (two - one)), (complex, complex)),
+    "Midpoint": (lambda one, two: (one + two) / 2, (complex, complex)),
+    "Center": (lambda round_one: round_one.at, (Round,)), "Radius": (lambda round_one: round_one.radius, (Round,)),
+    "Direction": (lambda line: Vector(line.along), (Ray,)),
+    "UnitVector": (lambda thing: Vector(_along(thing) / abs(_along(thing))), (DIRECTED,)),
+    "OrthogonalVector": (lambda thing: Vector(1j * _along(thing)), (DIRECTED,)),
+    "UnitOrthogonalVector": (lambda thing: Vector(1j * _along(thing) / abs(_along(thing))), (DIRECTED,)),
+    "Translate": (lambda point, vector: point + vector.z, (complex, Vector)),
+    "Rotate": (lambda point, angle, centre: centre + (point - centre) * cmath.exp(1j * angle),
+               (complex, NUMBER, complex)),
+    "If": (_if, (bool, object, object)), "sqrt": (math.sqrt, (NUMBER,)), "abs": (abs, (complex | NUMBER,)),
+    "sgn": (lambda value: (value > 0) - (value < 0), (NUMBER,)),
+    "x": (lambda thing: (thing.z if isinstance(thing, Vector) else thing).real, (complex | Vector,)),
+    "y": (lambda thing: (thing.z if isinstance(thing, Vector) else thing).imag, (complex | Vector,)),
+    "sin": (math.sin, (NUMBER,)), "cos": (math.cos, (NUMBER,)),
 }  # fmt: skip
 COMPARED: dict[str, Callable[[float, float], bool]] = {
     "<=": lambda a, b: a <= b, "≤": lambda a, b: a <= b, ">=": lambda a, b: a >= b, "≥": lambda a, b: a >= b,
@@ -98,9 +108,12 @@ def called(name: str, arguments: list[Any]) -> Any:
 
     Fails with `ValueError` where it is not known, or not for these arguments.
     """
+    made, kinds = CALLS.get(name, (None, ()))
+    if made is None or len(arguments) > len(kinds) or not all(map(isinstance, arguments, kinds)):
+        raise ValueError(f"{name} is not known, or not of these")
     try:
-        return CALLS[name](*arguments)
-    except (KeyError, TypeError, AttributeError, ArithmeticError) as error:
+        return made(*arguments)
+    except (TypeError, ArithmeticError) as error:  # TypeError: it lacks arguments
         raise ValueError(f"{name}: {error}") from None
 
 
@@ -144,7 +157,7 @@ class _Parser:
             raise ValueError("a term is nested too deeply")
         value = self._sum()
         if sign := self._taken(*COMPARED):
-            value = COMPARED[sign](float(value), float(self._sum()))
+            value = COMPARED[sign](_number(value), _number(self._sum()))
         self.depth -= 1
         return value
 
@@ -166,7 +179,7 @@ class _Parser:
             return _times(self._power_below(), -1.0)
         value = self._atom()
         if self._taken("^"):
-            return _number(value) ** _number(self._power_below())
+            return _number(_number(value) ** _number(self._power_below()))
         return _times(value, math.pi / 180) if self._taken("°") else value
 
     def _power_below(self) -> Any:

@@ -13,12 +13,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.errors import Refused
+from graphplan.handed.safe import MB, contents
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 Grey = NDArray[np.uint8]
-HEAVIEST, MOST, FEWEST = 100_000_000, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
+HEAVIEST, MOST, FEWEST = 96 * MB, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
 BLANK = 30  # shades of grey between paper and print, at least
 DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
@@ -31,7 +32,7 @@ def pictures(path: Path) -> Iterator[Grey]:
 
     Fails with `Refused` where there is none, or where it is too large to be opened.
     """
-    data = _read(path)
+    data = contents(path, HEAVIEST)
     if data.startswith(PDF):
         yield from _pages(path, data)
     elif data.startswith(PNG):
@@ -40,18 +41,6 @@ def pictures(path: Path) -> Iterator[Grey]:
         yield _decoded(path, data, _jpeg_size(data))
     else:
         raise Refused(f"{path}", "this is no PNG, JPEG or PDF", DO)
-
-
-def _read(path: Path) -> bytes:
-    """A file's bytes, of which there are not too many."""
-    try:
-        with path.open("rb") as file:
-            data = file.read(HEAVIEST + 1)
-    except OSError as error:
-        raise Refused(f"{path}", f"cannot be read ({error.strerror})", DO) from error
-    if len(data) > HEAVIEST:
-        raise Refused(f"{path}", f"is larger than {HEAVIEST // 10**6} megabytes", DO)
-    return data
 
 
 def _bounded(path: Path, size: tuple[int, int] | None) -> None:

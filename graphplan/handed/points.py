@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.handed.curves import circle, ring
+from graphplan.handed.curves import SHORT, circle, ring
 from graphplan.handed.results import entry, turned
 from graphplan.handed.safe import MB, TRACES, Budget, on_paper, text
 from graphplan.handed.spelling import spelled
@@ -21,8 +21,9 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 LARGEST = MB // 2
 DOTS = 3000  # in a line, or as many squared: the time that dotted keys take grows so
 LONGEST = 40  # characters of a mark's name
+COARSEST = 1.0  # mm, to which anybody can measure; with a blur without bounds any mark would pass
 TABLES = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
-SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]", CIRCLE: "[x, y, r], or three points of its rim"}
+SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]", CIRCLE: "[x, y, r], or points along its rim, three at least"}
 
 
 def panel_named(written: str, panels: Collection[str]) -> str:
@@ -62,8 +63,11 @@ def _marked(row: Row, panels: Collection[str]) -> Trace | None:
     label = spelled(row["mark"])
     if len(label) > LONGEST or not label.isprintable():
         raise row.fault("this is no name of a mark", "its letters, such as v_b")
-    if blur < 0 or (end and radius) or (radius and radius[0] <= 0) or end == at:
-        raise row.fault("this is no mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r > 0")
+    if not 0 <= blur <= COARSEST:
+        raise row.fault(f"a precision of {blur:g} mm is none of a ruler", f"0 to {COARSEST:g} mm")
+    if (end and radius) or (radius and radius[0] < SHORT) or (end and math.dist(at, end) < SHORT):
+        raise row.fault("this is no mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in mm that "
+                        f"paper shows ({SHORT:g} at least)")
     kind = LINE if end else CIRCLE if radius else POINT
     spots = ring(_spot(at), radius[0]) if radius else tuple([_spot(spot) for spot in (at, end) if spot])
     return Trace(kind, spots, label, panel, blur)
@@ -71,6 +75,12 @@ def _marked(row: Row, panels: Collection[str]) -> Trace | None:
 
 def _spot(numbers: tuple[float, ...]) -> Spot:
     return numbers[0], numbers[1]
+
+
+def _bent(spots: list[Spot]) -> bool:
+    """Whether spots show a circle by their first, middle and last, by which it is measured."""
+    found = circle(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
+    return found is not None and found[1] >= SHORT
 
 
 def _shown(traces: Iterable[Trace]) -> frozenset[str]:
@@ -104,8 +114,8 @@ class _Tables:
         if unknown := [key for key in tables if key not in known]:
             raise self._fault(unknown[0], "there is no such entry", f"one of {', '.join(known)}")
         self.blur = self._length("precision", tables.get("precision", 0.0))
-        if self.blur < 0:
-            raise self._fault("precision", "it is negative", "mm")
+        if not 0 <= self.blur <= COARSEST:
+            raise self._fault("precision", f"{self.blur:g} mm is none of a ruler", f"0 to {COARSEST:g} mm")
         traces = [trace for key, kind in TABLES.items()
                   for trace in self._traces(key, kind, self._table(key, tables.get(key, {})), "")]
         numbers = [number for kind, table in self._table("results", tables.get("results", {})).items()
@@ -133,12 +143,11 @@ class _Tables:
             raise fault
         if not isinstance(value[0], list):
             numbers = [self._length(where, part) for part in value]
-            if kind == CIRCLE and len(numbers) == 3 and numbers[2] > 0:
+            if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= SHORT:
                 return ring((numbers[0], numbers[1]), numbers[2])
             value = [numbers] if kind == POINT else []
         spots = [self._pair(where, spot) for spot in value]
-        good = {POINT: len(spots) == 1, LINE: len(set(spots)) == len(spots) == 2,
-                CIRCLE: len(spots) >= 3 and circle(*spots[:3]) is not None}
+        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT, CIRCLE: _bent(spots)}
         if not good[kind]:
             raise fault
         return tuple(spots)

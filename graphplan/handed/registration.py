@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from graphplan.handed.deviation import deviation
 from graphplan.handed.image import Grey
 from graphplan.handed.printed import Light, Pieces
 from graphplan.handed.warp import Spots, Warp, powers, terms
@@ -23,7 +24,6 @@ FITS, VISIBLE = 0.6, 0.03  # correlation from which on a piece counts, and the l
 PLAIN = 1.0  # the square of a shade of grey: what varies less is white
 ROUNDS = (2.5, 1), (2.5, 3), (1.5, 4), (0.75, 5), (0.375, 5)  # how far is searched, in mm, and the degree fitted
 STIFF = 1e-5  # how much bends are held back, beside all the evidence
-NORMAL = 0.6745  # the median of what is off, in standard deviations
 FEW = 40  # pieces below which only the plane is moved
 
 
@@ -107,5 +107,5 @@ def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],
         left = wanted - design @ solution
         weight = trust * np.clip(1 - (left / allowed) ** 2, 0, None) ** 2
     near = good & (np.abs(left) < allowed)
-    error = float(np.median(np.abs(left[near])) / NORMAL) if near.any() else NEAR
+    error = deviation(left[near]) if near.any() else NEAR
     return replace(warp, degree=degree, bend=solution.reshape(2, -1).T), error, near

@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from graphplan.errors import Refused
 from graphplan.handed.table_rows import Row, rows
 from graphplan.handed.traces import Handed, Number
 from graphplan.handed.written_units import (
@@ -17,7 +16,6 @@ from graphplan.handed.written_units import (
     SPEED,
     TURNING,
     TURNING_FASTER,
-    Dimension,
     factor,
 )
 from graphplan.mechanism.model import Units
@@ -81,24 +79,13 @@ def _do(quantity: str) -> str:
     kind = ALSO.get(name, name)
     if kind not in KINDS:
         return f"one of {', '.join(KINDS)}"
-    return f"value, in a unit such as {_such(kind)}" if kind in SINGLE else (
-        f"x and y, or size and angle, in a unit such as {_such(kind)}")
-
-
-def _such(kind: str) -> str:
-    dimension: Dimension = KINDS[kind]
-    return dimension.example
+    parts = "value" if kind in SINGLE else "x and y, or size and angle"
+    return f"{parts}, in a unit such as {KINDS[kind].example}"
 
 
 def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
-    """A result in the scene's units; one without a unit is in them already.
-
-    Fails with `Refused` where its unit is not of its kind.
-    """
+    """A result in the scene's units; one without a unit is in them already. Units were checked as `entry` was made."""
     if not number.unit:
         return number.value
-    try:
-        one = factor(number.unit, KINDS[number.kind], units)
-    except ValueError as error:
-        raise Refused(f"{number.kind} of {number.of}", str(error), f"a unit such as {_such(number.kind)}") from None
+    one = factor(number.unit, KINDS[number.kind], units)
     return tuple([one * part for part in number.value])

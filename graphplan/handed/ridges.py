@@ -11,6 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from graphplan.handed.deviation import deviation
 from graphplan.handed.ink import Ink
 from graphplan.handed.warp import Spots
 
@@ -18,7 +19,6 @@ WIDTH = 0.18  # mm: half a pencil line, by which the picture is smoothed
 FAINT, CLEAR = 2.5, 4.5  # strengths, in standard deviations of the paper's own, that may be a line and that are one
 ROW = 0.9  # mm of crests without a gap
 PART = 0.7  # of a pixel, that a crest's middle is from its pixel's
-NORMAL = 0.6745  # the median of what is off, in standard deviations
 
 
 @dataclass(frozen=True)
@@ -62,7 +62,7 @@ def ridges(ink: Ink) -> Ridges:
     strength = bend - (xx + yy) / 2  # minus the lesser eigenvalue
     strength[ink.hidden] = 0.0
     open_ = strength[~ink.hidden][::7]
-    grain = max(float(np.median(np.abs(open_ - np.median(open_)))) / NORMAL, 1e-6)
+    grain = max(deviation(open_ - np.median(open_)), 1e-6)
     floor = float(np.median(open_)) + FAINT * grain
     row, column = np.nonzero(strength > floor)
     values = [part[row, column].astype(float) for part in (xx, yy, xy)]

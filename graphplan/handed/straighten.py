@@ -26,14 +26,12 @@ MARGIN = 1.0  # mm by which a plan may be off the picture
 
 @dataclass(frozen=True)
 class Straight:
-    """A sheet seen from straight above: lightness 0..255, `scale` pixels per mm, the top first; `error` is how far off
-    its print still is, as a standard deviation in mm."""
+    """A sheet seen from straight above: lightness 0..255, the top first; `error` is how far off its print still is,
+    as a standard deviation in mm."""
 
     image: NDArray[np.float32]
-    scale: float
     warp: Warp
     error: float
-    marks: int
 
 
 def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str) -> Straight:
@@ -54,7 +52,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     _whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    return Straight(straight.astype(np.float32), scale, result.warp, result.error, len(found))
+    return Straight(straight.astype(np.float32), result.warp, result.error)
 
 
 def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: Found) -> Registered | None:

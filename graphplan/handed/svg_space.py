@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Mapping
 from typing import NamedTuple
+from xml.etree.ElementTree import Element
 
 from graphplan.handed.traces import Spot
 
@@ -106,11 +107,40 @@ def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> f
     return value * MM[unit] / MM["px"]
 
 
+class Window(NamedTuple):
+    """The view that an element stands in by its size in user units, of which lengths may be parts."""
+
+    wide: float
+    high: float
+
+    def __call__(self, element: Element, key: str, otherwise: float = 0.0) -> float:
+        """A length of an element, along x or y by its attribute's name."""
+        return length(element.get(key), self.part(key), otherwise)
+
+    def part(self, key: str) -> float:
+        """What 100% of an attribute is."""
+        if key == "r":
+            return math.hypot(self.wide, self.high) / math.sqrt(2)
+        return self.high if "y" in key or key == "height" else self.wide
+
+
+def window(root: Mapping[str, str]) -> Window:
+    """The view of the outermost element."""
+    box = view_box(root)
+    return Window(*box[2:]) if box else Window(*(length(_absolute(root.get(key))) for key in ("width", "height")))
+
+
+def paper_size(root: Mapping[str, str]) -> tuple[float, float]:
+    """Width and height of the outermost element in user units; those of its view where it states none."""
+    view = window(root)
+    return (length(_absolute(root.get("width")), otherwise=view.wide),
+            length(_absolute(root.get("height")), otherwise=view.high))
+
+
 def paper(root: Mapping[str, str]) -> Affine:
     """From the user units of the outermost element to mm of paper, y up from its lower edge."""
     box = view_box(root)
-    wide = length(_absolute(root.get("width")), otherwise=box[2] if box else 0.0)
-    high = length(_absolute(root.get("height")), otherwise=box[3] if box else 0.0)
+    wide, high = paper_size(root)
     mm = MM["px"]
     onto = matrix(mm, 0, 0, -mm, 0, mm * high)
     return onto.after(fitted(box, wide, high, root.get("preserveAspectRatio", ""))) if box else onto

@@ -60,6 +60,8 @@ def rows(path: Path) -> Iterator[Row]:
     for line, cells in _cells(path, lines, separator):
         if header is None:
             header = [cell.casefold().lstrip("\ufeff") for cell in cells]
+            if twice := [name for name in header if name and header.count(name) > 1]:
+                raise Refused(f"{path}: line {line}", f"two columns are called {twice[0][:40]!r}", "each name once")
             continue
         if len(cells) > len(header) and any(cells[len(header) :]):
             raise Refused(f"{path}: line {line}", f"it has {len(cells)} columns, the first line {len(header)}",

@@ -11,7 +11,7 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.handed.curves import bow, curved, full, pieces, reach
-from graphplan.handed.drawing import NO_DRAWING, drawing
+from graphplan.handed.drawing import NO_DRAWING, drawing, same_paper
 from graphplan.handed.labels import Lettering, lettering
 from graphplan.handed.safe import MB, TRACES, Budget, contents
 from graphplan.handed.traces import Frame, Handed, Spot, Trace
@@ -26,18 +26,20 @@ BASE_LINES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
 STEPS = 48  # spots of an ellipse
 
 
-def read_dxf(path: Path, frames: Mapping[str, Frame]) -> Handed:
-    """The things drawn in the model space of a DXF file; on graphplan's own sheet plans lie where its frames say."""
+def read_dxf(path: Path, frames: Mapping[str, Frame], size: tuple[float, float] | None = None) -> Handed:
+    """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
+    frames say."""
     document = _document(path)
-    reader = _Reader(path, document)
     try:
+        reader = _Reader(path, document)
         reader.read(document.modelspace(), 0)
         reader.endless()
+        known = frames if reader.own and same_paper(reader.size, size) else {}
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
         raise Refused(f"{path}", f"the drawing is damaged ({_line(error)})", "save it anew") from None
-    return drawing(path, reader.traces, reader.words, frames if reader.own else {})
+    return drawing(path, reader.traces, reader.words, known)
 
 
 def _document(path: Path) -> Any:
@@ -83,6 +85,7 @@ class _Reader:
         from ezdxf.units import MM, conversion_factor
 
         self.path, self.own = path, OWN in document.appids
+        self.limits = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         self.traces: list[Trace] = []
         self.words: list[Lettering] = []
@@ -186,6 +189,12 @@ class _Reader:
             place = x, y - lower * high
         if high > 0 and "\n" not in text:
             self.words.append(lettering(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """The width and height of the sheet, in mm, which stay when something is drawn beyond it."""
+        (left, bottom, *_), (right, top, *_) = self.limits
+        return (right - left) * self.mm, (top - bottom) * self.mm
 
     def _spot(self, vector: Any) -> Spot:
         return vector[0] * self.mm, vector[1] * self.mm

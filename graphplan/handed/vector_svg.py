@@ -13,12 +13,23 @@ from xml.etree.ElementTree import Element
 
 from graphplan.errors import Refused
 from graphplan.handed.curves import DOT, curved, full, pieces
-from graphplan.handed.drawing import NO_DRAWING, drawing
+from graphplan.handed.drawing import NO_DRAWING, drawing, same_paper
 from graphplan.handed.labels import Lettering
 from graphplan.handed.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
 from graphplan.handed.svg_looks import Look, Looks, inherited
 from graphplan.handed.svg_paths import chains
-from graphplan.handed.svg_space import NUMBERS, Affine, fitted, length, paper, transform, view_box
+from graphplan.handed.svg_space import (
+    MM,
+    NUMBERS,
+    Affine,
+    Window,
+    fitted,
+    paper,
+    paper_size,
+    transform,
+    view_box,
+    window,
+)
 from graphplan.handed.svg_words import words
 from graphplan.handed.traces import Frame, Handed, Spot, Trace
 from graphplan.kernel.kinds import POINT
@@ -30,21 +41,22 @@ READ = {*GROUPS, "use", "text", "circle", "ellipse", "line", "polyline", "polygo
 NOT_DRAWN = {f"layer-{name}" for name in NO_DRAWING}
 
 
-def read_svg(path: Path, frames: Mapping[str, Frame]) -> Handed:
-    """The things drawn in an SVG file; on graphplan's own sheet plans lie where its frames say."""
+def read_svg(path: Path, frames: Mapping[str, Frame], size: tuple[float, float] | None = None) -> Handed:
+    """The things drawn in an SVG file; on graphplan's own sheet of this size plans lie where its frames say."""
     root = tree(path, contents(path, LARGEST))
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _Reader(path, root)
     reader.read()
-    return drawing(path, reader.traces, reader.words, frames if reader.own else {})
+    return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
 
 
 @dataclass(frozen=True)
 class _Place:
-    """Where an element stands: its map to paper, how things look, how deep it is, whether it is drawn."""
+    """Where an element stands: its map to paper, its view, how things look, how deep it is, whether it is drawn."""
 
     onto: Affine
+    window: Window
     look: Look
     depth: int = 0
     drawn: bool = True
@@ -61,12 +73,15 @@ class _Reader:
         self.looks = Looks(root)
         self.budget, self.things = Budget(path, VISITS, "elements"), Budget(path, TRACES, "things drawn")
         self.letters = Budget(path, LETTERS, "letters of attributes and words")
+        self.size: tuple[float, float] = (0.0, 0.0)
         self.own = any(element.get("class") == "layer-paper" for element in root)
 
     def read(self) -> None:
         """Gather what is drawn and written."""
         try:
-            place = _Place(paper(self.root.attrib), inherited(self.looks.of(self.root), {}))
+            wide, high = paper_size(self.root.attrib)
+            self.size = wide * MM["px"], high * MM["px"]
+            place = _Place(paper(self.root.attrib), window(self.root.attrib), inherited(self.looks.of(self.root), {}))
             for child in self.root:
                 self._element(child, place)
         except (ValueError, OverflowError) as error:
@@ -87,7 +102,7 @@ class _Reader:
         if not on_paper(*map(abs, onto)):
             raise ValueError("a transform leads off the paper")
         drawn = place.drawn and element.get("class") not in NOT_DRAWN
-        here = _Place(onto, inherited(look, place.look), place.depth + 1, drawn)
+        here = _Place(onto, place.window, inherited(look, place.look), place.depth + 1, drawn)
         if element.tag in GROUPS:
             self._group(element, here)
         elif element.tag == "use":
@@ -100,18 +115,18 @@ class _Reader:
         if element.tag == "text":
             self.budget.spend(sum(1 for _ in element.iter()))
             self.letters.spend(sum(map(len, element.itertext())))
-            self.words += words(element, place.onto, place.look, self.looks)
+            self.words += words(element, place.onto, place.window, place.look, self.looks)
         elif place.drawn:
             self._shape(element, place)
 
     def _group(self, element: Element, place: _Place) -> None:
         if element.tag == "svg":
-            shift = Affine(1.0, 0j, complex(length(element.get("x")), length(element.get("y"))))
-            box = view_box(element.attrib)
+            view = Window(*(place.window(element, key, place.window.part(key)) for key in ("width", "height")))
+            shift, box = _shift(element, place.window), view_box(element.attrib)
             if box:
-                wide, high = (length(element.get(key)) for key in ("width", "height"))
-                shift = shift.after(fitted(box, wide, high, element.get("preserveAspectRatio", "")))
-            place = replace(place, onto=place.onto.after(shift))
+                shift = shift.after(fitted(box, *view, element.get("preserveAspectRatio", "")))
+                view = Window(*box[2:])
+            place = replace(place, onto=place.onto.after(shift), window=view)
         for child in element:
             self._element(child, place)
 
@@ -120,8 +135,7 @@ class _Reader:
         target = self.named.get(element.get("href", "").removeprefix("#"))
         if target is None:
             return
-        shift = Affine(1.0, 0j, complex(length(element.get("x")), length(element.get("y"))))
-        there = replace(place, onto=place.onto.after(shift))
+        there = replace(place, onto=place.onto.after(_shift(element, place.window)))
         if target.tag == "symbol":
             self._group(target, there)
         else:
@@ -130,26 +144,31 @@ class _Reader:
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot."""
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
-        for trace in _traces(element, place.onto):
+        for trace in _traces(element, place.onto, place.window):
             self.things.spend()
             if stroked or trace.kind == POINT:
                 self.traces.append(trace)
 
 
-def _traces(element: Element, onto: Affine) -> Iterator[Trace]:
+def _shift(element: Element, window: Window) -> Affine:
+    """By how much an element moves what is in it."""
+    return Affine(1.0, 0j, complex(window(element, "x"), window(element, "y")))
+
+
+def _traces(element: Element, onto: Affine, window: Window) -> Iterator[Trace]:
     """What a shape shows on paper."""
     match element.tag:
         case "circle" | "ellipse":
-            yield from _round(element, onto)
+            yield from _round(element, onto, window)
         case "line":
-            ends = [complex(length(element.get(f"x{i}")), length(element.get(f"y{i}"))) for i in (1, 2)]
+            ends = [complex(window(element, f"x{i}"), window(element, f"y{i}")) for i in (1, 2)]
             yield from pieces([onto(end) for end in ends])
         case "polyline" | "polygon":
             numbers = [float(number) for number in NUMBERS.findall(element.get("points", ""))]
             spots = [onto(complex(x, y)) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
             yield from pieces([*spots, spots[0]] if element.tag == "polygon" and spots else spots)
         case "rect":
-            x, y, w, h = (length(element.get(key)) for key in ("x", "y", "width", "height"))
+            x, y, w, h = (window(element, key) for key in ("x", "y", "width", "height"))
             corners = [onto(complex(*corner)) for corner in ((x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y))]
             yield from pieces(corners)
         case "path":
@@ -158,11 +177,11 @@ def _traces(element: Element, onto: Affine) -> Iterator[Trace]:
                 yield from pieces(chained) if not chain.smooth else [one] if (one := curved(chained)) else []
 
 
-def _round(element: Element, onto: Affine) -> Iterator[Trace]:
+def _round(element: Element, onto: Affine, window: Window) -> Iterator[Trace]:
     """A circle, or an ellipse that is one on paper."""
-    both = length(element.get("r"))
-    centre = complex(length(element.get("cx")), length(element.get("cy")))
-    radii = [length(element.get(key), otherwise=both) for key in ("rx", "ry")]
+    both = window(element, "r")
+    centre = complex(window(element, "cx"), window(element, "cy"))
+    radii = [window(element, key, both) for key in ("rx", "ry")]
     rx, ry = (radii[0] or radii[1], radii[1] or radii[0]) if element.tag == "ellipse" else (both, both)
     if rx <= 0 or ry <= 0:
         return
@@ -177,4 +196,3 @@ def _round(element: Element, onto: Affine) -> Iterator[Trace]:
 def _ellipse(centre: complex, rx: float, ry: float, onto: Affine) -> list[Spot]:
     bows = f"M{centre.real - rx} {centre.imag}a{rx} {ry} 0 1 0 {2 * rx} 0a{rx} {ry} 0 1 0 {-2 * rx} 0"
     return [onto(spot) for chain in chains(bows) for spot in chain.spots]
-

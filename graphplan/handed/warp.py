@@ -49,6 +49,12 @@ def projected(plane: Spots, spots: Spots) -> Spots:
     return np.asarray(seen[:, :2] / seen[:, 2:])
 
 
+def enclosed(rim: Spots) -> float:
+    """The area within a rim, by Gauss's formula: positive in the sense of the clock where rows count down."""
+    ahead = np.roll(rim, -1, axis=0)
+    return float((rim[:, 0] * ahead[:, 1] - ahead[:, 0] * rim[:, 1]).sum() / 2)
+
+
 def terms(spots: Spots, size: tuple[float, float], degree: int) -> Spots:
     """The terms of a polynomial at spots, by Chebyshev, from -1 to 1 over the sheet."""
     x, y = (2 * spots[:, i] / size[i] - 1 for i in range(2))

@@ -30,6 +30,7 @@ from graphplan.verify.fits import Fit
 FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a trace: each of up to three spots
 SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
 FLAT = 1e-9  # of the largest variance: a smaller one is none
+NONE = np.finfo(float).tiny
 
 SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n squares is larger than x
     1: lambda x: math.erfc(math.sqrt(x / 2)),
@@ -59,7 +60,7 @@ class Deviation:
     def _parts(self) -> tuple[Any, Any]:
         """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
         variances, axes = np.linalg.eigh(self.covariance)
-        return np.maximum(variances, FLAT * max(variances[-1], FLAT)), axes.T @ self.off
+        return np.maximum(variances, max(FLAT * variances[-1], NONE)), axes.T @ self.off
 
     @property
     def square(self) -> float:
@@ -71,9 +72,6 @@ class Deviation:
     def size(self) -> float:
         """How far off it is at most, in mm; of a point's two coordinates their distance."""
         return float(np.max(np.abs(self.off)))
-
-    def freedoms(self) -> int:
-        return len(self.off)
 
     def tolerance(self, chance: float) -> float:
         """How far off it might be this way, in mm; of no deviation, on the average."""
@@ -201,6 +199,16 @@ def sampled(trace: Trace) -> tuple[tuple[float, float], ...]:
     if trace.kind == CIRCLE:
         return trace.spots[0], trace.spots[len(trace.spots) // 2], trace.spots[-1]
     return trace.spots[:2] if trace.kind == LINE else trace.spots[:1]
+
+
+def apart(kind: str, value: Sequence[float], spots: Sequence[complex]) -> float:
+    """How far some spots are from a thing at most, on its plan."""
+    if kind == POINT:
+        return abs(spots[0] - complex(value[0], value[1]))
+    if kind == LINE:
+        a, b, c = value
+        return max(abs(a * z.real + b * z.imag + c) for z in spots) / (math.hypot(a, b) or math.inf)
+    return max(abs(abs(z - complex(value[0], value[1])) - math.sqrt(max(value[2], 0.0))) for z in spots)
 
 
 def plain(value: Sequence[Any]) -> tuple[float, ...]:

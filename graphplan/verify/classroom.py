@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from statistics import fmean
 from typing import Any
 
-from graphplan.kernel.program import Program
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
-from graphplan.verify.findings import complaint, named, place
+from graphplan.verify.findings import Called, called, complaint
 from graphplan.verify.score import NOTHING, Score
 from graphplan.verify.verdict import Judgement
 
@@ -36,11 +35,26 @@ MISTAKEN: Mapping[str, Phrase] = {  # the kinds of mistake, as they are told of 
 
 @dataclass(frozen=True)
 class Marked:
-    """A drawing that was judged, by the name of its file."""
+    """A drawing that was judged."""
 
-    file: str
     judgement: Judgement
     score: Score
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return self.judgement.name
+
+    @property
+    def guilty(self) -> Called | None:
+        """The step to blame for the first wrong one; None where no step is wrong."""
+        index = self.judgement.guilty
+        return None if index is None else called(self.judgement.drawing.drawn, index)
+
+    @property
+    def faultless(self) -> bool:
+        """Whether something could be judged, and no step is wrong."""
+        return self.score.total is not None and self.judgement.first is None
 
 
 @dataclass(frozen=True)
@@ -53,21 +67,20 @@ class Unread:
 
 @dataclass(frozen=True)
 class Row:
-    """A drawing in one line: its score, its first wrong step by number and in words, its mistake."""
+    """A drawing in one line: its score, its first wrong step, if there is one, the verdict in words, its mistake."""
 
     file: str
     score: float | None
-    step: int | None
-    told: Said | None
+    step: Called | None
+    told: Said
     mistake: Said | None
 
 
 @dataclass(frozen=True)
 class Classroom:
-    """All drawings of a class, in the order of their files; each is of the scene's construction `drawn`."""
+    """All drawings of a class, in the order of their files; each is judged by the construction that it follows."""
 
     title: str
-    drawn: Program
     marked: tuple[Marked, ...]
     unread: tuple[Unread, ...] = ()
 
@@ -83,9 +96,9 @@ class Classroom:
         return fmean(totals) if totals else None
 
     @property
-    def histogram(self) -> dict[int, int]:
-        """How many drawings have each step for their first wrong one, by its place in the program, in drawing order."""
-        firsts = (first for one in self.marked if (first := one.judgement.guilty) is not None)
+    def histogram(self) -> dict[Called, int]:
+        """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
+        firsts = (first for one in self.marked if (first := one.guilty) is not None)
         return dict(sorted(Counter(firsts).items()))
 
     @property
@@ -95,13 +108,14 @@ class Classroom:
         return dict(sorted(Counter(kinds).items(), key=lambda found: (-found[1], found[0])))
 
     @property
-    def hardest(self) -> int | None:
+    def hardest(self) -> Called | None:
         """The step that is wrong first most often, the earlier of equals."""
-        return max(self.histogram, key=lambda index: (self.histogram[index], -index), default=None)
+        found = self.histogram
+        return max(found, key=found.__getitem__, default=None)  # the first of equals
 
     def findings(self) -> Iterator[Said]:
         """What there is to say of the class."""
-        faultless = sum(one.judgement.first is None for one in self.marked)
+        faultless = sum(one.faultless for one in self.marked)
         yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
         if self.mean is not None:
             yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
@@ -109,7 +123,7 @@ class Classroom:
             kind, count = next(iter(self.mistakes.items()))
             yield said("Most frequent mistake: {0} ({1}).", mistaken(kind), count)
         if self.hardest is not None:
-            yield said("Most frequent first wrong step: {0} ({1}).", named(self.drawn, self.hardest),
+            yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.told,
                        self.histogram[self.hardest])
         if self.unread:
             yield arranged("{0}: {1}.", NOT_JUDGED(), len(self.unread))
@@ -117,19 +131,19 @@ class Classroom:
     @property
     def data(self) -> dict[str, Any]:
         """The same as data."""
-        drawn, hardest = self.drawn, self.hardest
+        hardest = self.hardest
         kind = next(iter(self.mistakes), None)
         return {
             "title": self.title,
-            "drawings": [{"file": row.file, "score": row.score, "first_wrong": row.step,
+            "drawings": [{"file": row.file, "score": row.score, "first_wrong": row.step and row.step.number,
                           "mistake": None if row.mistake is None else str(row.mistake)} for row in self.rows],
             "not_judged": [{"file": one.file, "why": one.why} for one in self.unread],
             "mean_score": self.mean,
             "most_frequent_mistake": kind,
-            "most_frequent_first_wrong": None if hardest is None else place(drawn, hardest),
+            "most_frequent_first_wrong": hardest and hardest.number,
             "mistakes": self.mistakes,
-            "first_wrong_steps": [{"step": place(drawn, index), "mark": drawn.text(index), "drawings": count}
-                                  for index, count in self.histogram.items()],
+            "first_wrong_steps": [{"step": step.number, "mark": step.mark, "drawings": count}
+                                  for step, count in self.histogram.items()],
         }  # fmt: skip
 
 
@@ -139,22 +153,15 @@ def mistaken(kind: str) -> Said:
 
 
 def _row(one: Marked) -> Row:
-    judgement, first = one.judgement, one.judgement.first
+    first, total = one.judgement.first, one.score.total
     if first is None:
-        return Row(one.file, one.score.total, None, None, None)
-    guilty = judgement.guilty
-    assert guilty is not None
-    return Row(one.file, one.score.total, place(judgement.drawing.drawn, guilty), complaint(judgement, first),
-               first.mistake)
+        return Row(one.file, total, None, said("no wrong step") if one.faultless else NOTHING(), None)
+    return Row(one.file, total, one.guilty, complaint(one.judgement, first), first.mistake)
 
 
 def lines(found: Classroom) -> Iterator[Said]:
     """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
     for row in found.rows:
-        told = said("no wrong step") if row.told is None else row.told
-        yield arranged("{0}: {1}", row.file, joined((_points(row.score), told), "; "))
+        points = [] if row.score is None else [said("{0} of 100", f"{row.score:.0f}")]
+        yield arranged("{0}: {1}", row.file, joined((*points, row.told), "; "))
     yield from found.findings()
-
-
-def _points(total: float | None) -> Said:
-    return NOTHING() if total is None else said("{0} of 100", f"{total:.0f}")

@@ -9,11 +9,10 @@ from typing import Any
 
 from graphplan.drafting.hand import Errors
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.verify.board import plain
+from graphplan.verify.board import apart, plain
 from graphplan.verify.mistakes import MISTAKES, Slip, slips
 from graphplan.verify.walk import Taken, Walk
 
@@ -53,7 +52,7 @@ def _closest(walk: Walk, step: Step, spots: Sequence[complex]) -> list[Suspect]:
     for suspect in _suspects(walk, step):
         made = _carried(walk, step, floats, suspect, Floats(), lambda index: [0.0] * len(walk.board.hand.slips[index]))
         if made is not None and all(map(math.isfinite, made)):
-            found.append((_apart(step.op.gives, made, spots), len(found), suspect))
+            found.append((apart(step.op.gives, made, spots), len(found), suspect))
     return [suspect for _, _, suspect in sorted(found)[:CLOSEST]]
 
 
@@ -92,13 +91,3 @@ def _carried(walk: Walk, step: Step, values: Sequence[Any], suspect: Suspect, do
     except Undrawable:
         return None
     return drawn[step.index] if step.index in follows else None
-
-
-def _apart(kind: str, value: Sequence[float], spots: Sequence[complex]) -> float:
-    """How far a thing is from some spots, on its plan."""
-    if kind == POINT:
-        return abs(spots[0] - complex(value[0], value[1]))
-    if kind == LINE:
-        a, b, c = value
-        return max(abs(a * z.real + b * z.imag + c) for z in spots) / math.hypot(a, b)
-    return max(abs(abs(z - complex(value[0], value[1])) - math.sqrt(max(value[2], 0.0))) for z in spots)

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.drafting.first_order import readings
+from graphplan.errors import Refused
 from graphplan.handed.results import in_scene_units
 from graphplan.handed.traces import Number
 from graphplan.kernel.numbers.floats import Floats
@@ -47,12 +48,19 @@ class Expected:
 
 
 def judged(walk: Walk, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
-    """What is said of every number of a table; of one that was not asked for nothing is."""
-    if numbers:
-        own, true = _expected(walk, walk.own), _expected(walk, walk.board.drawing.values)
-        for number in numbers:
-            if (number.kind, number.of) in own:
-                yield _judged(walk, number, own, {key: plain(expected.parts) for key, expected in true.items()})
+    """What is said of every number of a table. Fails with `Refused` where one is not asked for, or told twice."""
+    own, true = _expected(walk, walk.own), _expected(walk, walk.board.drawing.values)
+    told: set[Key] = set()
+    for number in numbers:
+        key = number.kind, number.of
+        if key not in own:
+            alike = [of for kind, of in own if kind == number.kind] or list(dict.fromkeys(kind for kind, _ in own))
+            raise Refused(f"{number.kind} of {number.of}", "the scene asks for no such result",
+                          f"one of {', '.join(alike)}")
+        if key in told:
+            raise Refused(f"{number.kind} of {number.of}", "it is told twice", "tell it once")
+        told.add(key)
+        yield _judged(walk, number, own, {key: plain(expected.parts) for key, expected in true.items()})
 
 
 def _expected(walk: Walk, values: Sequence[Any]) -> dict[Key, Expected]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from dataclasses import dataclass
 
 from graphplan.kernel.program import Program
 from graphplan.methods.readings import KINDS, kind_named
@@ -42,16 +43,37 @@ def counted(judgement: Judgement) -> Said:
     return joined(told)
 
 
-def place(drawn: Program, index: int) -> int:
-    """The number of a step as it is printed, 0 for what is given."""
-    return max(drawn.number(index), 0)
+@dataclass(frozen=True, order=True)
+class Called:
+    """What a step is called, in whatever construction: its number as it is printed, 0 for what is given, its mark."""
+
+    number: int
+    mark: str
+
+    @property
+    def short(self) -> str:
+        """The number, or of what is given the letter."""
+        return str(self.number) if self.number else self.mark
+
+    @property
+    def named(self) -> Said:
+        """In words: a step by its number, a point of the pose by its name."""
+        return said("step {0}", self.number) if self.number else said("the given point {0}", self.mark)
+
+    @property
+    def told(self) -> Said:
+        """The same with the mark, as another construction may have another step of this number."""
+        return joined((self.named, self.mark)) if self.number else self.named
+
+
+def called(drawn: Program, index: int) -> Called:
+    """What a step of a construction is called."""
+    return Called(max(drawn.number(index), 0), drawn.text(index))
 
 
 def named(drawn: Program, index: int) -> Said:
-    """A step by its number, a point of the pose by its name."""
-    if index >= drawn.givens:
-        return said("step {0}", drawn.number(index))
-    return said("the given point {0}", drawn.text(index))
+    """A step of a construction in words."""
+    return called(drawn, index).named
 
 
 def opinion(judgement: Judgement) -> Said:
@@ -80,10 +102,15 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
     sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes
-    if verdict.guilty in (None, verdict.step):
+    guilty = blamed(verdict)
+    if guilty is None:
         return joined((verdict.mistake, sizes))
-    assert verdict.guilty is not None
-    return joined((sizes, said("probably {0}: {1}", named(judgement.drawing.drawn, verdict.guilty), verdict.mistake)))
+    return joined((sizes, said("probably {0}: {1}", named(judgement.drawing.drawn, guilty), verdict.mistake)))
+
+
+def blamed(verdict: Verdict) -> int | None:
+    """The earlier step that is probably to blame for a wrong one; None where it is its own slip."""
+    return None if verdict.guilty == verdict.step else verdict.guilty
 
 
 def lacking(judgement: Judgement, state: str = MISSING) -> str:

@@ -7,6 +7,7 @@ import math
 from collections.abc import Mapping, Sequence
 
 from graphplan.drafting.pencil import Pencil
+from graphplan.errors import Refused
 from graphplan.handed.traces import Frame, Handed
 from graphplan.kernel.kinds import LINE
 from graphplan.methods.construction import Construction
@@ -15,7 +16,7 @@ from graphplan.sheet.composition import Composition
 from graphplan.verify.board import Board
 from graphplan.verify.figures import judged
 from graphplan.verify.fits import Fit
-from graphplan.verify.labels import labelled
+from graphplan.verify.labels import labelled, sure
 from graphplan.verify.mistakes import Slip
 from graphplan.verify.pronounce import verdicts
 from graphplan.verify.register import Register
@@ -24,7 +25,7 @@ from graphplan.verify.verdict import WRONG, Judgement
 from graphplan.verify.walk import Loose, Rules, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
-HORIZON = 60  # how many steps further it is seen what a mistake explains
+HORIZON, FIRST = 60, 4  # how many steps further it is seen what a mistake explains; how many of them are compared
 NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 ALARM = 0.002  # how often a faultless drawing may be called wrong
 
@@ -32,8 +33,10 @@ ALARM = 0.002  # how often a faultless drawing may be called wrong
 def judge(drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil) -> Judgement:
     """What is said of a drawing, by the marks on it; `composition` is the sheet that the task was set on.
 
-    Fails with `Refused` where the mechanism is not to be found on it.
+    Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
+    if not all(size > 0 for size in pencil.model.values()):
+        raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
     return Judge(drawing, composition, handed, pencil).judgement()
 
 
@@ -46,7 +49,7 @@ class Judge:
         self.sought: Sought | None = None
         self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
         self.labels = labelled(drawing.drawn, homes, handed.traces)
-        taken = set(self.labels.values())
+        taken = {place for place in self.labels.values() if sure(handed.traces[place])}
         self.loose = [place for place, trace in enumerate(handed.traces) if place not in taken and not (
             handed.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
         self.rules = Rules(ALARM / len(drawing.drawn), handed.shows)
@@ -56,9 +59,10 @@ class Judge:
         fits = self._frames()
         walk = self.walk(fits, searching=True)
         spare = [trace for place, trace in enumerate(self.handed.traces) if place not in walk.used]
+        numbers = tuple(judged(walk, self.handed.numbers)) if self.handed.numbers else ()
         return Judgement(
             self.handed.name, self.drawing, self.composition, {panel: fit.frame for panel, fit in fits.items()},
-            tuple(verdicts(walk)), tuple(spare), tuple(judged(walk, self.handed.numbers)))
+            tuple(verdicts(walk)), tuple(spare), numbers)
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
@@ -135,25 +139,37 @@ class Judge:
             self.sought = Sought(board, self.handed.page)  # of a picture the frames are known: one board serves all
         return Walk(board, self.rules, self.traces, self.labels, loose, self.sought)
 
-    def _search(self, walk: Walk, gain: int, found: dict[int, int | Slip]) -> None:
-        """Where no trace fits a step, enter whichever suspect or slip makes most of the others fit, and go on."""
-        ahead = walk.fork().through(found)
-        while len(walk.own) < len(walk.steps):
+    def _search(self, start: Walk, gain: int, found: dict[int, int | Slip]) -> None:
+        """Enter, one after the other, what steps were mistaken for: whatever makes most of the traces fit."""
+        while (best := self._best(start.fork(), gain, found)) is not None:
+            found[best[0]] = best[1]
+
+    def _best(self, walk: Walk, gain: int, found: dict[int, int | Slip]) -> tuple[int, int | Slip] | None:
+        """The step, of the first few that could be, and the suspect or slip that explains most; none that explains
+        fewer traces than `gain`."""
+        ahead, best, most, seen = walk.fork().through(found), None, gain - 1, 0
+        left = set(self.loose) - ahead.used
+        while left and len(walk.own) < len(walk.steps) and seen < FIRST:
             step = walk.next
-            left = set(self.loose) - ahead.used
-            place = walk.find()
-            # on a line that is there already nothing is to be drawn; and a line begins at a point that it goes through
-            unfound = place is None or place in walk.used or not walk.reaches(step, place)
-            if (left and unfound and step.index not in found and step.op.name not in ("given", "begin")
-                    and not walk.hidden(step)):
-                tried: list[int | Slip] = [*walk.assumptions(left)] if gain > 1 and place is None else []
-                tried += walk.suspects(left, half_right=gain > 1)
-                end = min(step.index + HORIZON, len(walk.steps))
-                forks = [(walk.fork().go(one).until(end, found), one) for one in tried]
-                longest, best = max(forks, key=lambda fork: len(fork[0].used), default=(None, None))
-                if longest and best is not None and len(longest.used) >= len(ahead.before(end)) + gain:
-                    ahead, found[step.index] = longest.through(found), best
+            end = min(step.index + HORIZON, len(walk.steps))
+            gains = [(len(walk.fork().go(one).until(end, found).used) - len(ahead.before(end)), one)
+                     for one in self._tried(walk, left, gain)] if step.index not in found else []
+            larger, one = max(gains, key=lambda pair: pair[0], default=(0, None))
+            seen += larger >= gain
+            if one is not None and larger > most:
+                most, best = larger, (step.index, one)
             walk.go(found.get(step.index))
+        return best
+
+    def _tried(self, walk: Walk, left: set[int], gain: int) -> list[int | Slip]:
+        """What the next step may have been mistaken for, if it is not to be found where it should be."""
+        step, place = walk.next, walk.find()
+        # on a line that is there already nothing is to be drawn; and a line begins at a point that it goes through
+        unfound = place is None or place in walk.used or not walk.reaches(step, place)
+        if not unfound or step.op.name in ("given", "begin") or walk.hidden(step):
+            return []
+        slips: list[int | Slip] = [*walk.assumptions(left)] if gain > 1 and place is None else []
+        return slips + walk.suspects(left, half_right=gain > 1)
 
 
 def _wrong(walk: Walk, panel: str) -> int:

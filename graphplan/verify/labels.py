@@ -6,19 +6,29 @@ from collections.abc import Mapping, Sequence
 
 from graphplan.handed.spelling import spelled
 from graphplan.handed.traces import Trace
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program
 from graphplan.phrases import Said
 
 
 def labelled(program: Program, homes: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
-    """For each step that a trace is labelled as, the place of that trace; the first of several."""
+    """For each step that a trace is labelled as, the place of that trace; the first of several.
+
+    A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
+    """
     names = _names(program, homes)
     found: dict[int, int] = {}
     for place, trace in enumerate(traces):
-        step = _step(names, trace) if trace.label else None
+        numbered = not sure(trace) and trace.label.isdigit()
+        step = _step(names, trace) if trace.label and not numbered else None
         if step is not None and program.steps[step].op.gives == trace.kind:
             found.setdefault(step, place)
     return found
+
+
+def sure(trace: Trace) -> bool:
+    """Whether a label is certainly that of its trace: beside a line of a drawing may stand the letter of another."""
+    return trace.kind == POINT or bool(trace.panel)
 
 
 def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None:

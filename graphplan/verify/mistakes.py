@@ -61,7 +61,7 @@ def _root(step: Step) -> int:
 
 
 @dataclass(frozen=True)
-class Site:
+class Occasion:
     """A step of a program, where a mistake can be made; `homes` is the plan of every step."""
 
     program: Program
@@ -81,7 +81,7 @@ class Site:
                 yield self.program.text(other.index), replace(step, args=args)
 
 
-Rule = Callable[[Site], Iterator[Slip]]
+Rule = Callable[[Occasion], Iterator[Slip]]
 
 
 @dataclass(frozen=True)
@@ -110,7 +110,7 @@ def slips(program: Program, step: Step, homes: Sequence[str]) -> Iterator[Slip]:
     """All the slips of the table that can be made at a step."""
     for entry in MISTAKES.values():
         if step.op.name in entry.ops:
-            yield from entry.rule(Site(program, step, homes))
+            yield from entry.rule(Occasion(program, step, homes))
 
 
 LAID_OFF = ("transfer", "step_off", "step_across", "quarter", "lay_along", "lay_off", "balance", "couple",
@@ -119,111 +119,111 @@ ROUND = {"left": "right", "right": "left", "on": "back", "back": "on"}
 
 
 @mistake("perpendicular missed", "perpendicular")
-def _(site: Site) -> Iterator[Slip]:
-    yield Slip("perpendicular missed", said("parallel to {0}, not perpendicular", site.text(0)),
-               replace(site.step, op=TABLE["parallel"]))
+def _(occasion: Occasion) -> Iterator[Slip]:
+    yield Slip("perpendicular missed", said("parallel to {0}, not perpendicular", occasion.text(0)),
+               replace(occasion.step, op=TABLE["parallel"]))
 
 
 @mistake("parallel missed", "parallel")
-def _(site: Site) -> Iterator[Slip]:
-    yield Slip("parallel missed", said("perpendicular to {0}, not parallel", site.text(0)),
-               replace(site.step, op=TABLE["perpendicular"]))
+def _(occasion: Occasion) -> Iterator[Slip]:
+    yield Slip("parallel missed", said("perpendicular to {0}, not parallel", occasion.text(0)),
+               replace(occasion.step, op=TABLE["perpendicular"]))
 
 
 @mistake("wrong side", "circles_meet", "line_meets_circle")
-def _(site: Site) -> Iterator[Slip]:
-    params = {name: ROUND[way] for name, way in site.step.params.items()}
-    yield Slip("wrong side", said("the other of the two crossings"), replace(site.step, params=params))
+def _(occasion: Occasion) -> Iterator[Slip]:
+    params = {name: ROUND[way] for name, way in occasion.step.params.items()}
+    yield Slip("wrong side", said("the other of the two crossings"), replace(occasion.step, params=params))
 
 
 @mistake("mirrored figure", "meet")
-def _(site: Site) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Slip]:
     """The third corner of a similar figure, on the other side of the line of two."""
-    lines = [site.program.steps[arg] for arg in site.step.args]
+    lines = [occasion.program.steps[arg] for arg in occasion.step.args]
     through = [line.args[-1] for line in lines if line.op.name in ("parallel", "perpendicular")]
     if len(set(through)) == 2 and lines[0].op.name == lines[1].op.name:
-        yield Slip("mirrored figure", said("the figure is mirrored"), site.step, mirror=(through[0], through[1]))
+        yield Slip("mirrored figure", said("the figure is mirrored"), occasion.step, mirror=(through[0], through[1]))
 
 
 @mistake("reversed", *LAID_OFF)
-def _(site: Site) -> Iterator[Slip]:
-    why = site.step.why.key if isinstance(site.step.why, Said) else ""
+def _(occasion: Occasion) -> Iterator[Slip]:
+    why = occasion.step.why.key if isinstance(occasion.step.why, Said) else ""
     if why.startswith("the relative normal acceleration"):
         told = said("the normal acceleration points away from the centre")
     elif why.startswith("the Coriolis acceleration"):
         told = said("the Coriolis acceleration is reversed")
     else:
         told = said("the vector has the wrong sense")
-    yield Slip("reversed", told, site.step, -1.0)
+    yield Slip("reversed", told, occasion.step, -1.0)
 
 
 @mistake("turned the wrong way", *LAID_OFF)
-def _(site: Site) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Slip]:
     for factor in (1j, -1j):
-        yield Slip("turned the wrong way", said("the vector is a quarter turn off"), site.step, factor)
+        yield Slip("turned the wrong way", said("the vector is a quarter turn off"), occasion.step, factor)
 
 
 @mistake("wrong scale", *LAID_OFF)
-def _(site: Site) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Slip]:
     for factor in FACTORS:
         told = said("the vector is {0} times as long as it should be", digits(factor, 2))
-        yield Slip("wrong scale", told, site.step, factor)
+        yield Slip("wrong scale", told, occasion.step, factor)
 
 
 @mistake("wrong line", "parallel", "perpendicular")
-def _(site: Site) -> Iterator[Slip]:
-    for other, step in site.instead(0, LINE):
-        told = (said("parallel to {0} instead of {1}", other, site.text(0)) if step.op.name == "parallel"
-                else said("perpendicular to {0} instead of {1}", other, site.text(0)))
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for other, step in occasion.instead(0, LINE):
+        told = (said("parallel to {0} instead of {1}", other, occasion.text(0)) if step.op.name == "parallel"
+                else said("perpendicular to {0} instead of {1}", other, occasion.text(0)))
         yield Slip("wrong line", told, step)
 
 
 @mistake("wrong point", "parallel", "perpendicular", "line", "foot")
-def _(site: Site) -> Iterator[Slip]:
-    for place, kind in enumerate(site.step.op.reads):
-        for other, step in site.instead(place, POINT) if kind == POINT else ():
-            yield Slip("wrong point", said("drawn through {0} instead of {1}", other, site.text(place)), step)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for place, kind in enumerate(occasion.step.op.reads):
+        for other, step in occasion.instead(place, POINT) if kind == POINT else ():
+            yield Slip("wrong point", said("drawn through {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong crossing", "meet", "line_meets_circle", "circles_meet")
-def _(site: Site) -> Iterator[Slip]:
-    for place, kind in enumerate(site.step.op.reads):
-        for other, step in site.instead(place, kind):
-            yield Slip("wrong crossing", said("marked on {0} instead of {1}", other, site.text(place)), step)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for place, kind in enumerate(occasion.step.op.reads):
+        for other, step in occasion.instead(place, kind):
+            yield Slip("wrong crossing", said("marked on {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong start", *LAID_OFF)
-def _(site: Site) -> Iterator[Slip]:
-    place = site.step.args.index(_root(site.step))
-    for other, step in site.instead(place, POINT):
-        yield Slip("wrong start", said("laid off from {0} instead of {1}", other, site.text(place)), step)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    place = occasion.step.args.index(_root(occasion.step))
+    for other, step in occasion.instead(place, POINT):
+        yield Slip("wrong start", said("laid off from {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong vector", "transfer", "quarter", "midpoint")
-def _(site: Site) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Slip]:
     for place in (0, 1):
-        for other, step in site.instead(place, POINT):
-            yield Slip("wrong vector", said("taken from {0} instead of {1}", other, site.text(place)), step)
+        for other, step in occasion.instead(place, POINT):
+            yield Slip("wrong vector", said("taken from {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong centre", "circle")
-def _(site: Site) -> Iterator[Slip]:
-    for other, step in site.instead(0, POINT):
-        yield Slip("wrong centre", said("struck about {0} instead of {1}", other, site.text(0)), step)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for other, step in occasion.instead(0, POINT):
+        yield Slip("wrong centre", said("struck about {0} instead of {1}", other, occasion.text(0)), step)
 
 
 @mistake("wrong opening", "circle")
-def _(site: Site) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Slip]:
     for factor in (2.0, 0.5):
         told = said("the radius is {0} times as large as it should be", digits(factor, 2))
-        yield Slip("wrong opening", told, site.step, factor)
-    for other, step in site.instead(1, OPENING):
-        yield Slip("wrong opening", said("struck with {0} instead of {1}", other, site.text(1)), step)
+        yield Slip("wrong opening", told, occasion.step, factor)
+    for other, step in occasion.instead(1, OPENING):
+        yield Slip("wrong opening", said("struck with {0} instead of {1}", other, occasion.text(1)), step)
 
 
 @mistake("exchanged coordinates", "given")
-def _(site: Site) -> Iterator[Slip]:
-    x, y = (site.step.params[name] for name in "xy")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    x, y = (occasion.step.params[name] for name in "xy")
     for told, (u, v) in ((said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
                          (said("y has the wrong sign"), (x, -y))):
-        yield Slip("exchanged coordinates", told, replace(site.step, params={"x": u, "y": v}))
+        yield Slip("exchanged coordinates", told, replace(occasion.step, params={"x": u, "y": v}))

@@ -17,7 +17,7 @@ from graphplan.sheet.places import SMALL, Wish
 from graphplan.sheet.rows import Placed, lettered
 from graphplan.sheet.texts import RESULTS
 from graphplan.verify.callout import callout
-from graphplan.verify.findings import complaint, judged, opinion, place
+from graphplan.verify.findings import called, complaint, judged, opinion
 from graphplan.verify.remarks import VERDICT, Key, Remarks
 from graphplan.verify.score import Score
 from graphplan.verify.student import RED, SIZES, Student, sample
@@ -87,9 +87,7 @@ def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[I
 
 def _numbered(judgement: Judgement, verdict: Verdict, student: Student) -> Wish:
     """A wrong mark's number, or of what is given its letter."""
-    drawn = judgement.drawing.drawn
-    number = place(drawn, verdict.step)
-    runs = (Run(str(number) if number else drawn.text(verdict.step)),)
+    runs = (Run(called(judgement.drawing.drawn, verdict.step).short),)
     return Wish(runs, (student.at(verdict),), SIZES[WRONG], SMALL, Pen(0.0, RED, fill=RED), bold=True)
 
 

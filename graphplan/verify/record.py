@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from graphplan.verify.findings import counts, measured, place
+from graphplan.verify.findings import blamed, called, counts, measured
 from graphplan.verify.score import Score
 from graphplan.verify.verdict import Judgement, NumberVerdict, Verdict
 
@@ -39,19 +39,19 @@ def _step(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
 
 def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
     """A step by its number and its mark."""
-    drawn = judgement.drawing.drawn
-    return {"step": place(drawn, index), "mark": drawn.text(index)}
+    name = called(judgement.drawing.drawn, index)
+    return {"step": name.number, "mark": name.mark}
 
 
 def _complaint(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """The first wrong step; `guilty` is the earlier one that is probably to blame, where there is one."""
-    drawn, guilty = judgement.drawing.drawn, judgement.guilty
+    drawn, guilty = judgement.drawing.drawn, blamed(verdict)
     return {
         **_mark(judgement, verdict.step), "sentence": str(drawn.sentence(verdict.step)),
         "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance),
         "mistake": None if verdict.mistake is None else str(verdict.mistake),
         "kind": verdict.kind or None,
-        "guilty": None if guilty in (None, verdict.step) else _mark(judgement, guilty or 0),
+        "guilty": None if guilty is None else _mark(judgement, guilty),
     }  # fmt: skip
 
 

@@ -7,7 +7,7 @@ scaled as on the task's sheet, unless so many of its steps would then be wrong t
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import combinations, permutations
 from typing import Any
@@ -26,9 +26,10 @@ from graphplan.sheet.planes import Planes
 from graphplan.verify.fits import SIGMAS, Fit, Pair, best
 from graphplan.verify.walk import Walk
 
-SAME_UNIT = 0.02  # two frames differ if their units do by more than this part
+SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
 RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
 VOTES, HEAPS = 8.0, 5  # standard deviations within which marks vote for one origin; how many origins are tried
+BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
 RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
 
 
@@ -44,9 +45,9 @@ class Register:
     """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
 
     def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
-                 labels: Mapping[int, int], taken: Collection[int] = ()):
+                 labels: Mapping[int, int]):
         self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
-        self.homes, self.labels, self.taken = Planes(drawing).homes, labels, {*labels.values(), *taken}
+        self.homes, self.labels, self.taken = Planes(drawing).homes, labels, set(labels.values())
 
     @property
     def panels(self) -> list[str]:
@@ -86,14 +87,12 @@ class Register:
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
-        if panel in self.handed.frames:
-            return
         expected = walk.board.fits[panel]
         begin = next((pair for index, pair in self._pairs(panel) if walk.steps[index].op.name == "begin"), None)
         units = list(self._carried(panel, walk))
         plan, sheet = begin or (self._pairs(panel)[0][1] if units else (0j, 0j))
         for unit, sigma in _agreed(units):
-            along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_UNIT
+            along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
             yield Rival(Fit(Frame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED)
 
     def _carried(self, panel: str, walk: Walk) -> Iterator[tuple[complex, float]]:
@@ -158,7 +157,8 @@ class Register:
                     found = count, -float(near[near < sigma].sum()), [
                         (complex(point), complex(loose[place])) for point, place, far in
                         zip(points, off.argmin(axis=1), near, strict=True) if far < sigma]
-        return best(found[2], self.pencil.point) if found[2] else None
+        chance = 6 * len(loose) ** 2 * _filled(loose, sigma) ** (found[0] - 2)
+        return best(found[2], self.pencil.point) if found[2] and chance < BY_CHANCE else None
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its true marks are where loose ones are."""
@@ -198,6 +198,12 @@ def _heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
         for heap in np.argsort(counts)[-HEAPS:]:
             here = spots[where == heap]
             yield int(counts[heap]), float(np.median(here.real)), float(np.median(here.imag))
+
+
+def _filled(spots: Any, sigma: float) -> float:
+    """The part of the sheet on which a spot would be taken for one of these."""
+    wide, high = np.ptp(spots.real) + sigma, np.ptp(spots.imag) + sigma
+    return float(min(1.0, len(spots) * math.pi * sigma**2 / (wide * high)))
 
 
 def _apart(spots: Iterable[complex]) -> list[complex]:

@@ -12,7 +12,7 @@ from graphplan.sheet.rows import Cell, Row
 from graphplan.sheet.scales import digits
 from graphplan.sheet.tables import rows
 from graphplan.sheet.texts import HEADING, Words
-from graphplan.verify.findings import ALLOWED, OFF, counted, judged, lacking, miss, opinion, place, quantity, remark
+from graphplan.verify.findings import ALLOWED, OFF, called, counted, judged, lacking, miss, opinion, quantity, remark
 from graphplan.verify.score import GROUPS, Score
 from graphplan.verify.verdict import FOLLOWS, MISSING, NOT_NEEDED, RIGHT, STATES, UNSEEN, WRONG, Judgement
 
@@ -81,9 +81,8 @@ class Remarks(Words):
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
-            number = place(drawn, verdict.step)
             sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.step), remark(judgement, verdict))
-            yield from self._said(sentence, wide, verdict.step, str(number) if number else drawn.text(verdict.step))
+            yield from self._said(sentence, wide, verdict.step, called(drawn, verdict.step).short)
         for state in (MISSING, UNSEEN):
             if told := lacking(judgement, state):
                 yield from self._said(arranged("{0:capital}: {1}.", STATES[state](), told), wide)

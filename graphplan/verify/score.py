@@ -14,6 +14,8 @@ from graphplan.verify.findings import judged
 from graphplan.verify.verdict import UNSEEN, Judgement
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
+MOST = 1000.0  # of a weight
+LEAST = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost something
 KINDS = {"velocity": VELOCITY, "omega": VELOCITY, "slide velocity": VELOCITY,
          "acceleration": ACCELERATION, "alpha": ACCELERATION, "slide acceleration": ACCELERATION}
 NOTHING = phrase("nothing to judge")
@@ -53,14 +55,14 @@ def weights(text: str) -> Weights:
 
 
 def _size(name: str, text: str) -> float:
-    """A weight: what is right earns something, a number counts for no less than nothing; else any number will do."""
+    """A weight, within bounds in which sums of many stay what they are."""
+    least = LEAST.get(name, -MOST)
     try:
         size = float(text)
     except ValueError:
         size = math.nan
-    if not math.isfinite(size) or (name == "right" and size <= 0) or (name == "numbers" and size < 0):
-        right = {"right": "a number above 0", "numbers": "a number from 0"}.get(name, "a number, such as 0.5")
-        raise Refused(f"--weights {name}={text}", "this is no weight", right)
+    if not least <= size <= MOST:
+        raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {MOST:g}")
     return size
 
 

@@ -40,7 +40,7 @@ class Sought:
     def trace(self, step: Step, expected: Any, own: Sequence[Any], within: float) -> Trace | None:
         """What is there about an expected value, no further off than so many mm."""
         value, reach = plain(expected), min(within, WIDEST)
-        key = (step.index, *(round(number, 6) for number in value))
+        key = (step.index, *value)
         if key not in self._found:
             found = self._sought(step, value, own, reach)
             self._found[key] = wobbly(found) if found else None

@@ -20,6 +20,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.verify.board import Board, Deviation, plain, sampled
+from graphplan.verify.labels import sure
 from graphplan.verify.mistakes import Slip, slips
 from graphplan.verify.sought import Sought
 from graphplan.verify.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
@@ -154,8 +155,9 @@ class Walk:
     def find(self) -> int | None:
         """The trace of the next step: the one that bears its label, else a loose one that fits."""
         step = self.next
-        if step.index in self.labels:
-            return self.labels[step.index]
+        lettered = self.labels.get(step.index)
+        if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
+            return lettered
         if step.op.name == "begin":
             return None
         for expected, drawn in self._asked(step):
@@ -164,7 +166,12 @@ class Walk:
                 best = self._seeking(step, expected, drawn, self.sought)
             if best is not None:
                 return best
-        return None
+        return lettered
+
+    def _fits(self, step: Step, place: int) -> bool:
+        """Whether a trace is as a step should have made it."""
+        return any(self.deviation(step, expected, place, drawn).fits(self.rules.chance)
+                   for expected, drawn in self._asked(step))
 
     def hidden(self, step: Step) -> bool:
         """Whether what a step should make could not be seen: a line that is printed already."""
@@ -267,9 +274,8 @@ class Walk:
             for k in np.argsort(off)[:2] if len(places) else ():
                 if places[k] in loose and off[k] < NEAR and self._is(step, slip, places[k]):
                     found[places[k]] = min(off[k], found.get(places[k], math.inf))
-            same_marks = slip.step.args == step.args  # of which there are too few to be met by chance
-            sure = same_marks or (half_right and kind == CIRCLE)
-            if value and self.sought and kind != LINE and sure:
+            few = kind == POINT and slip.step.args == step.args  # too few to be met by chance
+            if value and self.sought and (few or (half_right and kind == CIRCLE)):
                 place = self._sought_at(step, slip, value, self.sought)
                 if place is not None:
                     found.setdefault(place, NEAR)
@@ -344,8 +350,14 @@ class Walk:
             else:
                 continue
             if abs(off) * mm < 4 * max(board.pencil.point, board.pencil.edge) and self._near(step, spots, mm):
-                return True
+                return self._clearly_off(step, place)
         return False
+
+    def _clearly_off(self, step: Step, place: int) -> bool:
+        """Whether a trace is off by twice as much as it may be: what is hardly off is hardly read."""
+        asked = next(self._asked(step), None)
+        deviation = self.deviation(step, asked[0], place, asked[1]) if asked else None
+        return deviation is None or deviation.size > 2 * deviation.tolerance(self.rules.chance)
 
     def _near(self, step: Step, spots: Sequence[complex], mm: float) -> bool:
         """Whether a point is not far from where it should be; a line through its point always is near."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from functools import cache
 from html.parser import HTMLParser
 
@@ -87,8 +88,7 @@ def page() -> str:
 @cache
 def class_page() -> str:
     found = judgement()
-    drawn = found.drawing.drawn
-    room = Classroom(HOSTILE, drawn, (Marked(HOSTILE, found, score(found)),), (Unread(HOSTILE, HOSTILE),))
+    room = Classroom(HOSTILE, (Marked(found, score(found)),), (Unread(HOSTILE, HOSTILE),))
     return class_list(room, ENGLISH)
 
 
@@ -134,6 +134,16 @@ def test_the_overlay_is_in_the_page() -> None:
     """The sheet stands in it as a picture that says what matters most."""
     (picture,) = [held for held in Reader(page()).all("svg") if held.get("role") == "img"]
     assert (picture["aria-label"] or "").startswith("First wrong is step 5:")
+
+
+def test_a_wrong_point_of_the_pose_is_told_by_its_letter() -> None:
+    """It has no step, and so no number."""
+    found = judgement()
+    spoilt = replace(found, verdicts=(replace(found.verdicts[0], state=WRONG), *found.verdicts[1:]))
+    text = class_list(Classroom("", (Marked(spoilt, score(spoilt)),)), ENGLISH)
+    letter = spoilt.drawing.drawn.text(0)
+    assert f'<td class="figure">{letter}</td>' in text
+    assert f'<th scope="row">the given point {letter}</th>' in text
 
 
 def test_bars_are_as_long_as_their_counts() -> None:

@@ -175,7 +175,7 @@ def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[
         drawn = draw(drawing, where, PENCIL, seed, {step.index: slip})
         tolerance = clean.verdicts[step.index].tolerance
         there = drawn.values[step.index] is not None and not off_paper(drawn) and (
-            kind not in PRINTED or (in_panel(drawn, sheet) and apart(drawn, step)))
+            kind not in PRINTED or (in_panel(drawn, sheet) and apart(drawn, step) and None not in drawn.values))
         if there and wrong_by(drawn, step) > LARGE * max(tolerance, LEAST):
             return slip, drawn
     return None

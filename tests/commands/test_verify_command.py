@@ -163,6 +163,57 @@ def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, good: Pa
     assert list(good.parent.iterdir()) == [good]
 
 
+def test_a_report_is_never_written_over_what_it_is_of(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """Neither the student's file nor the scene is overwritten, by whatever path it is named."""
+    drawing, scene, link = tmp_path / "drawing.svg", tmp_path / "scene.json", tmp_path / "link.svg"
+    drawing.write_text("drawn")
+    scene.write_text("[points]")
+    link.symlink_to(drawing)
+    for report in (drawing, link, scene):
+        assert main(["verify", str(scene), str(drawing), "--report", str(report)]) == 2
+        assert "itself would be overwritten" in capsys.readouterr().err
+    assert (drawing.read_text(), scene.read_text()) == ("drawn", "[points]")
+    assert link.is_symlink()
+
+
+@pytest.mark.parametrize("name", ["a" * 300 + ".csv", "a" * 300])
+def test_a_name_that_no_file_can_have_is_bad_input(name: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """One line, status 2."""
+    assert main(["verify", "four-bar", name]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
+
+
+def test_a_folder_that_may_not_be_read_is_bad_input(folder: Path, monkeypatch: pytest.MonkeyPatch,
+                                                    capsys: pytest.CaptureFixture[str]) -> None:
+    """One line, status 2."""
+    def denied(_: Path) -> None:
+        raise PermissionError(13, "Permission denied")
+
+    monkeypatch.setattr(Path, "iterdir", denied)
+    assert main(["verify", "four-bar", str(folder)]) == 2
+    assert capsys.readouterr().err == f"{folder}: it cannot be read (Permission denied); a readable folder\n"
+
+
+def test_what_in_a_class_is_no_file_is_told(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """A folder within the folder and a link that leads nowhere are not passed over in silence."""
+    (folder / "later").mkdir()
+    (folder / "lost.csv").symlink_to(folder / "gone.csv")
+    told = {one["file"]: one["why"] for one in printed(capsys, str(folder))["not_judged"]}
+    assert list(told) == ["c.txt", "later", "lost.csv"]
+    assert told["later"].startswith("this is a folder within the folder")
+    assert told["lost.csv"].startswith("this link leads nowhere")
+
+
+@pytest.mark.parametrize("seen", [True, False])
+def test_who_waits_at_a_terminal_is_told_what_is_judged(seen: bool, good: Path, monkeypatch: pytest.MonkeyPatch,
+                                                        capsys: pytest.CaptureFixture[str]) -> None:
+    """The name stands there while its drawing is judged, and is wiped out after; a file is not written to."""
+    monkeypatch.setattr("sys.stderr.isatty", lambda: seen)
+    assert main(["verify", "four-bar", str(good)]) == 0
+    lines = [line.strip() for line in capsys.readouterr().err.split("\r")]
+    assert lines == (["", "good.csv", "", "", ""] if seen else [""])
+
+
 def test_a_folder_has_no_single_sheet(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """The overlay of a class is refused before anything is judged."""
     assert main(["verify", "four-bar", str(folder), "--report", str(folder / "class.svg")]) == 2

@@ -183,6 +183,21 @@ def test_files_that_are_none(tmp_path: Path, name: str) -> None:
     assert "no ordinary file" in refused(path)
 
 
+SEEN = point("3") + point("4").replace('"A"', '"B"')
+RULED = "".join(f'<element type="line" label="{label}"><show object="false"/><coords x="1" y="{y}" z="0"/></element>'
+                for label, y in (("f", 1), ("g", 2)))
+ABSURD = {"(1,2) &lt; (3,4)": "point", "Line(f,g)": "line", "Circle(f,3)": "conic", "Vector(f)": "vector",
+          "Midpoint(f,g)": "point", "Center(f)": "point", "(-8)^0.5": "point"}  # fmt: skip
+
+
+@pytest.mark.parametrize("written", ABSURD)
+def test_terms_of_wrong_kinds_have_no_value(tmp_path: Path, written: str) -> None:
+    """Points compared, lines through lines: what is made of things of another kind is not there, the rest is read."""
+    path, made = tmp_path / "x.ggb", f'<element type="{ABSURD[written]}" label="C"><show object="true"/></element>'
+    path.write_bytes(ggb(f'{SEEN}{RULED}<expression label="C" exp="{written}"/>{made}'))
+    assert [trace.label for trace in read(path, (), {}).traces] == ["A", "B"]
+
+
 @pytest.mark.parametrize("name", KINDS)
 def test_huge_files_are_not_read(tmp_path: Path, name: str) -> None:
     """Of a file of gigabytes no more is read than a drawing may have."""

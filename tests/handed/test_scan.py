@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import struct
 import tempfile
 import zlib
@@ -234,7 +235,7 @@ BAD = {
     "headless.jpg": (b"\xff\xd8\xff\xe0\x00\x10JFIF", "broken"),
     "broken.pdf": (b"%PDF-1.7\nnothing", "broken"),
     "words.png": (b"these are words", "no PNG"),
-    "empty.png": (b"", "no PNG"),
+    "empty.png": (b"", "it is empty"),
 }
 
 
@@ -261,7 +262,10 @@ def test_blank_pictures_are_refused(tmp_path: Path) -> None:
 
 
 def test_missing_files_are_refused(tmp_path: Path) -> None:
-    """A file that is not there, and a folder, are refused in one line."""
-    for path in (tmp_path / "none.png", tmp_path):
-        with pytest.raises(Refused, match="cannot be read"):
+    """A file that is not there, a folder and a pipe are refused in one line, and nothing waits for them."""
+    os.mkfifo(tmp_path / "pipe.png")
+    for path, why in ((tmp_path / "none.png", "no such file"), (tmp_path, "a directory"),
+                      (tmp_path / "pipe.png", "no ordinary file")):
+        with pytest.raises(Refused, match=why) as refused:
             read_page(path, page(), CODE)
+        assert str(refused.value).startswith(f"{path}: ")

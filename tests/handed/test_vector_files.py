@@ -198,6 +198,15 @@ def test_arcs_bulges_and_endless_lines_of_cad(tmp_path: Path) -> None:
     assert ends == [[pytest.approx(spot, abs=1e-9) for spot in pair] for pair in wanted]
 
 
+def test_parts_of_the_view(tmp_path: Path) -> None:
+    """Percentages are parts of the view that an element stands in: its width, its height, or for a radius both."""
+    inside = ('<g stroke="#000"><line x1="10%" y1="20%" x2="90%" y2="20%"/><circle cx="50%" cy="50%" r="15%"/>'
+              '<svg x="50%" width="50%" height="100%" viewBox="0 0 10 20"><line y1="75%" x2="100%" y2="15"/></svg></g>')
+    found = sorted(handed(tmp_path, "x.svg", SVG.format(inside).encode()).traces, key=_order)
+    assert [lying(trace) for trace in found] == [
+        pytest.approx([10, 80, 90, 80]), pytest.approx([50, 25, 100, 25]), pytest.approx([50, 50, 15])]
+
+
 @lru_cache(maxsize=3)
 def own(scene: str) -> tuple[Sheet, Figure, dict[str, Spot]]:
     """A scene's sheet, the same as objects, and where its lettered points lie."""
@@ -251,6 +260,15 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
         points = {trace.label: trace.spots[0] for trace in found.traces if trace.kind == POINT}
         assert max(math.dist(points[label], at) for label, at in named.items()) < 2 * far
         assert found.frames
+
+
+@pytest.mark.parametrize("kind", ["dxf", "svg"])
+def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
+    """Plans lie where their frames say on a sheet of the size that is asked for, and anywhere on another."""
+    sheet, path, frames = own("four-bar")[0], tmp_path / f"own.{kind}", {"N-plan": Frame(0j, 1 + 0j)}
+    path.write_bytes({"dxf": dxf, "svg": lambda sheet: svg(sheet).encode()}[kind](sheet))
+    assert read(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
+    assert read(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
 
 
 @pytest.mark.parametrize("scene", SCENES)

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 from dataclasses import replace
 from functools import cache
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hands import Drawn, draw, frames, points, slipped, traced
 
 import graphplan as gp
+from graphplan.backends.svg import svg
 from graphplan.drafting.pencil import Pencil
 from graphplan.errors import Refused
+from graphplan.handed.files import read
 from graphplan.handed.traces import Handed, Number, Trace
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.methods.construction import Construction
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
+from graphplan.sheet.layout import layout
 from graphplan.verify.judge import judge
 from graphplan.verify.mistakes import MISTAKES
 from graphplan.verify.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
@@ -181,6 +185,42 @@ def test_a_sheet_without_the_mechanism_is_refused() -> None:
         judge(drawing, sheet, handed, PENCIL)
 
 
+def test_numbers_of_links_are_not_those_of_steps() -> None:
+    """A drawing whose links are numbered 1, 2, 3 is not judged as if its lines were steps 1, 2, 3."""
+    drawing, sheet = composed("four-bar")
+    handed = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
+    bars = [Trace(LINE, trace.spots, number) for number, trace in zip(("1", "2", "3"), (
+        trace for trace in handed.traces[::-1] if trace.kind == LINE), strict=False)]
+    assert judge(drawing, sheet, replace(handed, traces=(*handed.traces, *bars)), PENCIL).first is None
+
+
+@pytest.mark.parametrize("name", ["four-bar", "triad"])
+def test_our_own_sheet_is_a_faultless_drawing(name: str, tmp_path: Path) -> None:
+    """The sheet that graphplan draws, with all its letters and numbers, has no wrong step."""
+    drawing, sheet = composed(name)
+    path = tmp_path / "sheet.svg"
+    path.write_text(svg(layout(drawing, composition=sheet)))
+    size = sheet.arrangement.width, sheet.arrangement.height
+    handed = read(path, list(sheet.views), frames(drawing, sheet), size=size)
+    assert judge(drawing, sheet, handed, PENCIL).first is None
+
+
+def test_noise_is_no_drawing() -> None:
+    """In spots that lie anywhere no mechanism is seen, however many there are."""
+    drawing, sheet = composed("four-bar")
+    spots = np.random.default_rng(1).uniform(0, 300, (60, 2)).tolist()
+    handed = Handed("x.csv", tuple(Trace(POINT, ((x, y),)) for x, y in spots), shows=frozenset({POINT}))
+    with pytest.raises(Refused, match="not two of its points"):
+        judge(drawing, sheet, handed, PENCIL)
+
+
+def test_a_hand_without_errors_has_no_tolerance() -> None:
+    """A pencil that never errs cannot be judged by."""
+    drawing, sheet = composed("four-bar")
+    with pytest.raises(Refused, match="no tolerance"):
+        judge(drawing, sheet, points(draw(drawing, frames(drawing, sheet), PENCIL, 1)), Pencil(point=0.0))
+
+
 # ---- numbers ---------------------------------------------------------------------------------------------------------
 
 
@@ -205,6 +245,16 @@ def test_a_number_of_another_point_is_recognised() -> None:
     drawing, sheet = composed("four-bar")
     found = judge(drawing, sheet, Handed("x.csv", numbers=(replace(_velocity("B"), of="M"),)), PENCIL)
     assert str(found.numbers[0].mistake) == "this is the number of B"
+
+
+@pytest.mark.parametrize(("others", "why"), [
+    ((Number("velocity", "Z", (1.0, 2.0), "mm/s"),), "the scene asks for no such result; one of A, B, M"),
+    ((_velocity("B"), _velocity("B")), "velocity of B: it is told twice")])
+def test_numbers_that_cannot_be_judged_are_refused(others: tuple[Number, ...], why: str) -> None:
+    """A result that is not asked for, or told twice, is bad input."""
+    drawing, sheet = composed("four-bar")
+    with pytest.raises(Refused, match=why):
+        judge(drawing, sheet, Handed("x.csv", numbers=others), PENCIL)
 
 
 def test_a_number_read_off_a_wrong_drawing_follows() -> None:

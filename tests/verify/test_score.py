@@ -93,8 +93,10 @@ def test_weights_are_read() -> None:
 @pytest.mark.parametrize(("text", "why"), [
     ("wright=1", "nothing of this name is weighed"),
     ("wrong=0,wrong=1", "wrong is told twice"),
-    ("right=0", "this is no weight; a number above 0"),
-    ("numbers=-1", "this is no weight; a number from 0"),
+    ("right=0", "this is no weight; a number from 0.001 to 1000"),
+    ("numbers=-1", "this is no weight; a number from 0 to 1000"),
+    ("right=1e308,numbers=1e308", "this is no weight"),
+    ("wrong=-inf", "this is no weight; a number from -1000"),
     ("missing=nan", "this is no weight"),
     ("wrong=much", "this is no weight"),
     ("wrong=2", "earns more than what is right"),

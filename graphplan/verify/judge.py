@@ -25,6 +25,7 @@ from graphplan.verify.verdict import WRONG, Judgement
 from graphplan.verify.walk import Loose, Rules, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
+TRIALS = 150  # how many suspects are followed up in one drawing: a sheet full of scribbles ends, too
 HORIZON, FIRST = 60, 4  # how many steps further it is seen what a mistake explains; how many of them are compared
 NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 ALARM = 0.002  # how often a faultless drawing may be called wrong
@@ -47,6 +48,7 @@ class Judge:
         self.drawing, self.composition, self.handed, self.pencil = drawing, composition, handed, pencil
         homes = Board(drawing, {}, pencil).homes
         self.sought: Sought | None = None
+        self.trials = TRIALS
         self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
         self.labels = labelled(drawing.drawn, homes, handed.traces)
         taken = {place for place in self.labels.values() if sure(handed.traces[place])}
@@ -149,11 +151,12 @@ class Judge:
         fewer traces than `gain`."""
         ahead, best, most, seen = walk.fork().through(found), None, gain - 1, 0
         left = set(self.loose) - ahead.used
-        while left and len(walk.own) < len(walk.steps) and seen < FIRST:
+        while left and len(walk.own) < len(walk.steps) and seen < FIRST and self.trials > 0:
             step = walk.next
             end = min(step.index + HORIZON, len(walk.steps))
             gains = [(len(walk.fork().go(one).until(end, found).used) - len(ahead.before(end)), one)
                      for one in self._tried(walk, left, gain)] if step.index not in found else []
+            self.trials -= len(gains)
             larger, one = max(gains, key=lambda pair: pair[0], default=(0, None))
             seen += larger >= gain
             if one is not None and larger > most:

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import asdict, dataclass, fields
 
+from graphplan.drafting.settings import number, settings
 from graphplan.errors import Refused
 from graphplan.phrases import Said, said
 from graphplan.sheet.scales import digits
@@ -52,24 +53,12 @@ UNITS = {"point": "mm", "edge": "mm", "angle": "degrees", "opening": "mm"}
 def pencil(text: str) -> Pencil:
     """The pencil that a text such as `point=0.2,angle=0.1` speaks of; what it leaves out stays as it is by default."""
     known = [field.name for field in fields(Pencil)]
-    sizes: dict[str, float] = {}
-    for entry in filter(None, text.split(",")):
-        name, _, size = (part.strip() for part in entry.partition("="))
-        if name not in known:
-            raise Refused(f"--pencil {entry}", "a pencil has no such error", f"one of {', '.join(known)}")
-        if name in sizes:
-            raise Refused(f"--pencil {text}", f"{name} is told twice", "tell it once")
-        sizes[name] = _size(name, size)
-    return Pencil(**sizes)
+    return Pencil(**settings("--pencil", text, known, "a pencil has no such error", _size))
 
 
 def _size(name: str, text: str) -> float:
     """A standard deviation: a number of millimetres or degrees, at most those of a right angle's half."""
-    try:
-        size = float(text)
-    except ValueError:
-        size = math.nan
-    most = 45.0 if name == "angle" else math.inf
+    size, most = number(text), 45.0 if name == "angle" else math.inf
     if not 0 <= size < most:
         right = f"a standard deviation in {UNITS[name]}, from 0" + (" to below 45" if name == "angle" else "")
         raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)

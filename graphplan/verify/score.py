@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 
+from graphplan.drafting.settings import number, settings
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction
@@ -40,15 +41,7 @@ def weights(text: str) -> Weights:
     """The weights that a text such as `follows=0.5,numbers=3` speaks of; what it leaves out stays as it is by default.
     """
     known = [field.name for field in fields(Weights)]
-    found: dict[str, float] = {}
-    for entry in filter(None, text.split(",")):
-        name, _, size = (part.strip() for part in entry.partition("="))
-        if name not in known:
-            raise Refused(f"--weights {entry}", "nothing of this name is weighed", f"one of {', '.join(known)}")
-        if name in found:
-            raise Refused(f"--weights {text}", f"{name} is told twice", "tell it once")
-        found[name] = _size(name, size)
-    told = Weights(**found)
+    told = Weights(**settings("--weights", text, known, "nothing of this name is weighed", _size))
     if told.right < max(told.follows, told.missing, told.wrong):
         raise Refused(f"--weights {text}", "something earns more than what is right", "no weight above that of right")
     return told
@@ -56,11 +49,7 @@ def weights(text: str) -> Weights:
 
 def _size(name: str, text: str) -> float:
     """A weight, within bounds in which sums of many stay what they are."""
-    least = LEAST.get(name, -MOST)
-    try:
-        size = float(text)
-    except ValueError:
-        size = math.nan
+    size, least = number(text), LEAST.get(name, -MOST)
     if not least <= size <= MOST:
         raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {MOST:g}")
     return size

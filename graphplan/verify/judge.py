@@ -25,7 +25,7 @@ from graphplan.verify.verdict import WRONG, Judgement
 from graphplan.verify.walk import Loose, Rules, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
-TRIALS = 150  # how many suspects are followed up in one drawing: a sheet full of scribbles ends, too
+TRIALS = 150  # how many suspects are followed up on one way: a sheet full of scribbles ends, too
 HORIZON, FIRST = 60, 4  # how many steps further it is seen what a mistake explains; how many of them are compared
 NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 ALARM = 0.002  # how often a faultless drawing may be called wrong
@@ -48,7 +48,7 @@ class Judge:
         self.drawing, self.composition, self.handed, self.pencil = drawing, composition, handed, pencil
         homes = Board(drawing, {}, pencil).homes
         self.sought: Sought | None = None
-        self.trials = TRIALS
+        self.trials = 0  # how many suspects may still be followed up
         self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
         self.labels = labelled(drawing.drawn, homes, handed.traces)
         taken = {place for place in self.labels.values() if sure(handed.traces[place])}
@@ -128,7 +128,7 @@ class Judge:
         walk = self._start(fits)
         if not searching or not self.loose:
             return walk.through()
-        found: dict[int, int | Slip] = {}
+        self.trials, found = TRIALS, dict[int, int | Slip]()
         for gain in (2, 1):  # first what others follow from, then what is merely like a mistake
             self._search(walk.fork(), gain, found)
         return walk.through(found)

@@ -26,7 +26,7 @@ from graphplan.verify.sought import Sought
 from graphplan.verify.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 
 NEAREST, SUSPECTS = 6, 8  # how many loose traces are tried as what a step should make, and as what it was mistaken for
-TOLERANCES = 15.0  # standard deviations of a point within which a picture is searched
+REACH = 15.0  # standard deviations of a point within which a picture is searched
 TWIN = 0.5  # mm: a stroke that is found twice lies so near to itself
 AHEAD = 30  # how many steps are looked ahead
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
@@ -182,7 +182,7 @@ class Walk:
         """What a picture shows about an expected value, if it fits it."""
         if step.op.name == "given" or step.op.gives == OPENING:
             return None
-        trace = sought.trace(step, expected, drawn, TOLERANCES * self.board.pencil.point)
+        trace = sought.trace(step, expected, drawn, REACH * self.board.pencil.point)
         if trace is None or not self.board.deviation(
                 step, expected, self.board.spots(step.index, trace), drawn).fits(self.rules.chance):
             return None
@@ -286,7 +286,7 @@ class Walk:
 
     def _sought_at(self, step: Step, slip: Slip, value: Any, sought: Sought) -> int | None:
         """What a picture shows where a slip would have made it."""
-        trace = sought.trace(step, value, self.own, TOLERANCES * self.board.pencil.point)
+        trace = sought.trace(step, value, self.own, REACH * self.board.pencil.point)
         if trace is None:
             return None
         place = self._entered(trace)

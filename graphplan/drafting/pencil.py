@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from dataclasses import asdict, dataclass, fields
 
-from graphplan.drafting.settings import number, settings
+from graphplan.drafting.settings import decimal, settings
 from graphplan.errors import Refused
 from graphplan.phrases import Said, said
 from graphplan.sheet.scales import digits
@@ -58,7 +58,7 @@ def pencil(text: str) -> Pencil:
 
 def _size(name: str, text: str) -> float:
     """A standard deviation: a number of millimetres or degrees, at most those of a right angle's half."""
-    size, most = number(text), 45.0 if name == "angle" else math.inf
+    size, most = decimal(text), 45.0 if name == "angle" else math.inf
     if not 0 <= size < most:
         right = f"a standard deviation in {UNITS[name]}, from 0" + (" to below 45" if name == "angle" else "")
         raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)

@@ -25,7 +25,7 @@ def settings(option: str, text: str, known: Collection[str], unknown: str,
     return found
 
 
-def number(text: str) -> float:
+def decimal(text: str) -> float:
     """A number, or nan where it is none."""
     try:
         return float(text)

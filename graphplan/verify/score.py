@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 
-from graphplan.drafting.settings import number, settings
+from graphplan.drafting.settings import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction
@@ -49,7 +49,7 @@ def weights(text: str) -> Weights:
 
 def _size(name: str, text: str) -> float:
     """A weight, within bounds in which sums of many stay what they are."""
-    size, least = number(text), LEAST.get(name, -MOST)
+    size, least = decimal(text), LEAST.get(name, -MOST)
     if not least <= size <= MOST:
         raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {MOST:g}")
     return size

@@ -37,14 +37,14 @@ class Ink:
 
     def covered(self, spots: Spots) -> NDArray[np.bool_]:
         """Which spots are hidden by print; all beside the sheet are."""
-        return np.asarray(self.hidden[self._cells(spots)], bool)
+        return np.asarray(self.hidden[self.cells(spots)], bool)
 
     def crossed(self, spots: Spots) -> NDArray[np.bool_]:
         """Which spots are hidden or dark: a line may go on there, under print or another line."""
-        cells = self._cells(spots)
+        cells = self.cells(spots)
         return np.asarray(self.hidden[cells] | (self.dark[cells] > DARK), bool)
 
-    def _cells(self, spots: Spots) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    def cells(self, spots: Spots) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
         column, row = np.rint(self.pixels(spots)).astype(np.intp).T
         high, wide = self.hidden.shape

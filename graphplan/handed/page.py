@@ -16,11 +16,12 @@ from numpy.typing import NDArray
 from graphplan.handed.dots import dots, off_crossings
 from graphplan.handed.ink import Ink
 from graphplan.handed.lines import FEW, Row, line
-from graphplan.handed.ridges import Ridges, clear
+from graphplan.handed.ridges import CLEAR, Ridges, clear
 from graphplan.handed.rims import Rim, grown
 from graphplan.handed.runs import Run, runs
 from graphplan.handed.strokes import Strokes
 from graphplan.handed.traces import Spot, Trace
+from graphplan.kernel.kinds import POINT
 
 Values = NDArray[np.float64]
 ASKEW = 20.0  # degrees by which a crest's own direction is unsure
@@ -29,6 +30,7 @@ BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
 SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
 TURNED = 40.0  # degrees of a rim from which on it tells its own centre
 LEAST = 1.0  # mm of a rim
+HIDDEN = 0.6  # the share of a stroke that print may hide
 FAINT, OVAL = 0.05, 0.25  # darkness of a dot where one is expected, and how round it is: it may lie on a line
 
 
@@ -46,9 +48,12 @@ class Page:
         drawn = Strokes.of(clear(self.found, self.ink), self.ink).traces()
         return tuple(self._blurred(trace) for trace in (*drawn, *off_crossings(self._dots, drawn)))
 
-    def hidden(self, spots: Sequence[Spot]) -> float:
-        """The share of some spots at which print hides what may be drawn."""
-        return float(self.ink.covered(np.asarray(spots, float)).mean())
+    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+        """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
+        it leaves hardly any."""
+        far = (self._from_dots if kind == POINT else self._from_crests)[self.ink.cells(np.array(spots))]
+        seen = far[far >= 0]
+        return float((seen < within).mean()) if len(seen) > (1 - HIDDEN) * len(far) else None
 
     def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
         """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
@@ -98,12 +103,37 @@ class Page:
 
     def dot(self, spot: Spot, within: float) -> Trace | None:
         """The dot nearest to where one is expected."""
-        near = [dot for dot in self._faint if math.dist(dot.spots[0], spot) < within]
-        return min(near, key=lambda dot: math.dist(dot.spots[0], spot), default=None)
+        off = np.abs(self._spots - complex(*spot))
+        return self._faint[int(off.argmin())] if off.min(initial=math.inf) < within else None
+
+    @cached_property
+    def _from_crests(self) -> NDArray[np.float32]:
+        """How far every pixel is from the next strong crest."""
+        return self._away(self.found.spots[self.found.strength > CLEAR])
+
+    @cached_property
+    def _from_dots(self) -> NDArray[np.float32]:
+        """How far every pixel is from the next dot."""
+        return self._away(np.column_stack([self._spots.real, self._spots.imag]))
+
+    def _away(self, spots: Values) -> NDArray[np.float32]:
+        """How far every pixel is from the next of some spots, in mm; less than nothing where print hides it."""
+        import cv2
+
+        bare = np.ones(self.ink.dark.shape, np.uint8)
+        bare[self.ink.cells(spots)] = 0
+        far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
+        far[self.ink.hidden] = -1.0
+        return far
 
     @cached_property
     def _dots(self) -> list[Trace]:
         return dots(self.ink)
+
+    @cached_property
+    def _spots(self) -> NDArray[np.complex128]:
+        """Where the dots are that may be points."""
+        return np.array([complex(*dot.spots[0]) for dot in self._faint], np.complex128)
 
     @cached_property
     def _faint(self) -> list[Trace]:

@@ -75,8 +75,8 @@ class Searched(Protocol):
     def dot(self, spot: Spot, within: float) -> Trace | None:
         """The point about the expected one."""
 
-    def hidden(self, spots: Sequence[Spot]) -> float:
-        """The share of some spots at which nothing could be seen."""
+    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+        """The share of some spots that have a stroke, or a point, so near; None where most could not be seen."""
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ numbers. The same table finds the mistake that a drawing shows, and seeds the dr
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -32,7 +32,7 @@ class Slip:
     factor: complex = 1.0
     mirror: tuple[int, int] | None = None
 
-    def value(self, domain: Domain, values: Sequence[Any]) -> Any:
+    def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
         made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
         if self.mirror:

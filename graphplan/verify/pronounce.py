@@ -40,12 +40,13 @@ def _seen(walk: Walk, taken: Taken) -> Verdict:
     assert taken.place is not None
     assert taken.deviation is not None
     step, deviation, chance = taken.step, taken.deviation, walk.rules.chance
-    reason = explained(walk, taken) if taken.state == WRONG else None
+    reason = explained(walk, taken) if taken.state == WRONG and not taken.slip else None
+    slip = reason.slip if reason else taken.slip
     guilty = reason.source.index if reason else step.index if taken.state == WRONG else None
     return Verdict(
         step.index, taken.state, deviation.size, deviation.tolerance(chance), _astray(walk, taken),
         walk.traces[taken.place], plain(taken.expected), _ellipse(walk, taken),
-        reason.slip.told if reason else None, reason.slip.kind if reason else "", guilty)
+        slip.told if slip else None, slip.kind if slip else "", guilty)
 
 
 def _assumed(walk: Walk, taken: Taken) -> Verdict:

@@ -23,6 +23,7 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.laid_off import root
 from graphplan.sheet.planes import Planes
+from graphplan.verify.board import plain
 from graphplan.verify.fits import SIGMAS, Fit, Pair, best
 from graphplan.verify.walk import Walk
 
@@ -48,6 +49,7 @@ class Register:
                  labels: Mapping[int, int]):
         self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
         self.homes, self.labels, self.taken = Planes(drawing).homes, labels, set(labels.values())
+        self.values = drawing.values
 
     @property
     def panels(self) -> list[str]:
@@ -67,6 +69,11 @@ class Register:
             raise Refused(f"{self.handed.name}: mechanism", "not two of its points are there, so it lies nowhere",
                           f"label them, as {names}")
         return found
+
+    def follow(self, walk: Walk) -> None:
+        """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""
+        self.taken |= walk.used
+        self.values = [plain(value) for value in walk.own]
 
     def expected(self, panel: str, mechanism: Fit) -> list[Fit]:
         """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
@@ -162,7 +169,7 @@ class Register:
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its true marks are where loose ones are."""
-        true = np.array([complex(*self.drawing.values[i][:2]) for i, home in enumerate(self.homes)
+        true = np.array([complex(*self.values[i][:2]) for i, home in enumerate(self.homes)
                          if home == panel and self.drawing.drawn.steps[i].op.gives == POINT])
         loose = np.array(self._crossings())
         if not len(loose):

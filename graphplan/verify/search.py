@@ -1,0 +1,88 @@
+"""The mistakes that a drawing shows: those that make what is seen likelier than it is without them.
+
+Every slip of the table is tried at every step that is not clearly right. At a glance it is seen what would follow
+from it; the most promising ones are gone through mark by mark, and the likeliest way is kept.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from graphplan.errors import Undrawable
+from graphplan.verify.glance import Glance, strokes
+from graphplan.verify.mistakes import Slip, slips
+from graphplan.verify.strays import strays
+from graphplan.verify.walk import Walk
+
+TRIED = 16  # how many of the most promising mistakes are gone through
+CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
+SPREAD = 12.0  # how much more may be won than was promised
+RARE, UNNAMED = -3.5, -8.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
+Found = dict[int, "int | Slip"]
+
+
+@dataclass(frozen=True)
+class Guess:
+    """What a step may have been mistaken for, how likely that is by itself, and how promising."""
+
+    index: int
+    one: int | Slip
+    prior: float
+    promise: float
+
+
+class Search:
+    """A drawing, as far as before its first step, in which mistakes are looked for."""
+
+    def __init__(self, start: Walk):
+        self.start = start
+
+    def found(self, most: int) -> Found:
+        """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
+        found: Found = {}
+        for _ in range(most):
+            more = self._more(found)
+            if more is None:
+                break
+            found[more.index] = more.one
+        return found
+
+    def _more(self, found: Found) -> Guess | None:
+        """One more mistake, if the way is likelier with it."""
+        forks, walk = [], self.start.fork()
+        for step in walk.steps:
+            forks.append(walk.fork())
+            walk.until(step.index + 1, found)
+        best, most = None, walk.weight
+        guesses = sorted(self._guesses(walk, found), key=lambda guess: -guess.promise)[:TRIED]
+        for guess in guesses:
+            if guess.promise < most - walk.weight - SPREAD:
+                break
+            try:
+                begin = forks[min([guess.index, *strokes(walk, guess.index)])]
+                weight = begin.fork().through({**found, guess.index: guess.one}).weight + guess.prior
+            except Undrawable:
+                continue
+            if weight > most:
+                best, most = guess, weight
+        return best
+
+    def _guesses(self, walk: Walk, found: Found) -> Iterator[Guess]:
+        """All that may have been mistaken, with what a glance says for it."""
+        glance = Glance(walk, {index: one for index, one in found.items() if isinstance(one, Slip)})
+        for taken in walk.taken:
+            step = taken.step
+            if (step.index in found or step.index in walk.labels or taken.weight >= CLEAR
+                    or step.op.name in ("given", "begin")):
+                continue
+            alike = Counter(slip.kind for slip in slips(walk.board.drawing.drawn, step, walk.board.homes))
+            for slip in slips(walk.board.drawing.drawn, step, walk.board.homes):
+                prior = RARE - math.log(len(alike)) - math.log(alike[slip.kind])
+                promise = glance.by(slip) + prior
+                if promise > UNLIKELY:
+                    yield Guess(step.index, slip, prior, promise)
+            for place, value in strays(walk, step) if taken.place is None and taken.weight < 0 else ():
+                yield Guess(step.index, place, UNNAMED, glance.won(step, value) + UNNAMED)

@@ -15,12 +15,14 @@ from graphplan.errors import Undrawable
 from graphplan.verify.glance import Glance, strokes
 from graphplan.verify.mistakes import Slip, slips
 from graphplan.verify.strays import strays
-from graphplan.verify.walk import Walk
+from graphplan.verify.walk import Taken, Walk
 
 TRIED = 16  # how many of the most promising mistakes are gone through
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
-SPREAD = 12.0  # how much more may be won than was promised
-RARE, UNNAMED = -3.5, -8.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
+SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
+SPREAD = 16.0  # how much more may be won than was promised
+AGAIN = 6.0  # how much more has to speak for a further mistake
+RARE, UNNAMED = -3.5, -11.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
 Found = dict[int, "int | Slip"]
 
 
@@ -56,7 +58,7 @@ class Search:
         for step in walk.steps:
             forks.append(walk.fork())
             walk.until(step.index + 1, found)
-        best, most = None, walk.weight
+        best, most = None, walk.weight + (AGAIN if found else 0.0)
         guesses = sorted(self._guesses(walk, found), key=lambda guess: -guess.promise)[:TRIED]
         for guess in guesses:
             if guess.promise < most - walk.weight - SPREAD:
@@ -75,7 +77,7 @@ class Search:
         glance = Glance(walk, {index: one for index, one in found.items() if isinstance(one, Slip)})
         for taken in walk.taken:
             step = taken.step
-            if (step.index in found or step.index in walk.labels or taken.weight >= CLEAR
+            if (step.index in found or step.index in walk.labels or clear(taken)
                     or step.op.name in ("given", "begin")):
                 continue
             alike = Counter(slip.kind for slip in slips(walk.board.drawing.drawn, step, walk.board.homes))
@@ -86,3 +88,9 @@ class Search:
                     yield Guess(step.index, slip, prior, promise)
             for place, value in strays(walk, step) if taken.place is None and taken.weight < 0 else ():
                 yield Guess(step.index, place, UNNAMED, glance.won(step, value) + UNNAMED)
+
+
+def clear(taken: Taken) -> bool:
+    """Whether a step is so clearly right that no mistake is thought of."""
+    off = taken.deviation
+    return off is not None and taken.weight >= CLEAR and off.square - len(off.off) < SQUARE

@@ -13,7 +13,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.verify.board import plain
-from graphplan.verify.evidence import GONE, THERE
+from graphplan.verify.evidence import FILED, GONE, THERE
 from graphplan.verify.mistakes import Slip
 from graphplan.verify.sought import Way
 from graphplan.verify.walk import Walk
@@ -60,6 +60,8 @@ class Glance:
                 moved.add(step.index)
                 weight, values[step.index] = self._seen(step, made, Way(values[:step.index], self.slips))
                 won, seen = won + weight - walk.taken[step.index].weight, seen + weight
+                if walk.sought and walk.sought.beyond(step, made):
+                    dead.add(step.index)
                 if seen < HOPELESS or (step.index == at and not self._possible(step, weight)):
                     return -math.inf
             elif not dead.isdisjoint(step.args):
@@ -131,9 +133,9 @@ class Glance:
 
     def _weight(self, step: Step, there: bool) -> float:
         """What a mark weighs, or its lack."""
-        if not self.walk.sought and step.op.gives not in self.walk.rules.shows:
-            return 0.0
-        return ROUGH * (THERE if there else GONE)[step.op.gives]
+        if self.walk.sought:
+            return ROUGH * (THERE if there else GONE)[step.op.gives]
+        return ROUGH * (FILED if there else GONE)[step.op.gives] if step.op.gives in self.walk.rules.shows else 0.0
 
 
 def strokes(walk: Walk, index: int) -> list[int]:

@@ -4,7 +4,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from graphplan.drafting.pencil import Pencil
 from graphplan.errors import Refused
@@ -23,12 +23,12 @@ from graphplan.verify.register import Register
 from graphplan.verify.search import Search
 from graphplan.verify.sought import Sought, wobbly
 from graphplan.verify.verdict import WRONG, Judgement
-from graphplan.verify.walk import Rules, Walk
+from graphplan.verify.walk import Rules, Taken, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
-NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
+NOWHERE, RIVALS = 1e6, 3  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
+LITTLE = -10.0  # what may speak against a frame in which no mistake is looked for
 MOST = 4  # mistakes that are looked for
-CLOSE = 30.0  # how much less likely a frame may be before mistakes are thought of
 ALARM = 0.002  # how often a faultless drawing may be called wrong
 
 
@@ -108,10 +108,9 @@ class Judge:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
         ways = [(self.walk({**fits, panel: fit}), fit) for fit in found]
         ways.sort(key=lambda way: -way[0].weight)
-        near = [fit for way, fit in ways[:RIVALS] if way.weight > ways[0][0].weight - CLOSE]
-        if len(near) == 1:
-            return near[0]
-        return max(near, key=lambda fit: self.walk({**fits, panel: fit}, 1).weight)
+        if sum(min(taken.weight, 0.0) for taken in _on(ways[0][0], panel)) > LITTLE:
+            return ways[0][1]
+        return max((fit for _, fit in ways[:RIVALS]), key=lambda fit: self.walk({**fits, panel: fit}, 1).weight)
 
     def _alone(self, mechanism: Fit, panels: Sequence[str]) -> Walk:
         """The way through with the mechanism alone; the other plans are as good as nowhere."""
@@ -140,6 +139,11 @@ class Judge:
         return Walk(board, self.rules, self.traces, self.labels, loose, self.sought)
 
 
+def _on(walk: Walk, panel: str) -> Iterator[Taken]:
+    """What the steps of a plan were taken for."""
+    return (taken for taken in walk.taken if walk.board.homes[taken.step.index] == panel)
+
+
 def _wrong(walk: Walk, panel: str) -> int:
     """How many steps of a plan are wrong on the way through."""
-    return sum(taken.state == WRONG and walk.board.homes[taken.step.index] == panel for taken in walk.taken)
+    return sum(taken.state == WRONG for taken in _on(walk, panel))

@@ -12,7 +12,7 @@ from graphplan.handed.traces import Trace
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.verify.board import Board, sampled
 
-TWIN = 0.5  # mm: a stroke that is found twice lies so near to itself
+TWIN, BESIDE = 0.5, 1.0  # mm: a stroke that is found twice lies so near to itself; two may be taken for each other
 
 
 class Loose:
@@ -36,6 +36,11 @@ class Loose:
         if place not in self._twins:
             self._twins[place] = {other for other in self._places[trace.kind] if _same(trace, self.traces[other])}
         return self._twins[place]
+
+    def beside(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
+        """The other traces that are so near to what one is that it could be they."""
+        places, off = self.near(self.traces[place].kind, panel, value)
+        return [other for other, far in zip(places, off, strict=True) if far < BESIDE and other != place]
 
     def near(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
         """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""

@@ -49,7 +49,7 @@ class Register:
                  labels: Mapping[int, int]):
         self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
         self.homes, self.labels, self.taken = Planes(drawing).homes, labels, set(labels.values())
-        self.values = drawing.values
+        self.values: tuple[Sequence[Any], ...] = (drawing.values,)
 
     @property
     def panels(self) -> list[str]:
@@ -73,7 +73,7 @@ class Register:
     def follow(self, walk: Walk) -> None:
         """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""
         self.taken |= walk.used
-        self.values = [plain(value) for value in walk.own]
+        self.values = self.drawing.values, [plain(value) for value in walk.own]
 
     def expected(self, panel: str, mechanism: Fit) -> list[Fit]:
         """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
@@ -169,7 +169,7 @@ class Register:
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its true marks are where loose ones are."""
-        true = np.array([complex(*self.values[i][:2]) for i, home in enumerate(self.homes)
+        true = np.array([complex(*values[i][:2]) for values in self.values for i, home in enumerate(self.homes)
                          if home == panel and self.drawing.drawn.steps[i].op.gives == POINT])
         loose = np.array(self._crossings())
         if not len(loose):
@@ -179,7 +179,7 @@ class Register:
         heaps = [heap for wide in (cell, 3 * cell) for heap in sorted(_heaps(origins, wide), reverse=True)[:HEAPS]]
         told: list[complex] = []
         for _, x, y in heaps:
-            if all(abs(complex(x, y) - other) > cell for other in told):
+            if all(abs(complex(x, y) - other) > 4 * cell for other in told):
                 told.append(complex(x, y))
         return told
 

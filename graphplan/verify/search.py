@@ -12,16 +12,19 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from graphplan.errors import Undrawable
+from graphplan.verify.board import plain
 from graphplan.verify.glance import Glance, strokes
 from graphplan.verify.mistakes import Slip, slips
 from graphplan.verify.strays import strays
+from graphplan.verify.verdict import WRONG
 from graphplan.verify.walk import Taken, Walk
 
 TRIED = 16  # how many of the most promising mistakes are gone through
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
 SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
 SPREAD = 16.0  # how much more may be won than was promised
-AGAIN = 6.0  # how much more has to speak for a further mistake
+ODDS, AGAIN = 3.5, 6.0  # what has to speak for a mistake, thirty to one, and for a further one
+DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
 RARE, UNNAMED = -3.5, -11.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
 Found = dict[int, "int | Slip"]
 
@@ -58,7 +61,8 @@ class Search:
         for step in walk.steps:
             forks.append(walk.fork())
             walk.until(step.index + 1, found)
-        best, most = None, walk.weight + (AGAIN if found else 0.0)
+        mistaken = any(walk.taken[index].state == WRONG for index in found)
+        best, most = None, walk.weight + (AGAIN if mistaken else ODDS)
         guesses = sorted(self._guesses(walk, found), key=lambda guess: -guess.promise)[:TRIED]
         for guess in guesses:
             if guess.promise < most - walk.weight - SPREAD:
@@ -75,10 +79,16 @@ class Search:
     def _guesses(self, walk: Walk, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
         glance = Glance(walk, {index: one for index, one in found.items() if isinstance(one, Slip)})
+        shared = Counter(taken.place for taken in walk.taken)
+        lost = {arg for taken in walk.taken if taken.weight < 0 for arg in taken.step.args}
         for taken in walk.taken:
             step = taken.step
-            if (step.index in found or step.index in walk.labels or clear(taken)
-                    or step.op.name in ("given", "begin")):
+            if taken.place is not None and step.index in lost and step.index not in found:
+                for place in walk.loose.beside(taken.place, walk.board.homes[step.index], plain(walk.own[step.index])):
+                    if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
+                        yield Guess(step.index, place, ODDS - DOUBT, FIRST)
+            if (step.index in found or step.index in walk.labels or step.op.name in ("given", "begin")
+                    or (clear(taken) and shared[taken.place] == 1)):
                 continue
             alike = Counter(slip.kind for slip in slips(walk.board.drawing.drawn, step, walk.board.homes))
             for slip in slips(walk.board.drawing.drawn, step, walk.board.homes):

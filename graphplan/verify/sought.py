@@ -67,6 +67,10 @@ class Sought:
         held = self._held(step, spots)
         return self.page.share(step.op.gives, held, NEAR) if held else 0.0 if spots else None
 
+    def beyond(self, step: Step, value: Any) -> bool:
+        """Whether a point would be off its panel, so that nothing can be drawn from it."""
+        return step.op.gives == POINT and not self._panel(step).holds(self._onto(step, complex(*plain(value)[:2])))
+
     def _spots(self, step: Step, value: tuple[float, ...], own: Way, struck: float = STRUCK) -> list[Spot]:
         """Spots on the sheet of what a step makes, there where it would be drawn."""
         if step.op.gives == LINE:

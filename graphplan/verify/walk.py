@@ -20,7 +20,7 @@ from graphplan.handed.traces import Trace
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.verify.board import Board, Deviation, plain
-from graphplan.verify.evidence import ASSUMED, GONE, SHARED, weighed
+from graphplan.verify.evidence import ASSUMED, FAINT, FILED, GONE, SHARED, THERE, weighed
 from graphplan.verify.labels import sure
 from graphplan.verify.loose import Loose
 from graphplan.verify.mistakes import Slip
@@ -29,7 +29,7 @@ from graphplan.verify.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 
 NEAREST = 6  # how many loose traces are tried as what a step should make
 REACH = 15.0  # standard deviations of a point within which a picture is searched
-FARTHER = 2.0  # tolerances off, from which on nothing that is farther fits
+FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
 ASTRAY = 60.0  # mm: no mark is sought further off
 
@@ -212,7 +212,8 @@ class Walk:
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen = self.board.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
-        weight = self._weighed(place, found[by] if any(fits) else None, seen)
+        weight = (self._weighed(place, found[by], seen) if any(fits) else
+                  self._weighed(place, None, seen) if all(map(self._clearly, found)) else -math.inf)
         return self._go_on(Taken(step, state, asked[by][0], place, found[by], weight=weight),
                            seen, seen if fits[-1] else mended)
 
@@ -229,7 +230,7 @@ class Walk:
         off = self.board.deviation(step, mended, spots, self.own)
         seen = self.board.seen(step, made, spots, steady=not self.traces[place].blur)
         weight = self._weighed(place, self.board.deviation(step, made, spots, self.own), seen) or ASSUMED
-        if off.fits(self.rules.chance):  # that is no mistake
+        if not self._clearly(off):
             weight = -math.inf
         return self._go_on(Taken(step, WRONG, mended, place, off, slip, weight), seen, mended)
 
@@ -239,9 +240,14 @@ class Walk:
         if not self.used.isdisjoint({place, *self.loose.twins(place)}):
             return SHARED
         if not self.sought:
-            return weighed(kind, deviation)
+            return weighed(FILED[kind], GONE[kind], deviation)
         share = self.sought.share(self.next, seen, self._way(self.own)) if kind != POINT else None
-        return weighed(kind, deviation, 1.0 if share is None else share, faint=place >= self.loose.seen)
+        most = (THERE if place < self.loose.seen else FAINT)[kind]
+        return weighed(most, GONE[kind], deviation, 1.0 if share is None else share)
+
+    def _clearly(self, deviation: Deviation) -> bool:
+        """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
+        return deviation.size > CLEARLY * deviation.tolerance(self.rules.chance)
 
     def _missed(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
@@ -253,6 +259,8 @@ class Walk:
         if step.op.name in ("given", "begin") or step.op.gives == OPENING:
             return 0.0
         if self.sought:
+            if self.sought.beyond(step, expected):
+                self.dead.add(step.index)
             return 0.0 if self.sought.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
         return GONE[step.op.gives] if step.op.gives in self.rules.shows else 0.0
 

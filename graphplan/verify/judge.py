@@ -26,7 +26,7 @@ from graphplan.verify.verdict import WRONG, Judgement
 from graphplan.verify.walk import Rules, Taken, Walk
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
-NOWHERE, RIVALS = 1e6, 3  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
+NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 LITTLE = -10.0  # what may speak against a frame in which no mistake is looked for
 MOST = 4  # mistakes that are looked for
 ALARM = 0.002  # how often a faultless drawing may be called wrong

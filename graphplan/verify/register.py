@@ -29,7 +29,8 @@ from graphplan.verify.walk import Walk
 
 SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
 RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
-VOTES, HEAPS = 8.0, 5  # standard deviations within which marks vote for one origin; how many origins are tried
+VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one origin; how many heaps are looked at
+ORIGINS = 5  # how many origins are tried
 BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
 RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
 
@@ -133,12 +134,16 @@ class Register:
                 spots += trace.spots[:2]
         return _apart(complex(*spot) for spot in spots)[:ANCHORS]
 
+    def _points(self) -> list[complex]:
+        """The unlabelled points of a sheet that are not yet known."""
+        return [complex(*trace.spots[0]) for place, trace in enumerate(self.handed.traces)
+                if place not in self.taken and trace.kind == POINT]
+
     def _crossings(self) -> list[complex]:
         """The points of a sheet, or where it has none but labelled ones, where its lines cross."""
-        loose = [trace for place, trace in enumerate(self.handed.traces) if place not in self.taken]
-        points = [complex(*trace.spots[0]) for trace in loose if trace.kind == POINT]
-        if points:
+        if points := self._points():
             return points
+        loose = [trace for place, trace in enumerate(self.handed.traces) if place not in self.taken]
         lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in loose if trace.kind == LINE]
         return [z for one, two in combinations(lines, 2) if (z := _crossing(one, two)) is not None]
 
@@ -168,20 +173,34 @@ class Register:
         return best(found[2], self.pencil.point) if found[2] and chance < BY_CHANCE else None
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
-        """The origins of a plan for which most of its true marks are where loose ones are."""
-        true = np.array([complex(*values[i][:2]) for values in self.values for i, home in enumerate(self.homes)
-                         if home == panel and self.drawing.drawn.steps[i].op.gives == POINT])
+        """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
+        plan begins."""
+        steps = [step for step, home in zip(self.drawing.drawn.steps, self.homes, strict=True)
+                 if home == panel and step.op.gives == POINT]
         loose = np.array(self._crossings())
         if not len(loose):
             return [0j]
-        origins = (loose[:, None] - unit * true[None, :]).ravel()
+        begin = next((step for step in steps if step.op.name == "begin"), None)
+        marks = [np.array([complex(*values[step.index][:2]) for step in steps]) for values in self.values]
+        if begin is None or not self._points():
+            return self._heaped((loose[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
+        origins = loose - unit * complex(*self.drawing.values[begin.index][:2])
+        votes = np.max([sum(self._met(origins + unit * mark, loose) for mark in plan) for plan in marks], axis=0)
+        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
+
+    def _met(self, spots: Any, loose: Any) -> Any:
+        """Which spots have a loose one near."""
+        return np.abs(spots[:, None] - loose[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+
+    def _heaped(self, origins: Any) -> list[complex]:
+        """The origins that most marks vote for."""
         cell = VOTES * self.pencil.point
-        heaps = [heap for wide in (cell, 3 * cell) for heap in sorted(_heaps(origins, wide), reverse=True)[:HEAPS]]
+        heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _heaps(origins, wide)), reverse=True)
         told: list[complex] = []
         for _, x, y in heaps:
             if all(abs(complex(x, y) - other) > 4 * cell for other in told):
                 told.append(complex(x, y))
-        return told
+        return told[:ORIGINS]
 
     def begins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The loose points that are the beginnings of plans, by step."""

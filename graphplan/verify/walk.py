@@ -123,8 +123,8 @@ class Walk:
         lettered = self.labels.get(step.index)
         if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
             return lettered
-        if step.op.name == "begin":
-            return None
+        if step.op.name == "begin" and self.sought:
+            return None  # it is printed
         for expected, drawn in self._asked(step):
             best = self._drawn(step, expected, drawn)
             if best is not None:
@@ -256,7 +256,7 @@ class Walk:
         if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
-        if step.op.name in ("given", "begin") or step.op.gives == OPENING:
+        if step.op.name == "given" or step.op.gives == OPENING or (step.op.name == "begin" and self.sought):
             return 0.0
         if self.sought:
             if self.sought.beyond(step, expected):

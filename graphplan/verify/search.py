@@ -23,7 +23,7 @@ TRIED = 16  # how many of the most promising mistakes are gone through
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
 SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
 SPREAD = 16.0  # how much more may be won than was promised
-ODDS, AGAIN = 3.5, 6.0  # what has to speak for a mistake, thirty to one, and for a further one
+ODDS, AGAIN = 2.0, 6.0  # what has to speak for a mistake, seven to one, and for a further one
 DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
 RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
 Found = dict[int, "int | Slip"]
@@ -83,7 +83,8 @@ class Search:
         lost = {arg for taken in walk.taken if taken.weight < 0 for arg in taken.step.args}
         for taken in walk.taken:
             step = taken.step
-            if taken.place is not None and step.index in lost and step.index not in found:
+            doubted = step.index in lost or shared[taken.place] > 1
+            if taken.place is not None and doubted and step.index not in found:
                 for place in walk.loose.beside(taken.place, walk.board.homes[step.index], plain(walk.own[step.index])):
                     if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
                         yield Guess(step.index, place, ODDS - DOUBT, FIRST)

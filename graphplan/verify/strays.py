@@ -1,4 +1,4 @@
-"""Traces that a step may have made by a mistake that no table has: they keep one of its claims, and no other."""
+"""Traces that a step may have made by a mistake that no table has: they keep one of the places that it claims."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ ASTRAY, KEPT = 60.0, 4.0  # mm: no mark is thought to be further off; standard d
 
 def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
-    lines; with what the step would have made. `walk` has gone through."""
+    lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
     board, kind = walk.board, step.op.gives
     mm = board.mm(board.homes[step.index])
     on = [plain(walk.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
@@ -23,7 +23,7 @@ def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
             continue
         spots = board.spots(step.index, walk.traces[place])
         value = plain(board.seen(step, walk.own[step.index], spots, steady=True))
-        off = min((_off(kind, value, thing) for thing in on), default=ASTRAY) * mm
+        off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
         far = apart(POINT, value, [complex(*plain(walk.own[step.index]))]) * mm if kind == POINT else 0.0
         if off < KEPT * max(board.pencil.point, board.pencil.edge) and far < ASTRAY:
             yield place, value

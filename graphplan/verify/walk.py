@@ -133,10 +133,15 @@ class Walk:
 
     def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
-        if self.sought and step.op.gives == LINE and self.sought.share(step, expected, self._way(drawn)) is None:
-            return None  # pieces of a line that is printed already tell nothing
         best = self._fitting(step, expected, drawn)
-        return best if best is not None or not self.sought else self._seeking(step, expected, drawn, self.sought)
+        if not self.sought or step.op.gives == OPENING:
+            return best
+        if best is None:
+            best = self._seeking(step, expected, drawn, self.sought)
+        if best is None or self.sought.share(step, expected, self._way(drawn)) is not None:
+            return best
+        off = self.deviation(step, expected, best, drawn)  # where most is printed already, pieces tell little
+        return best if step.op.gives != LINE and off.square < len(off.off) + 1 else None
 
     def _fits(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""

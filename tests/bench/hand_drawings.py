@@ -35,6 +35,8 @@ from graphplan.methods.construction import Construction
 from graphplan.sheet.compose import compose
 from graphplan.sheet.composition import Composition
 from graphplan.sheet.handout import code, solution, task
+from graphplan.sheet.planes import Planes
+from graphplan.verify.board import apart as apart_by
 from graphplan.verify.judge import judge
 from graphplan.verify.mistakes import Slip
 from graphplan.verify.verdict import Judgement
@@ -100,6 +102,7 @@ class Tally:
     alarms: int = 0
     faultless: int = 0
     seconds: list[float] = field(default_factory=list)
+    misread: list[float] = field(default_factory=list)
     confusion: Counter[tuple[str, str]] = field(default_factory=Counter)
     missed: list[str] = field(default_factory=list)
 
@@ -128,6 +131,7 @@ def measure(kind: str, name: str, seeds: range, tally: Tally) -> None:
         where = frames(drawing, sheet, seed if kind in ANYWHERE else None)
         clean = draw(drawing, where, PENCIL, seed)
         found = _judged(kind, drawing, sheet, clean, seed, tally)
+        tally.misread += misread(found, clean)
         tally.faultless += 1
         if found.first:
             tally.alarms += 1
@@ -154,6 +158,18 @@ def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, 
     found = judge(drawing, sheet, handed, PENCIL)
     tally.seconds.append(time.perf_counter() - before)
     return found
+
+
+def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
+    """How far off, in mm, the marks of a drawing were seen, those that were: of strokes the farthest spot."""
+    homes = Planes(drawn.drawing).homes
+    for verdict in found.verdicts:
+        value, trace, step = drawn.values[verdict.step], verdict.trace, drawn.drawing.drawn.steps[verdict.step]
+        if trace is None or value is None or step.op.name in ("given", "begin", "pick"):
+            continue
+        frame = found.frames[homes[verdict.step]]
+        spots = [frame.back(complex(*spot)) for spot in trace.spots]
+        yield apart_by(trace.kind, [float(part) for part in value], spots) * abs(frame.unit)
 
 
 def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[str, Frame], seed: int,
@@ -195,7 +211,7 @@ def table(kind: str, tally: Tally) -> Iterator[str]:
     alarm = 100 * tally.alarms / max(tally.faultless, 1)
     yield (f"{kind}: first wrong step exact {tally.exact} of {tally.mistaken} ({share:.1f} %), faultless called wrong "
            f"{tally.alarms} of {tally.faultless} ({alarm:.1f} %), median {np.median(tally.seconds):.2f} s, largest "
-           f"{max(tally.seconds):.2f} s")
+           f"{max(tally.seconds):.2f} s, marks seen {np.median(tally.misread):.3f} mm off")
     for done in sorted({pair[0] for pair in tally.confusion}):
         row = sorted(((count, told) for (one, told), count in tally.confusion.items() if one == done), reverse=True)
         yield f"  {done:28} " + ", ".join(f"{told} {count}" for count, told in row)

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
 from graphplan.handed.traces import Frame, Handed
-from graphplan.kernel.kinds import CIRCLE, LINE
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 
 if TYPE_CHECKING:
     from graphplan.handed.image import Grey
@@ -24,9 +24,11 @@ def read_scan(path: Path, printed: Sheet, frames: Mapping[str, Frame], code: int
 
     `code` is that of its marks, and `frames` says where its plans lie, which is passed on.
 
-    Fails with `Refused` where the file is no picture, or not one of this page.
+    Fails with `Refused` where the file is no picture, not one of this page, or nothing is drawn on it.
     """
     page = read_page(path, printed, code)
+    if all(trace.kind == POINT for trace in page.traces):
+        raise Refused(f"{path}", "nothing is drawn on the page", "hand in a scan of the drawing, not of the empty task")
     return Handed(path.name, page.traces, shows=SHOWS, frames=frames, page=page)
 
 

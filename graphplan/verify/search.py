@@ -79,26 +79,38 @@ class Search:
     def _guesses(self, walk: Walk, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
         glance = Glance(walk, {index: one for index, one in found.items() if isinstance(one, Slip)})
-        shared = Counter(taken.place for taken in walk.taken)
+        uses = Counter(taken.place for taken in walk.taken)
         lost = {arg for taken in walk.taken if taken.weight < 0 for arg in taken.step.args}
         for taken in walk.taken:
-            step = taken.step
-            doubted = step.index in lost or shared[taken.place] > 1
-            if taken.place is not None and doubted and step.index not in found:
-                for place in walk.loose.beside(taken.place, walk.board.homes[step.index], plain(walk.own[step.index])):
-                    if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
-                        yield Guess(step.index, place, ODDS - DOUBT, FIRST)
-            if (step.index in found or step.index in walk.labels or step.op.name in ("given", "begin")
-                    or (clear(taken) and shared[taken.place] == 1)):
+            if taken.step.index in found:
                 continue
-            alike = Counter(slip.kind for slip in slips(walk.board.drawing.drawn, step, walk.board.homes))
-            for slip in slips(walk.board.drawing.drawn, step, walk.board.homes):
-                prior = RARE - math.log(len(alike)) - math.log(alike[slip.kind])
-                promise = glance.by(slip) + prior
-                if promise > UNLIKELY:
-                    yield Guess(step.index, slip, prior, promise)
-            for place, value in strays(walk, step) if taken.place is None and taken.weight < 0 else ():
-                yield Guess(step.index, place, UNNAMED, glance.won(step, value) + UNNAMED)
+            if taken.place is not None and (taken.step.index in lost or uses[taken.place] > 1):
+                yield from self._others(walk, taken)
+            right = clear(taken) and uses[taken.place] == 1
+            if not right and taken.step.index not in walk.labels and taken.step.op.name not in ("given", "begin"):
+                yield from self._slips(walk, glance, taken)
+
+    def _others(self, walk: Walk, taken: Taken) -> Iterator[Guess]:
+        """The traces that fit a step as well as the one beside them that was taken."""
+        step, home = taken.step, walk.board.homes[taken.step.index]
+        assert taken.place is not None
+        for place in walk.loose.beside(taken.place, home, plain(walk.own[step.index])):
+            if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
+                yield Guess(step.index, place, ODDS - DOUBT, FIRST)
+
+    def _slips(self, walk: Walk, glance: Glance, taken: Taken) -> Iterator[Guess]:
+        """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
+        of one kind."""
+        step = taken.step
+        table = list(slips(walk.board.drawing.drawn, step, walk.board.homes))
+        alike = Counter(slip.kind for slip in table)
+        for slip in table:
+            prior = RARE - math.log(len(alike)) - math.log(alike[slip.kind])
+            promise = glance.by(slip) + prior
+            if promise > UNLIKELY:
+                yield Guess(step.index, slip, prior, promise)
+        for place, value in strays(walk, step) if taken.place is None and taken.weight < 0 else ():
+            yield Guess(step.index, place, UNNAMED, glance.won(step, value) + UNNAMED)
 
 
 def clear(taken: Taken) -> bool:

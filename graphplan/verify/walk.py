@@ -217,8 +217,9 @@ class Walk:
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen = self.board.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
-        weight = (self._weighed(place, found[by], seen) if any(fits) else
-                  self._weighed(place, None, seen) if all(map(self._clearly, found)) else -math.inf)
+        weight = self._weighed(place, found[by] if any(fits) else None, seen)
+        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._clearly, found))):
+            weight = -math.inf
         return self._go_on(Taken(step, state, asked[by][0], place, found[by], weight=weight),
                            seen, seen if fits[-1] else mended)
 

@@ -187,9 +187,11 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
 
 
 def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:
-    """A task on which nothing was drawn shows no line and no rim, for all its print."""
-    handed = read_scan(saved(tmp_path, scan(paper(), [], 80).image), page(), {}, CODE)
-    assert [trace for trace in handed.traces if trace.kind != POINT] == []
+    """A task on which nothing was drawn shows no line and no rim, for all its print, and is refused."""
+    path = saved(tmp_path, scan(paper(), [], 80).image)
+    assert [trace for trace in read_page(path, page(), CODE).traces if trace.kind != POINT] == []
+    with pytest.raises(Refused, match="nothing is drawn"):
+        read_scan(path, page(), {}, CODE)
 
 
 def test_documents(tmp_path: Path) -> None:

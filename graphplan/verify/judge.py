@@ -60,7 +60,7 @@ class Judge:
         """The verdicts of the frames that fit best, the wrong ones explained."""
         fits = self._frames()
         walk = self.walk(fits, MOST)
-        spare = [trace for place, trace in enumerate(self.handed.traces) if place not in walk.used]
+        spare = [trace for place, trace in enumerate(self.handed.traces) if place not in walk.used | walk.over]
         numbers = tuple(judged(walk, self.handed.numbers)) if self.handed.numbers else ()
         return Judgement(
             self.handed.name, self.drawing, self.composition, {panel: fit.frame for panel, fit in fits.items()},

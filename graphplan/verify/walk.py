@@ -67,6 +67,7 @@ class Walk:
         self.mended: list[Any] = []
         self.taken: list[Taken] = []
         self.used: set[int] = set()
+        self.over: set[int] = set()  # what is drawn over print
         self.erred = False
         self.found: Mapping[int, int | Slip] = {}  # what some steps are taken for
         self.dead: set[int] = set()  # the steps that nobody could draw from what is there
@@ -81,7 +82,8 @@ class Walk:
         """Another one that goes on from here in the frames of the other, which differ only in plans to come."""
         moved = Walk(other.board, self.rules, self.traces, self.labels, other.loose, other.sought)
         moved.own, moved.mended = list(self.own), list(self.mended)
-        moved.taken, moved.used, moved.erred = list(self.taken), set(self.used), self.erred
+        moved.taken, moved.erred = list(self.taken), self.erred
+        moved.used, moved.over = set(self.used), set(self.over)
         moved.weight, moved.found, moved.dead = self.weight, self.found, set(self.dead)
         return moved
 
@@ -141,7 +143,10 @@ class Walk:
         if best is None or self.sought.share(step, expected, self._way(drawn)) is not None:
             return best
         off = self.deviation(step, expected, best, drawn)  # where most is printed already, pieces tell little
-        return best if step.op.gives != LINE and off.square < len(off.off) + 1 else None
+        if step.op.gives != LINE and off.square < len(off.off) + 1:
+            return best
+        self.over.add(best)
+        return None
 
     def _fits(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""
@@ -231,7 +236,10 @@ class Walk:
         mended = asked[0][0] if asked else made
         place = self._drawn(step, made, self.own)
         if place is None:
-            return self._go_on(Taken(step, WRONG, mended, slip=slip, weight=self._missed(made) + ASSUMED), made, mended)
+            weight = self._missed(made) + ASSUMED
+            if step.op.gives == POINT and not self._clearly(self.board.deviation(step, mended, [made], self.own)):
+                weight = -math.inf
+            return self._go_on(Taken(step, WRONG, mended, slip=slip, weight=weight), made, mended)
         spots = self.board.spots(step.index, self.traces[place])
         off = self.board.deviation(step, mended, spots, self.own)
         seen = self.board.seen(step, made, spots, steady=not self.traces[place].blur)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import cache
 from pathlib import Path
 
@@ -15,6 +16,7 @@ from raster import Printed, photo, printed, scan  # noqa: E402
 import graphplan as gp  # noqa: E402
 from graphplan.drafting.pencil import Pencil  # noqa: E402
 from graphplan.handed.files import read  # noqa: E402
+from graphplan.kernel.kinds import LINE  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
 from graphplan.sheet.compose import compose  # noqa: E402
 from graphplan.sheet.composition import Composition  # noqa: E402
@@ -54,6 +56,8 @@ def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) 
     assert found.first is None
     assert states.count(RIGHT) > len(states) / 3
     assert states.count(MISSING) <= 2
+    lines = [trace.spots for trace in found.spare if trace.kind == LINE]
+    assert all(math.dist(*spots[:2]) < 20 for spots in lines)  # what is drawn over print is not spare
 
 
 def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:

@@ -15,8 +15,6 @@ FILED = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # a mark of a file, in which noth
 GONE = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # no mark, where one could be seen
 SHARED = 0.0  # a mark that was drawn for another step
 ASSUMED = -2.0  # a slip at a mark that is not to be seen itself
-
-
 HALF, WHOLE = 0.4, 0.8  # the share of a stroke that is hardly there, and that is as good as all
 
 

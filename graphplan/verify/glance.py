@@ -15,12 +15,11 @@ from graphplan.kernel.program import Step
 from graphplan.verify.board import plain
 from graphplan.verify.evidence import FILED, GONE, THERE
 from graphplan.verify.mistakes import Slip
-from graphplan.verify.sought import Way
+from graphplan.verify.sought import NEAR, Way
 from graphplan.verify.walk import Walk
 
 ROUGH = 0.6  # what is seen at a glance weighs as much less
-NEAR, DRIFT = 1.0, 3.0  # mm: how near a stroke is seen, and how far a point, which others follow, may have drifted
-OTHER = 0.2  # mm: a mark that is so far off is another
+DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
 MOSTLY = 0.6  # the share of a stroke that is seen where it is drawn
 HOPELESS = -4.0  # the weight of what follows from a slip below which it is given up
 Values = Sequence[tuple[float, ...]]
@@ -34,7 +33,7 @@ class Glance:
         self.own = [plain(value) for value in walk.own]
 
     def by(self, slip: Slip) -> float:
-        """What is won if a slip was made; nothing where it could not be."""
+        """What is won if a slip was made; less than everything where it could not be."""
         try:
             made = slip.value(Floats(), self.own)
         except Undrawable:

@@ -26,7 +26,7 @@ SPREAD = 16.0  # how much more may be won than was promised
 ODDS, AGAIN = 2.0, 6.0  # what has to speak for a mistake, seven to one, and for a further one
 DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
 RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
-Found = dict[int, "int | Slip"]
+Found = dict[int, int | Slip]
 
 
 @dataclass(frozen=True)

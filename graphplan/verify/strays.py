@@ -7,9 +7,9 @@ from collections.abc import Iterator, Sequence
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Step
 from graphplan.verify.board import apart, plain
-from graphplan.verify.walk import Walk
+from graphplan.verify.walk import ASTRAY, Walk
 
-ASTRAY, KEPT = 60.0, 4.0  # mm: no mark is thought to be further off; standard deviations within which a claim is kept
+KEPT = 4.0  # standard deviations within which a claim is kept
 
 
 def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:

@@ -106,11 +106,6 @@ class Walk:
             self.go(self.found.get(len(self.own)))
         return self
 
-    def before(self, end: int) -> set[int]:
-        """The traces that were taken before the step of this place."""
-        places = [taken.place for taken in self.taken[:end] if taken.place is not None]
-        return {*places, *(twin for place in places for twin in self.loose.twins(place))}
-
     def go(self, found: int | Slip | None) -> Walk:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Slip):
@@ -178,13 +173,13 @@ class Walk:
                 break
             deviation = self.deviation(step, expected, places[k], drawn)
             if deviation.fits(self.rules.chance):  # rather one that is free yet, and that reaches its marks
-                found = places[k] in self.used, not self.reaches(step, places[k]), deviation.square, places[k]
+                found = places[k] in self.used, not self._reaches(step, places[k]), deviation.square, places[k]
                 best = min(best, found) if best else found
             elif off[k] > FARTHER * deviation.tolerance(self.rules.chance):
                 break
         return best[3] if best else None
 
-    def reaches(self, step: Step, place: int) -> bool:
+    def _reaches(self, step: Step, place: int) -> bool:
         """Whether a line was drawn as far as to the points that it goes through."""
         if step.op.gives != LINE:
             return True

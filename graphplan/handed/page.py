@@ -191,7 +191,7 @@ def _short(page: Page, centre: Values, radius: float, aim: float, along: Values,
     turned = math.atan(slope)
     side = np.array([math.cos(aim), math.sin(aim)])
     across = np.array([-side[1], side[0]])
-    moved = centre - across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
+    moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
     def hidden(at: Values) -> NDArray[np.bool_]:
         turns = aim + at / radius

@@ -81,7 +81,7 @@ def _by_marks(found: Found, sheet: Sheet) -> Warp:
     rects = places(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found.marks for spot in rects[corner].corners[::-1]]
     seen = np.concatenate([found.marks[corner] for corner in found.marks])
-    plane, _ = cv2.findHomography(np.array(printed), seen, cv2.LMEDS if len(found) == ALL else 0)
+    plane, _ = cv2.findHomography(np.array(printed), seen)
     return Warp(np.asarray(plane, float), (sheet.width, sheet.height))
 
 

@@ -20,10 +20,11 @@ from raster import Picture, Printed, photo, printed, scan  # noqa: E402
 
 import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
+from graphplan.handed.corners import Found  # noqa: E402
 from graphplan.handed.page import Page  # noqa: E402
 from graphplan.handed.printed import picture  # noqa: E402
 from graphplan.handed.scan import SCALE, read_page, read_scan  # noqa: E402
-from graphplan.handed.straighten import straighten  # noqa: E402
+from graphplan.handed.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.handed.traces import Frame, Trace  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
 from graphplan.sheet.compose import compose  # noqa: E402
@@ -137,15 +138,31 @@ def test_photos(lost: tuple[int, ...], seed: int, tmp_path: Path) -> None:
     assert max(found) < 0.3
 
 
-def test_straightened_to_hundredths() -> None:
-    """Lens, tilt and feed are taken out of a photo to a few hundredths of a millimetre, even by the frame alone."""
-    sheet, seen = page(), photo(paper(marked=False), drawn(), 60, size=SMALL)
-    straight = straighten(seen.image, sheet, picture(sheet, SCALE), SCALE, CODE, "photo")
+def astray(sheet: Sheet, seen: Picture) -> tuple[float, float]:
+    """How many mm a straightened picture is off somewhere, and how sure of itself it is."""
+    straight = straighten(seen.image, sheet, picture(sheet, SCALE), SCALE, None, "photo")
     across, up = np.linspace(25, sheet.width - 15, 9), np.linspace(15, sheet.height - 15, 7)
     spots = np.array([(x, y) for x in across for y in up])
     off = np.hypot(*(straight.warp(spots) - seen.seen(spots)).T) / straight.warp.fineness()
-    assert off.max() < 0.06
-    assert straight.error < 0.03
+    return float(off.max()), straight.error
+
+
+def test_straightened_to_hundredths() -> None:
+    """Lens, tilt and feed are taken out of a photo to a few hundredths of a millimetre, even by the frame alone."""
+    off, error = astray(page(), photo(paper(marked=False), drawn(), 60, size=SMALL))
+    assert off < 0.06
+    assert error < 0.03
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_a_sheet_is_laid_by_all_its_marks(seed: int) -> None:
+    """Corners that are seen a pixel off leave no mark far from where it is printed."""
+    chance, sheet = np.random.default_rng(seed), page()
+    rects = places(sheet.width, sheet.height, sheet.frame)
+    marks = [np.array(rect.corners[::-1]) * 7 + chance.uniform(-1, 1, (4, 2)) for rect in rects]
+    laid = _by_marks(Found(dict(enumerate(marks))), sheet)
+    off = [laid(np.array(rect.corners[::-1])) - seen for rect, seen in zip(rects, marks, strict=True)]
+    assert np.abs(off).max() < 3
 
 
 @cache
@@ -184,6 +201,16 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
     assert math.dist(spot.spots[0], dot()) < 0.1
     assert asked().near((x, y + 12), (u, v + 12), 1.0) is None
     assert asked().dot((x, y + 9), 1.0) is None
+
+
+@pytest.mark.parametrize("far", [-2.0, 2.0])
+def test_a_short_arc_is_seen_as_askew_as_it_is(far: float) -> None:
+    """Its spots lie on it, where it was expected about a centre to one side."""
+    (x, y), (u, v) = list(page().panels.values())[1].centre, arc()[20]
+    across = (y - v) / 30 * far, (u - x) / 30 * far
+    rim = asked().rim((x + across[0], y + across[1]), 30.0, arc(), 1.0)
+    assert rim is not None
+    assert max(abs(math.dist(spot, (x, y)) - 30) for spot in rim.spots) < 0.2
 
 
 def test_nothing_is_read_from_an_empty_page(tmp_path: Path) -> None:

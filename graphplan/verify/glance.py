@@ -47,7 +47,7 @@ class Glance:
         won = seen = 0.0
         for arg in strokes(walk, at):
             weight, _ = self._seen(walk.steps[arg], self.own[arg], Way(self.own[:arg], {at: wrong}))
-            won, seen = won + weight - walk.taken[arg].weight, seen + weight
+            won, seen = won + weight - ROUGH * walk.taken[arg].weight, seen + weight
         for step in walk.steps[at:]:
             if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
                 made = wrong if step.index == at else self._made(step, values)

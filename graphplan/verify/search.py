@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.kinds import POINT
+from graphplan.sheet.planes import Planes
 from graphplan.verify.board import plain
-from graphplan.verify.glance import Glance, strokes
+from graphplan.verify.evidence import FILED, THERE
+from graphplan.verify.glance import ROUGH, Glance
 from graphplan.verify.mistakes import Slip, slips
 from graphplan.verify.strays import strays
 from graphplan.verify.verdict import WRONG
-from graphplan.verify.walk import Taken, Walk
+from graphplan.verify.walk import UNMARKED, Taken, Walk
 
 TRIED = 16  # how many of the most promising mistakes are gone through
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
@@ -43,7 +46,9 @@ class Search:
     """A drawing, as far as before its first step, in which mistakes are looked for."""
 
     def __init__(self, start: Walk):
-        self.start = start
+        self.start, self._most = start, THERE if start.sought else FILED
+        self.gone = 0  # how many steps
+        self._marks = Planes(start.board.drawing).marks_on
 
     def found(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
@@ -63,18 +68,48 @@ class Search:
             walk.until(step.index + 1, found)
         mistaken = any(walk.taken[index].state == WRONG for index in found)
         best, most = None, walk.weight + (AGAIN if mistaken else ODDS)
-        guesses = sorted(self._guesses(walk, found), key=lambda guess: -guess.promise)[:TRIED]
-        for guess in guesses:
-            if guess.promise < most - walk.weight - SPREAD:
+        before, enough = self.gone, TRIED * len(walk.steps)
+        for guess in sorted(self._guesses(walk, found), key=lambda guess: -guess.promise):
+            if guess.promise < ROUGH * (most - walk.weight) - SPREAD or self.gone - before > enough:
                 break
-            try:
-                begin = forks[min([guess.index, *strokes(walk, guess.index)])]
-                weight = begin.fork().through({**found, guess.index: guess.one}).weight + guess.prior
-            except Undrawable:
-                continue
+            weight = self._weight(walk, forks, found, guess, most)
             if weight > most:
                 best, most = guess, weight
         return best
+
+    def _weight(self, walk: Walk, forks: Sequence[Walk], found: Found, guess: Guess, least: float) -> float:
+        """The weight of a way with one more mistake; less than everything as soon as it cannot come to the least."""
+        touched = self._touched(guess.index)
+        other = forks[min(touched)].fork()
+        other.found = {**found, guess.index: guess.one}
+        hope = guess.prior + sum(self._hope(taken, touched) for taken in walk.taken[len(other.own):])
+        for taken in walk.taken[len(other.own):]:
+            index = taken.step.index
+            hope -= self._hope(taken, touched)
+            try:
+                if index in touched or index in other.found or not other.like(walk):
+                    other.go(other.found.get(index))
+                    self.gone += 1
+            except Undrawable:
+                return -math.inf
+            if taken.place is not None and index in other.dead:  # what is there, though poor, was drawn by somebody
+                other.weight += min(taken.weight, 0.0)
+            if other.weight + hope < least:
+                return -math.inf
+        return other.weight + hope
+
+    def _touched(self, index: int) -> set[int]:
+        """The steps that a mistake may change: what follows from it, and the strokes to the marks that do."""
+        moved = {index}
+        for step in self.start.steps[index + 1:]:
+            if not moved.isdisjoint(step.args):
+                moved.add(step.index)
+        return moved | {stroke for stroke, marks in self._marks.items() if not moved.isdisjoint(marks)}
+
+    def _hope(self, taken: Taken, touched: set[int]) -> float:
+        """What a step may speak for a way at most."""
+        settled = taken.step.index not in touched and taken.place is not None
+        return taken.weight if settled else max(taken.weight, self._most.get(taken.step.op.gives, 0.0))
 
     def _guesses(self, walk: Walk, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
@@ -91,12 +126,14 @@ class Search:
                 yield from self._slips(walk, glance, taken)
 
     def _others(self, walk: Walk, taken: Taken) -> Iterator[Guess]:
-        """The traces that fit a step as well as the one beside them that was taken."""
+        """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
         step, home = taken.step, walk.board.homes[taken.step.index]
         assert taken.place is not None
         for place in walk.loose.beside(taken.place, home, plain(walk.own[step.index])):
             if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
                 yield Guess(step.index, place, ODDS - DOUBT, FIRST)
+        if step.op.gives == POINT:
+            yield Guess(step.index, UNMARKED, ODDS - DOUBT, FIRST)
 
     def _slips(self, walk: Walk, glance: Glance, taken: Taken) -> Iterator[Guess]:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is

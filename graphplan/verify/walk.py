@@ -31,6 +31,7 @@ NEAREST = 6  # how many loose traces are tried as what a step should make
 REACH = 15.0  # standard deviations of a point within which a picture is searched
 FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
+UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
 ASTRAY = 60.0  # mm: no mark is sought further off
 
 
@@ -110,7 +111,21 @@ class Walk:
         """Take the next step for what it was found to be, else for what fits it."""
         if isinstance(found, Slip):
             return self.slip(found)
-        return self.take(self.find() if found is None else found)
+        place = self.find() if found is None else found
+        return self.take(None if place == UNMARKED else place)
+
+    def like(self, other: Walk) -> bool:
+        """Take the next step as the other way did, if nothing differs that it follows from and its trace is free."""
+        step, taken = self.next, other.taken[len(self.own)]
+        if any(mine[arg] is not its[arg] for arg in step.args
+               for mine, its in ((self.own, other.own), (self.mended, other.mended))):
+            return False
+        if taken.place is not None and (
+                taken.weight == SHARED or not self.used.isdisjoint({taken.place, *self.loose.twins(taken.place)})):
+            return False
+        self.dead |= other.dead & {step.index}
+        self._go_on(taken, other.own[step.index], other.mended[step.index])
+        return True
 
     # ---- one step --------------------------------------------------------------------------------------------------
 

@@ -18,6 +18,7 @@ from functools import cache
 from pathlib import Path
 from tempfile import gettempdir
 from typing import Any
+from zlib import crc32
 
 import beside  # noqa: F401  (makes hands and raster importable)
 import cv2
@@ -175,7 +176,7 @@ def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
 def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[str, Frame], seed: int,
               clean: Judgement) -> tuple[Slip, Drawn] | None:
     """A drawing with a mistake that can be seen: of any kind alike often, and on the paper."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng([seed, crc32(drawing.scene.title.encode())])
     shown = {POINT} if kind == "points" else ALL
     steps = [step for step in drawing.drawn.steps if step.op.gives in shown
              and (step.op.name != "given" or kind not in PRINTED)]

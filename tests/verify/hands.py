@@ -5,6 +5,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -66,8 +67,13 @@ def draw(drawing: Construction, where: Mapping[str, Frame], pencil: Pencil, seed
 
 
 def slipped(drawing: Construction, index: int) -> list[Slip]:
-    """The mistakes that can be made at a step."""
-    return list(slips(drawing.drawn, drawing.drawn.steps[index], Planes(drawing).homes))
+    """The mistakes that can be made at a step: nobody marks where a line crosses itself."""
+    found = []
+    for slip in slips(drawing.drawn, drawing.drawn.steps[index], Planes(drawing).homes):
+        with suppress(Undrawable):
+            slip.value(Floats(), drawing.values)
+            found.append(slip)
+    return found
 
 
 def points(drawn: Drawn, name: str = "drawing.csv", digits: int | None = 2) -> Handed:

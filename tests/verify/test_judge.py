@@ -95,7 +95,7 @@ def test_later_steps_follow_from_a_slip() -> None:
     """What rests on a wrong mark is right after an earlier slip, what does not is right."""
     drawing, sheet = composed("four-bar")
     where = {step.name: step.index for step in drawing.drawn.steps}
-    slip = next(slip for slip in slipped(drawing, where["v_b"]) if slip.told.endswith("AB instead of line 2"))
+    slip = next(slip for slip in slipped(drawing, where["v_b"]) if slip.told.endswith("AB instead of line 4"))
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1, {where["v_b"]: slip})
     states = {verdict.step: verdict.state for verdict in judge(drawing, sheet, whole(drawn), PENCIL).verdicts}
     assert states[where["v_b"]] == WRONG

@@ -1,9 +1,9 @@
-"""Points pricked or drawn: dark spots that fall off to every side."""
+"""Points pricked or drawn: dark spots that fall off to every side, and are darker than lines that cross."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,36 +11,54 @@ from numpy.typing import NDArray
 from graphplan.handed.ink import Ink
 from graphplan.handed.traces import Spot, Trace
 from graphplan.handed.warp import Spots
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import POINT
 
 WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
-ROUND, DARK = 0.5, 0.12  # how much less it falls off to one side than to another, and the least darkness of a dot
+OVAL, DARK = 0.25, 0.05  # how much less it falls off to one side than to another, and the least darkness of a dot
 ABOUT = 0.45  # mm in which a dot's middle is weighed
-CROSSED = 0.5  # mm from two lines: what is dark there may be their crossing
+CROSSED = 0.5  # mm from a stroke: what is dark there may be its own darkness, or its crossing with another
+# How much darker than a line a dot is for sure, or may be, on no stroke, on one, or where more cross; and from where on
+# it may be as oval as it likes.
+SURE, MAYBE, BLACK = (0.8, 1.5, 1.95, 2.15, 2.5), (0.0, 1.25, 1.7, 1.9, 2.15), 2.0
 
 
-def dots(ink: Ink, darkest: float = DARK, roundest: float = ROUND) -> list[Trace]:
-    """All dark spots, at their centres of darkness."""
+def smoothed(ink: Ink) -> NDArray[np.float32]:
+    """The pencil blurred by half a dot."""
     import cv2
 
-    smooth = cv2.GaussianBlur(ink.dark, (0, 0), WIDE * ink.scale)
+    return np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), WIDE * ink.scale), np.float32)
+
+
+def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
+    """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
+    import cv2
+
     size = 2 * round(2 * WIDE * ink.scale) + 1
-    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > darkest)
+    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > DARK)
     row, column = np.nonzero(top)
     xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
     middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
-    peaked = (middle + spread < 0) & (np.abs(middle + spread) > roundest * np.abs(middle - spread))
+    peaked = (middle + spread < 0) & (np.abs(middle + spread) > OVAL * np.abs(middle - spread))
+    peaked |= smooth[row, column] > BLACK * usual
     return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
 
 
-def off_crossings(found: Iterable[Trace], drawn: Iterable[Trace]) -> list[Trace]:
-    """The dots that are no crossings of two lines."""
-    ends = np.array([trace.spots for trace in drawn if trace.kind == LINE], float).reshape(-1, 2, 2)
-    return [dot for dot in found if (_distances(np.array(dot.spots[0]), ends) < CROSSED).sum() < 2]
+def marked(found: Iterable[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
+           ) -> Iterator[Trace]:
+    """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
+    than along a line, and `least` how much it must be for how many strokes."""
+    chains = [np.array(trace.spots) for trace in drawn]
+    ends = np.concatenate([np.stack([chain[:-1], chain[1:]], axis=1) for chain in chains] or [np.zeros((0, 2, 2))])
+    owners = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain in chains])
+    for dot in found:
+        near = _distances(np.array(dot.spots[0]), ends) < CROSSED
+        strokes = len(np.unique(owners[near]))
+        if darkness(dot.spots[0]) > least[min(strokes, len(least) - 1)]:
+            yield dot
 
 
 def _distances(spot: Spots, ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How far a spot is from each of some lines with ends."""
+    """How far a spot is from each of some straight pieces with ends."""
     way = ends[:, 1] - ends[:, 0]
     part = ((spot - ends[:, 0]) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-12)
     return np.asarray(np.hypot(*(spot - ends[:, 0] - np.clip(part, 0, 1)[:, None] * way).T))

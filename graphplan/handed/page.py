@@ -13,7 +13,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.handed.dots import dots, off_crossings
+from graphplan.handed.dots import MAYBE, SURE, dots, marked, smoothed
 from graphplan.handed.ink import Ink
 from graphplan.handed.lines import FEW, Row, line
 from graphplan.handed.ridges import CLEAR, Ridges, clear
@@ -21,7 +21,7 @@ from graphplan.handed.rims import Rim, grown
 from graphplan.handed.runs import Run, runs
 from graphplan.handed.strokes import Strokes
 from graphplan.handed.traces import Spot, Trace
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import LINE, POINT
 
 Values = NDArray[np.float64]
 ASKEW = 20.0  # degrees by which a crest's own direction is unsure
@@ -30,8 +30,9 @@ BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
 SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
 TURNED = 40.0  # degrees of a rim from which on it tells its own centre
 LEAST = 1.0  # mm of a rim
+PARTS = 40  # places along a line, at which its darkness is read off
+ABOUT = 0.35  # mm about a dot, in which its darkest spot is
 HIDDEN = 0.6  # the share of a stroke that print may hide
-FAINT, OVAL = 0.05, 0.25  # darkness of a dot where one is expected, and how round it is: it may lie on a line
 
 
 @dataclass(frozen=True)
@@ -45,8 +46,8 @@ class Page:
     @cached_property
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected."""
-        drawn = Strokes.of(clear(self.found, self.ink), self.ink).traces()
-        return tuple(self._blurred(trace) for trace in (*drawn, *off_crossings(self._dots, drawn)))
+        sure = marked(self._dots, self._drawn, self._darkness, SURE)
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *sure))
 
     def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
@@ -127,17 +128,40 @@ class Page:
         return far
 
     @cached_property
-    def _dots(self) -> list[Trace]:
-        return dots(self.ink)
+    def _drawn(self) -> list[Trace]:
+        """The lines and rims."""
+        return Strokes.of(clear(self.found, self.ink), self.ink).traces()
+
+    @cached_property
+    def _smooth(self) -> NDArray[np.float32]:
+        return smoothed(self.ink)
+
+    @cached_property
+    def _usual(self) -> float:
+        """How dark the blurred lines are."""
+        ends = [np.array(trace.spots) for trace in self._drawn if trace.kind == LINE]
+        spots = [one + (two - one) * part for one, two in ends for part in np.linspace(0.05, 0.95, PARTS)]
+        return float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
+
+    def _darkness(self, spot: Spot) -> float:
+        """How dark it is near a spot, beside the lines."""
+        (row,), (column,) = self.ink.cells(np.array([spot]))
+        reach = math.ceil(ABOUT * self.ink.scale)
+        patch = self._smooth[max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1]
+        return float(patch.max()) / self._usual
 
     @cached_property
     def _spots(self) -> NDArray[np.complex128]:
-        """Where the dots are that may be points."""
         return np.array([complex(*dot.spots[0]) for dot in self._faint], np.complex128)
 
     @cached_property
     def _faint(self) -> list[Trace]:
-        return [self._blurred(dot) for dot in dots(self.ink, FAINT, OVAL)]
+        """The dots that may be points."""
+        return [self._blurred(dot) for dot in marked(self._dots, self._drawn, self._darkness, MAYBE)]
+
+    @cached_property
+    def _dots(self) -> list[Trace]:
+        return dots(self.ink, self._smooth, self._usual)
 
     def _blurred(self, trace: Trace) -> Trace:
         """With what the page itself is unsure by."""

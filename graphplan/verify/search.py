@@ -22,11 +22,11 @@ from graphplan.verify.strays import strays
 from graphplan.verify.verdict import WRONG
 from graphplan.verify.walk import UNMARKED, Taken, Walk
 
-TRIED = 16  # how many of the most promising mistakes are gone through
+TRIED = 16  # how many whole ways are gone through, to try the most promising mistakes
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
 SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
 SPREAD = 16.0  # how much more may be won than was promised
-ODDS, AGAIN = 2.0, 6.0  # what has to speak for a mistake, seven to one, and for a further one
+ODDS, AGAIN = 1.0, 6.0  # what has to speak for a mistake, three to one, and for a further one
 DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
 RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
 Found = dict[int, int | Slip]

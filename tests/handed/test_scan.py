@@ -203,6 +203,30 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
     assert asked().dot((x, y + 9), 1.0) is None
 
 
+@cache
+def dotted() -> tuple[Page, dict[tuple[bool, int], tuple[float, float]]]:
+    """A scan with places where up to two lines cross, marked by a dot or bare; and those places."""
+    (x, y) = list(page().panels.values())[1].centre
+    places = {(dot, count): (x + 14 * count - 14, y + high) for dot, high in ((True, 9), (False, -9))
+              for count in range(3)}
+    turns = math.radians(20), math.radians(80)
+    strokes = [(((u - 6 * math.cos(turn), v - 6 * math.sin(turn)), (u + 6 * math.cos(turn), v + 6 * math.sin(turn))),
+                0.25, 0.55) for (_, count), (u, v) in places.items() for turn in turns[:count]]
+    strokes += [((spot,), 0.55, 0.77) for (dot, _), spot in places.items() if dot]
+    with tempfile.TemporaryDirectory() as folder:
+        return read_page(saved(Path(folder), scan(paper(), strokes, 71).image), page(), CODE), places
+
+
+@pytest.mark.parametrize("count", range(3))
+@pytest.mark.parametrize("dot", [True, False])
+def test_a_dot_is_told_from_lines_that_cross(count: int, dot: bool) -> None:
+    """A dot on a line or on a crossing is seen, and none where there is none."""
+    seen, places = dotted()
+    spots = [trace.spots[0] for trace in seen.traces if trace.kind == POINT]
+    assert any(math.dist(spot, places[dot, count]) < 0.3 for spot in spots) == dot
+    assert (seen.dot(places[dot, count], 0.5) is not None) == dot
+
+
 @pytest.mark.parametrize("far", [-2.0, 2.0])
 def test_a_short_arc_is_seen_as_askew_as_it_is(far: float) -> None:
     """Its spots lie on it, where it was expected about a centre to one side."""

@@ -9,6 +9,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,9 +30,9 @@ CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far i
 BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
 SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
 TURNED = 40.0  # degrees of a rim from which on it tells its own centre
-LEAST = 1.0  # mm of a rim
+LEAST = 2.0  # mm of a rim
 PARTS = 40  # places along a line, at which its darkness is read off
-ABOUT = 0.35  # mm about a dot, in which its darkest spot is
+ABOUT, BESIDE = 0.35, 0.8  # mm about a dot, in which its darkest spot is, and no print, whose rest it might be
 HIDDEN = 0.6  # the share of a stroke that print may hide
 
 
@@ -47,7 +48,8 @@ class Page:
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected."""
         sure = marked(self._dots, self._drawn, self._darkness, SURE)
-        return tuple(self._blurred(trace) for trace in (*self._drawn, *sure))
+        alone = (dot for dot in sure if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any())
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *alone))
 
     def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
@@ -145,10 +147,13 @@ class Page:
 
     def _darkness(self, spot: Spot) -> float:
         """How dark it is near a spot, beside the lines."""
+        return float(self._about(self._smooth, spot, ABOUT).max()) / self._usual
+
+    def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
+        """The piece of a picture about a spot, so many mm to each side."""
         (row,), (column,) = self.ink.cells(np.array([spot]))
-        reach = math.ceil(ABOUT * self.ink.scale)
-        patch = self._smooth[max(0, row - reach) : row + reach + 1, max(0, column - reach) : column + reach + 1]
-        return float(patch.max()) / self._usual
+        far = math.ceil(reach * self.ink.scale)
+        return picture[max(0, row - far) : row + far + 1, max(0, column - far) : column + far + 1]
 
     @cached_property
     def _spots(self) -> NDArray[np.complex128]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -98,7 +99,10 @@ def complaint(judgement: Judgement, verdict: Verdict) -> Said:
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
-    """The same without the step's own number; a slip of an earlier step that is not to be seen is told with its own."""
+    """The same without the step's own number; a slip of an earlier step that is not to be seen is told with its own,
+    and a line that is not to be seen is nowhere."""
+    if verdict.mistake is not None and not math.isfinite(verdict.off):
+        return verdict.mistake
     sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes

@@ -13,14 +13,13 @@ from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.verify.board import plain
-from graphplan.verify.evidence import FILED, GONE, THERE
+from graphplan.verify.evidence import FILED, GONE, THERE, weighed
 from graphplan.verify.mistakes import Slip
 from graphplan.verify.sought import NEAR, Way
 from graphplan.verify.walk import Walk
 
 ROUGH = 0.6  # what is seen at a glance weighs as much less
 DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
-MOSTLY = 0.6  # the share of a stroke that is seen where it is drawn
 HOPELESS = -4.0  # the weight of what follows from a slip below which it is given up
 Values = Sequence[tuple[float, ...]]
 
@@ -69,7 +68,12 @@ class Glance:
 
     def _possible(self, step: Step, weight: float) -> bool:
         """Whether a step may be drawn so, by what is seen of it: lines are seen, and nobody draws those printed."""
-        return step.op.gives != LINE or weight > (-1.0 if self.walk.taken[step.index].weight else 0.0)
+        return step.op.gives != LINE or weight > (0.0 if self._printed(step) else -1.0)
+
+    def _printed(self, step: Step) -> bool:
+        """Whether what a step makes is on the sheet already."""
+        sought, way = self.walk.sought, Way(self.own, self.slips)
+        return sought is not None and sought.share(step, self.own[step.index], way) is None
 
     def _differs(self, step: Step, made: tuple[float, ...]) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
@@ -111,7 +115,8 @@ class Glance:
         walk = self.walk
         if walk.sought:
             share = walk.sought.share(step, made, way)
-            return 0.0 if share is None else self._weight(step, share > MOSTLY), made
+            kind = step.op.gives
+            return 0.0 if share is None else ROUGH * weighed(THERE[kind], GONE[kind], None, share), made
         return self._weight(step, bool(walk.loose.near(step.op.gives, walk.board.homes[step.index], made)[1].min(
             initial=math.inf) < NEAR)), made
 

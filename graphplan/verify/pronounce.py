@@ -50,13 +50,16 @@ def _seen(walk: Walk, taken: Taken) -> Verdict:
 
 
 def _assumed(walk: Walk, taken: Taken) -> Verdict:
-    """The verdict on a mark that is not to be seen, but from which all that follows is."""
+    """The verdict on a mark that is not to be seen, but from which all that follows is: only a point is somewhere."""
     assert taken.slip is not None
     step, board = taken.step, walk.board
-    own, true = plain(walk.own[step.index]), board.drawing.values[step.index]
-    mm = board.mm(board.homes[step.index])
-    off, astray = (math.dist(own[:2], value[:2]) * mm for value in (plain(taken.expected), true))
-    return Verdict(step.index, WRONG, off, 0.0, astray, own=plain(taken.expected), mistake=taken.slip.told,
+    off = tolerance = astray = math.inf
+    if step.op.gives == POINT:
+        made = plain(walk.own[step.index])
+        deviation = board.deviation(step, taken.expected, [(made[0], made[1])], walk.own)
+        off, tolerance = deviation.size, deviation.tolerance(walk.rules.chance)
+        astray = math.dist(made, board.drawing.values[step.index]) * board.mm(board.homes[step.index])
+    return Verdict(step.index, WRONG, off, tolerance, astray, own=plain(taken.expected), mistake=taken.slip.told,
                    kind=taken.slip.kind, guilty=step.index)
 
 

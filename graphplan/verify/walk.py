@@ -28,7 +28,7 @@ from graphplan.verify.sought import Sought, Way
 from graphplan.verify.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 
 NEAREST = 6  # how many loose traces are tried as what a step should make
-REACH = 15.0  # standard deviations of a point within which a picture is searched
+REACH = 25.0  # standard deviations of a point within which a picture is searched
 FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
 UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
@@ -247,7 +247,9 @@ class Walk:
         place = self._drawn(step, made, self.own)
         if place is None:
             weight = self._missed(made) + ASSUMED
-            if step.op.gives == POINT and not self._clearly(self.board.deviation(step, mended, [made], self.own)):
+            unclear = step.op.gives == POINT and not self._clearly(
+                self.board.deviation(step, mended, [made], self.own))
+            if unclear or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
             return self._go_on(Taken(step, WRONG, mended, slip=slip, weight=weight), made, mended)
         spots = self.board.spots(step.index, self.traces[place])

@@ -22,7 +22,7 @@ from graphplan.methods.construction import Construction
 from graphplan.sheet import pens
 from graphplan.sheet.clip import clipped
 from graphplan.sheet.composition import Composition
-from graphplan.sheet.display import Polyline
+from graphplan.sheet.display import Polyline, Rect
 from graphplan.sheet.planes import Planes
 from graphplan.verify.mistakes import Slip, slips
 
@@ -154,7 +154,7 @@ def strokes(drawn: Drawn, sheet: Composition, seed: int) -> list[Stroke]:
     for trace in traced(drawn):
         if trace.label in given:
             continue
-        rect = sheet.arrangement.panels[trace.panel].inset(1.0, 1.0, 1.0, 1.0)
+        rect = _room(sheet, trace.panel)
         if trace.kind == POINT:
             if rect.holds(trace.spots[0]):
                 found.append((trace.spots, 2.2 * width, min(1.0, 1.4 * dark)))
@@ -163,6 +163,11 @@ def strokes(drawn: Drawn, sheet: Composition, seed: int) -> list[Stroke]:
         found += [(tuple(piece.spots), width, dark) for piece in clipped(line, rect)
                   if isinstance(piece, Polyline) and math.dist(piece.spots[0], piece.spots[-1]) > SPECK]
     return found
+
+
+def _room(sheet: Composition, panel: str) -> Rect:
+    """Where a hand draws on a plan's panel: not on its very edge."""
+    return sheet.arrangement.panels[panel].inset(1.0, 1.0, 1.0, 1.0)
 
 
 def _rim(spots: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...]:
@@ -179,12 +184,12 @@ def _rim(spots: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...
 
 
 def in_panel(drawn: Drawn, sheet: Composition) -> bool:
-    """Whether every point lies on its plan's panel, or where it should be if that is off it too."""
+    """Whether every point lies where it is drawn on its plan's panel, or where it should be if that is off it too."""
     homes = Planes(drawn.drawing).homes
     for step, value, true in zip(drawn.drawing.drawn.steps, drawn.values, drawn.drawing.values, strict=True):
         if step.op.gives == POINT and value is not None:
             home = homes[step.index]
-            rect, frame = sheet.arrangement.panels[home], drawn.frames[home]
+            rect, frame = _room(sheet, home), drawn.frames[home]
             spots = [frame.onto(complex(*spot[:2])) for spot in (value, true)]
             if rect.holds((spots[1].real, spots[1].imag)) and not rect.holds((spots[0].real, spots[0].imag)):
                 return False

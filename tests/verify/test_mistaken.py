@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import cmath
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -17,6 +18,7 @@ from graphplan.phrases import said
 from graphplan.sheet.compose import compose
 from graphplan.verify.board import Deviation
 from graphplan.verify.evidence import FAINT, FILED, GONE, THERE, weighed
+from graphplan.verify.findings import remark
 from graphplan.verify.judge import judge
 from graphplan.verify.mistakes import Slip
 from graphplan.verify.verdict import Judgement
@@ -67,6 +69,27 @@ def test_a_mistake_is_found_without_labels(name: str, seed: int, slip: dict[str,
     assert found.guilty == index
     assert found.first
     assert str(found.first.mistake) in slip.values()
+
+
+@pytest.mark.parametrize(("mark", "slip", "somewhere"), [
+    ("v_b", "marked on AB instead of line 4", True),
+    ("6", "drawn through O instead of A", False),
+])
+def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows(mark: str, slip: str, somewhere: bool) -> None:
+    """How far off it is, and may be, is said of a point; of a line only what was done."""
+    drawing = gp.construct(gp.load("four-bar"))
+    sheet = compose(drawing)
+    step = next(s for s in drawing.drawn.steps if mark in (s.name, str(drawing.drawn.number(s.index))))
+    made = {step.index: next(one for one in slipped(drawing, step.index) if one.told == slip)}
+    drawn = draw(drawing, frames(drawing, sheet), Pencil(), 711, made)
+    handed = unlabelled(drawn)
+    kept = [trace for trace, true in zip(handed.traces, traced(drawn), strict=True) if true.label != mark]
+    found = judge(drawing, sheet, replace(handed, traces=tuple(kept)), Pencil())
+    assert found.first
+    assert (found.first.step, str(found.first.mistake), found.first.trace) == (step.index, slip, None)
+    assert math.isfinite(found.first.off) == math.isfinite(found.first.tolerance) == somewhere
+    assert found.first.off > found.first.tolerance > 0.1 or not somewhere
+    assert (str(remark(found, found.first)) == slip) == (not somewhere)
 
 
 @pytest.mark.parametrize(("name", "seed"), [("ozols-10-1", 710), ("ozols-10-1", 711), ("ozols-10-2", 710)])

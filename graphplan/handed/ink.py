@@ -46,9 +46,10 @@ class Ink:
 
     def cells(self, spots: Spots) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
         """The rows and columns of spots; beside the sheet, those of its edge."""
-        column, row = np.rint(self.pixels(spots)).astype(np.intp).T
         high, wide = self.hidden.shape
-        return np.clip(row, 0, high - 1), np.clip(column, 0, wide - 1)
+        at = np.rint(self.pixels(spots)).astype(np.intp)
+        np.minimum(np.maximum(at, 0, out=at), (wide - 1, high - 1), out=at)
+        return at[:, 1], at[:, 0]
 
 
 def ink(image: NDArray[np.float32], sheet: Sheet, light: Light, scale: float) -> Ink:

@@ -47,7 +47,7 @@ class Search:
 
     def __init__(self, start: Walk):
         self.start, self._most = start, THERE if start.sought else FILED
-        self.gone = 0  # how many steps
+        self.gone = 0  # how many steps were gone through
         self._marks = Planes(start.board.drawing).marks_on
 
     def found(self, most: int) -> Found:
@@ -87,7 +87,7 @@ class Search:
             index = taken.step.index
             hope -= self._hope(taken, touched)
             try:
-                if index in touched or index in other.found or not other.like(walk):
+                if index in touched or index in other.found or not other.repeat(walk):
                     other.go(other.found.get(index))
                     self.gone += 1
             except Undrawable:

@@ -114,8 +114,8 @@ class Walk:
         place = self.find() if found is None else found
         return self.take(None if place == UNMARKED else place)
 
-    def like(self, other: Walk) -> bool:
-        """Take the next step as the other way did, if nothing differs that it follows from and its trace is free."""
+    def repeat(self, other: Walk) -> bool:
+        """Take the next step as another way did, if nothing differs that it follows from and its trace is free."""
         step, taken = self.next, other.taken[len(self.own)]
         if any(mine[arg] is not its[arg] for arg in step.args
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):

@@ -14,7 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.handed.dots import MAYBE, SURE, dots, marked, smoothed
+from graphplan.handed.dots import DARK, MAYBE, SURE, dots, marked, smoothed
 from graphplan.handed.ink import Ink
 from graphplan.handed.lines import FEW, Row, line
 from graphplan.handed.ridges import CLEAR, Ridges, clear
@@ -143,10 +143,11 @@ class Page:
         """How dark the blurred lines are."""
         ends = [np.array(trace.spots) for trace in self._drawn if trace.kind == LINE]
         spots = [one + (two - one) * part for one, two in ends for part in np.linspace(0.05, 0.95, PARTS)]
-        return float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
+        dark = float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
+        return max(dark, DARK)
 
     def _darkness(self, spot: Spot) -> float:
-        """How dark it is near a spot, beside the lines."""
+        """How much darker it is near a spot than along the lines."""
         return float(self._about(self._smooth, spot, ABOUT).max()) / self._usual
 
     def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:

@@ -37,9 +37,9 @@ class Verdict:
 
     `off` is how far what was drawn is from what the student's own earlier marks ask for, `tolerance` how far it may
     be in that direction, `astray` how far it is from the true drawing, which errors that went before explain where
-    the step is right; all three are infinite of a line that is not to be seen, but was drawn by mistake. `own` is where
-    it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what was probably done, at
-    the step `guilty`, which may be an earlier one that is not to be seen.
+    the step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen. `own`
+    is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what was probably
+    done, at the step `guilty`, which may be an earlier one that is not to be seen.
     """
 
     step: int

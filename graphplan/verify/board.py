@@ -107,6 +107,11 @@ class Board:
         return Planes(self.drawing).homes
 
     @cached_property
+    def marks_on(self) -> Mapping[int, tuple[int, ...]]:
+        """The marks that lie on each line and arc."""
+        return Planes(self.drawing).marks_on
+
+    @cached_property
     def hand(self) -> Hand:
         """The hand that draws it at the scales of the sheet."""
         return hand_at(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)

@@ -10,7 +10,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.verify.board import Deviation
 
 THERE = {LINE: 5.0, CIRCLE: 2.5, POINT: 8.0}  # a mark of a picture where it should be; not many are there by chance
-FAINT = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only by seeking it; crossings look like points
+FAINT = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only by seeking it
 FILED = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # a mark of a file, in which nothing is there by chance
 GONE = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # no mark, where one could be seen
 SHARED = 0.0  # a mark that was drawn for another step

@@ -44,7 +44,7 @@ class Glance:
         walk, at = self.walk, slipped.index
         values, moved, dead = list(self.own), set[int](), set[int]()
         won = seen = 0.0
-        for arg in strokes(walk, at):
+        for arg in _strokes(walk, at):
             weight, _ = self._seen(walk.steps[arg], self.own[arg], Way(self.own[:arg], {at: wrong}))
             won, seen = won + weight - ROUGH * walk.taken[arg].weight, seen + weight
         for step in walk.steps[at:]:
@@ -142,7 +142,7 @@ class Glance:
         return ROUGH * (FILED if there else GONE)[step.op.gives] if step.op.gives in self.walk.rules.shows else 0.0
 
 
-def strokes(walk: Walk, index: int) -> list[int]:
+def _strokes(walk: Walk, index: int) -> list[int]:
     """The lines and arcs on which the mark of a step lies: they are drawn as far as where it is thought to be."""
     step = walk.steps[index]
     return [arg for arg in step.args if walk.steps[arg].op.gives in (LINE, CIRCLE)] if step.op.gives == POINT else []

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.planes import Planes
 from graphplan.verify.board import plain
 from graphplan.verify.evidence import FILED, THERE
 from graphplan.verify.glance import ROUGH, Glance
@@ -48,7 +47,6 @@ class Search:
     def __init__(self, start: Walk):
         self.start, self._most = start, THERE if start.sought else FILED
         self.gone = 0  # how many steps were gone through
-        self._marks = Planes(start.board.drawing).marks_on
 
     def found(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
@@ -104,7 +102,7 @@ class Search:
         for step in self.start.steps[index + 1:]:
             if not moved.isdisjoint(step.args):
                 moved.add(step.index)
-        return moved | {stroke for stroke, marks in self._marks.items() if not moved.isdisjoint(marks)}
+        return moved | {stroke for stroke, marks in self.start.board.marks_on.items() if not moved.isdisjoint(marks)}
 
     def _hope(self, taken: Taken, touched: set[int]) -> float:
         """What a step may speak for a way at most."""

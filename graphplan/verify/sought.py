@@ -7,7 +7,6 @@ import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, replace
-from functools import cached_property
 from typing import Any
 
 import numpy as np
@@ -19,7 +18,6 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.sheet import clip
 from graphplan.sheet.display import Rect
-from graphplan.sheet.planes import Planes
 from graphplan.verify.board import Board, plain
 from graphplan.verify.mistakes import Slip
 
@@ -124,7 +122,7 @@ class Sought:
     def _marks(self, step: Step, value: tuple[float, ...], own: Way) -> list[complex]:
         """Where the marks on a line or an arc are: those that are drawn, and where those to come would follow."""
         known: dict[int, tuple[float, ...] | None] = {step.index: value}
-        found = [self._value(index, known, own) for index in self._on.get(step.index, ())]
+        found = [self._value(index, known, own) for index in self.board.marks_on.get(step.index, ())]
         return [complex(*spot[:2]) for spot in found if spot and np.all(np.isfinite(spot))]
 
     def _value(self, index: int, known: dict[int, tuple[float, ...] | None], own: Way) -> tuple[float, ...] | None:
@@ -145,7 +143,3 @@ class Sought:
             return plain(slip.value(Floats(), read) if slip else step.op.rule(
                 Floats(), *map(read.get, step.args), **step.params))
         return None
-
-    @cached_property
-    def _on(self) -> dict[int, tuple[int, ...]]:
-        return Planes(self.board.drawing).marks_on

@@ -67,7 +67,7 @@ def draw(drawing: Construction, where: Mapping[str, Frame], pencil: Pencil, seed
 
 
 def slipped(drawing: Construction, index: int) -> list[Slip]:
-    """The mistakes that can be made at a step: nobody marks where a line crosses itself."""
+    """The mistakes that can be made at a step: nobody marks where lines cross that are one, or never meet."""
     found = []
     for slip in slips(drawing.drawn, drawing.drawn.steps[index], Planes(drawing).homes):
         with suppress(Undrawable):

@@ -199,7 +199,8 @@ class Normal(Plan):
         return self.pose.points[weld.slide.at if weld.slide else weld.at]
 
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
-        X = self.pose.points[point]
+        X, (one, two) = self.pose.points[point], self._gap(weld)
+        mark = self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one)
         if isinstance(weld.drive, TurningDrive):
             ratio = sign * weld.sign * self.tempo.turning_rate(weld.drive.alpha)
             A = self.pose.points[weld.at]
@@ -207,6 +208,13 @@ class Normal(Plan):
         assert weld.slide is not None
         length = sign * weld.sign * self.tempo.acceleration(weld.drive.acceleration)
         return self.board.lay_along(self.pose.guide(weld.slide), mark, length=length) if length else mark
+
+    def _gap(self, weld: Weld) -> Vector:
+        """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
+        if weld.slide is None:
+            return self.figure(weld.to, weld.at), self.figure(weld.link, weld.at)
+        at = weld.slide.at
+        return self.seat(weld.slide, weld.to, weld.link, at), self.figure(weld.link, at)
 
     def seeded(self, place: Place) -> Mark:
         dx, dy = (self.tempo.acceleration(a) for a in self.pose.scene.motions[place[0]].acceleration)

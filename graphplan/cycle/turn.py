@@ -71,6 +71,7 @@ def _under(scene: Scene) -> dict[str, str]:
     if loads:
         own |= {*(mass.centre for mass in loads.masses.values()), *(force.at for force in loads.forces),
                 *(balance.at for balance in loads.balances)}
-    pairs = {name: at for (at, _), name in Network(scene).coincident.items()}
+    net = Network(scene)
+    pairs = {name: at for name, at in net.shared.items() if name not in net.names}
     return {name: at for name, at in pairs.items() if name not in own and len(scene.links_of[name]) == 1
             and all(slide.at == at for slide in scene.slides if slide.through and name in slide.through)}

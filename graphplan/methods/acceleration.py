@@ -68,8 +68,8 @@ class Normal(Plan):
     def _anchors(self) -> dict[str, Anchor]:
         """Each link's figure hangs on one drawn before it; a component begins at its richest link."""
         anchors: dict[str, Anchor] = {}
-        links = [link for link in self.net.scene.moving if self._moving(link)]
-        joints = {k: sum(len(self.net.scene.links_of[p]) > 1 for p in self.net.scene.links[k]) for k in links}
+        links = [link for link in self.net.links if link != FRAME and self._moving(link)]
+        joints = {k: sum(len(self.net.links_of[p]) > 1 for p in self.net.links[k]) for k in links}
         for root in sorted(links, key=lambda link: -joints[link]):
             if root in anchors:
                 continue
@@ -86,12 +86,12 @@ class Normal(Plan):
 
     def _centre(self, root: str) -> str:
         """The point at which the plan begins: a joint with another rich link, if the root has one."""
-        scene = self.net.scene
+        net = self.net
 
         def riches(point: str) -> int:
-            return max((len(scene.links[k]) for k in scene.links_of[point] if k not in (root, FRAME)), default=0)
+            return max((len(net.links[k]) for k in net.links_of[point] if k not in (root, FRAME)), default=0)
 
-        return max(scene.links[root], key=riches)
+        return max(net.links[root], key=riches)
 
     def _beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
         """The links beside a link, drives first: what they prescribe is measured from there."""
@@ -99,8 +99,8 @@ class Normal(Plan):
             if link in (weld.link, weld.to):
                 other = weld.to if link == weld.link else weld.link
                 yield other, Anchor(link, weld.slide.at if weld.slide else weld.at, weld.slide)
-        for point in self.net.scene.links[link]:
-            for other in self.net.scene.links_of[point]:
+        for point in self.net.links[link]:
+            for other in self.net.links_of[point]:
                 yield other, Anchor(link, point)
         for slide in self.net.slides:
             if link in (slide.link, slide.along):
@@ -111,7 +111,7 @@ class Normal(Plan):
         point, link = place
         if link:
             return self.figure(link, point)
-        links = self.net.scene.links_of[point]
+        links = self.net.links_of[point]
         moving = sorted((k for k in links if k in self.order), key=lambda k: self.order[k])
         return self.figure((moving or [k for k in links if k != FRAME] or [FRAME])[0], point)
 
@@ -123,8 +123,8 @@ class Normal(Plan):
         return self.figures[link, point]
 
     def figure_name(self, link: str, point: str) -> str:
-        home = (point, "") if point in self.net.scene.links[link] else (point, link)
-        links = [k for k in self.net.scene.links_of.get(point, ()) if k in self.order]
+        home = (point, "") if point in self.net.links[link] else (point, link)
+        links = [k for k in self.net.links_of.get(point, ()) if k in self.order]
         first = min(links, key=lambda k: self.order[k], default=link)
         name = self.pose.spoken(point).lower()
         return name if first == link and not home[1] else f"{name}({link})"
@@ -189,9 +189,9 @@ class Normal(Plan):
 
     def _side(self, link: str, K: str) -> str | None:
         """The other end of the side on which the semicircle is drawn: a joint if there is one."""
-        scene, at = self.net.scene, self.net.scene.points.get(K)
-        names = [p for p in scene.links[link] if p != K and scene.points[p] != at]
-        return max(names, key=lambda p: len(scene.links_of[p]) > 1, default=None)
+        places = self.net.scene.points
+        names = [p for p in self.net.links[link] if places[p] != places.get(K)]
+        return max(names, key=lambda p: len(self.net.links_of[p]) > 1, default=None)
 
     # ---- drives, guides, given motions ----------------------------------------------------------------------
 
@@ -248,9 +248,9 @@ class Normal(Plan):
 
     def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
         """A point of either link to measure their common turning about: fixed to the frame, if there is one."""
-        scene, at = self.net.scene, self.net.scene.points.get(B)
-        found = [(link, p) for link in (one, two) for p in scene.links[link] if scene.points[p] != at]
-        return max(found, key=lambda pair: FRAME in scene.links_of[pair[1]])
+        places = self.net.scene.points
+        found = [(link, p) for link in (one, two) for p in self.net.links[link] if places[p] != places.get(B)]
+        return max(found, key=lambda pair: FRAME in self.net.links_of[pair[1]])
 
     def pole_shift(self, move: Pole) -> Vector | None:
         """The perpendiculars to the two bars cut off what the poles' images differ by."""

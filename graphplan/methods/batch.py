@@ -168,7 +168,7 @@ def _given(construction: Construction, points: Mapping[str, Any],
     shapes = {array.shape for array in (*arrays.values(), *directions.values())} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
-    for (at, _), name in Network(scene).coincident.items():  # one mark serves both
+    for name, at in Network(scene).shared.items():  # one mark serves both
         if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")

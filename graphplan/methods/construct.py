@@ -30,7 +30,7 @@ class Draughtsman:
     def __init__(self, scene: Scene, planner: Planner, style: Style):
         self.scene, self.net, self.polar = scene, planner.net, style.polar
         self.board = Board()
-        self.pose = Pose(self.board, scene, {new: at for (at, _), new in self.net.coincident.items()})
+        self.pose = Pose(self.board, scene, self.net.shared)
         self.tempo = tempo(scene)
         self.moves = planner.moves
         self.marks: list[Mark] = []
@@ -69,7 +69,7 @@ class Draughtsman:
 
     def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
         for name in names:
-            place = (name, "")
+            place = (self.net.name(name), "")
             if place not in plan.ends:
                 why = said("no construction known here reaches it")
                 raise Refused(said("point {0}", name), why, "ask for other points")
@@ -80,7 +80,7 @@ class Draughtsman:
         for link in self.scene.moving:
             known = {*asked, *self.scene.motions}
             names = [p for p in self.scene.links[link] if p in known or FRAME in self.scene.links_of[p]]
-            names = [p for p in names if (p, "") in plan.ends]
+            names = [p for p in map(self.net.name, names) if (p, "") in plan.ends]
             P, R = max(combinations(names, 2), key=lambda pair: self._apart(*pair), default=("", ""))
             if set(names) & set(asked) and self._apart(P, R):
                 vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]

@@ -12,6 +12,7 @@ from collections import deque
 from collections.abc import Iterator
 
 from graphplan.mechanism.model import Slide
+from graphplan.mechanism.order import by_name
 from graphplan.methods.moves import Carry, Figure, Guide, Locus, Meet, Move, Rest, Seed, Settle, Slip, Swing
 from graphplan.methods.network import Network, Place
 
@@ -47,7 +48,7 @@ class Facts:
             for place in self.places[ground]:
                 self._rest(place)
             self._wake_class(ground)
-        for point in self.net.scene.motions:
+        for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
             self.moves.append(Seed((point, "")))
             self._file((point, ""), "motion", 2)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)
@@ -209,9 +210,9 @@ class Facts:
         if self.net.body[new] == self.net.ground:
             return ""
         if self.net.body[known] == self.net.ground:
-            own = self.net.scene.links[new]
-            joints = [p for p in own if len(self.net.scene.links_of[p]) > 1]
-            return slide.at if slide.at in own else (joints or list(own) or [slide.at])[0]
+            own, at = self.net.links[new], self.net.name(slide.at)
+            joints = [p for p in own if len(self.net.links_of[p]) > 1]
+            return at if at in own else (joints or list(own) or [slide.at])[0]
         for place in self.places[self.net.body[known]]:
             told = sum(rank for source, rank in self.facts.get(place, {}).items() if source != slide.name)
             if place in self.drawn and told >= 2 and self.net.link_at(self.net.body[known], place) == known:

@@ -2,7 +2,10 @@
 
 A *body* is a link, together with the links whose motion relative to it a drive prescribes (they share its unknowns).
 A *place* is a point of the mechanism as the bodies there see it: (X, "") for the joint or point X itself, (X, link) for
-the point of another link's plane that coincides with X, which sliding pairs need.
+the point of another link's plane that coincides with X, which sliding pairs need. Points of one link that coincide are
+one place, under one name.
+
+Links, points, slides and drives are taken in an order of their own, so that the order of writing changes no plan.
 """
 
 from __future__ import annotations
@@ -11,6 +14,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_slides, turning_drives
 
 Place = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -42,15 +46,22 @@ class Network:
 
     def __post_init__(self) -> None:
         scene = self.scene
-        self.links = dict(scene.links)
+        own = ordered_links(scene)
+        self.names = self._names(own)
+        self.links = {link: tuple(dict.fromkeys(map(self.name, points))) for link, points in own.items()}
         if any(isinstance(d, TurningDrive) and d.relative_to == FRAME for d in scene.drives):
             self.links.setdefault(FRAME, ())  # an open chain may still be driven against the ground
+        self.links_of: dict[str, tuple[str, ...]] = {}
+        for link, points in self.links.items():
+            for point in points:
+                self.links_of[point] = (*self.links_of.get(point, ()), link)
         self.body = {link: link for link in self.links}
         self.members = {link: [link] for link in self.links}
         driven = {frozenset((d.link, d.along)) for d in scene.drives if isinstance(d, SlidingDrive)}
-        self.slides = [s for s in scene.slides if frozenset((s.link, s.along)) not in driven]
+        self.all_slides = ordered_slides(scene)
+        self.slides = [s for s in self.all_slides if frozenset((s.link, s.along)) not in driven]
         self.coincident = self._coincident_points()
-        for drive in scene.drives:
+        for drive in ordered_drives(scene):
             self._weld(drive)
         self.ground = self.body.get(FRAME, "")
         self.classes = self._turning_classes()
@@ -59,19 +70,52 @@ class Network:
             for link in (slide.link, slide.along):
                 self.slides_of.setdefault(self.body[link], []).append(slide)
 
+    def _names(self, links: dict[str, tuple[str, ...]]) -> dict[str, str]:
+        """The one name of points that lie in one place of one link, for each point that goes by another's name."""
+        names: dict[str, str] = {}
+        for points in links.values():
+            first: dict[object, str] = {}
+            for point in points:
+                other = first.setdefault(self.scene.points[point], point)
+                one, two = self._followed(names, other), self._followed(names, point)
+                if one != two:
+                    names[two] = one
+        return {point: self._followed(names, point) for point in names}
+
+    @staticmethod
+    def _followed(names: dict[str, str], point: str) -> str:
+        while point in names:
+            point = names[point]
+        return point
+
+    def name(self, point: str) -> str:
+        """The name under which a point is known here."""
+        return self.names.get(point, point)
+
+    @property
+    def shared(self) -> dict[str, str]:
+        """The points that another's mark serves, each with that point: they lie in one place."""
+        pairs = dict(self.names)
+        for (at, _), name in self.coincident.items():
+            one, two = self._followed(pairs, at), self._followed(pairs, name)
+            if one != two:
+                pairs[two] = one
+        return {point: self._followed(pairs, point) for point in pairs}
+
     def _coincident_points(self) -> dict[tuple[str, str], str]:
         """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
         found = {}
-        for slide in self.scene.slides:
+        for slide in self.all_slides:
+            at = self.name(slide.at)
             for name in self.links[slide.along]:
-                if name != slide.at and self.scene.points[name] == self.scene.points[slide.at]:
-                    found[slide.at, slide.along] = name
+                if name != at and self.scene.points[name] == self.scene.points[slide.at]:
+                    found[at, slide.along] = name
         return found
 
     def _weld(self, drive: Drive) -> None:
         """Join the two links of a drive into one body, if they share the pair that it drives."""
         if isinstance(drive, SlidingDrive):
-            slide = next(s for s in self.scene.slides if {s.link, s.along} == {drive.link, drive.along})
+            slide = next(s for s in self.all_slides if {s.link, s.along} == {drive.link, drive.along})
             self._join(drive.link, drive.along, drive, "", slide)
             return
         common = [p for p in self.links[drive.link] if p in self.links.get(drive.relative_to, ())]
@@ -120,13 +164,14 @@ class Network:
 
     def place(self, point: str, link: str) -> Place:
         """The place of a point in a link's plane."""
+        point = self.name(point)
         point = self.coincident.get((point, link), point)
         return (point, "") if point in self.links[link] else (point, link)
 
     def bodies_at(self, place: Place) -> list[str]:
         """The bodies that meet in a place."""
         point, link = place
-        links = (link,) if link else self.scene.links_of[point]
+        links = (link,) if link else self.links_of[point]
         return list(dict.fromkeys(self.body[name] for name in links))
 
     def link_at(self, body: str, place: Place) -> str:
@@ -162,5 +207,5 @@ class Network:
 
     def _turning_pairs(self) -> list[tuple[str, str, list[TurningDrive]]]:
         """Pairs of links (a, b) with the drives that make a turn more than b."""
-        slides: list[tuple[str, str, list[TurningDrive]]] = [(s.link, s.along, []) for s in self.scene.slides]
-        return slides + [(d.link, d.relative_to, [d]) for d in self.scene.drives if isinstance(d, TurningDrive)]
+        slides: list[tuple[str, str, list[TurningDrive]]] = [(s.link, s.along, []) for s in self.all_slides]
+        return slides + [(d.link, d.relative_to, [d]) for d in turning_drives(self.scene)]

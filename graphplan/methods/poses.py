@@ -6,6 +6,7 @@ from collections.abc import Mapping
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods.network import Place
 from graphplan.methods.panels import MECHANISM
 
@@ -13,15 +14,15 @@ from graphplan.methods.panels import MECHANISM
 class Pose:
     """Marks for the points of a scene; guides and letters on demand.
 
-    `coincident` names points of a guide that lie where a point of the sliding link does: they share its mark.
+    `shared` names points that lie where another one does, in one link or under a sliding point: they share its mark.
     """
 
-    def __init__(self, board: Board, scene: Scene, coincident: Mapping[str, str]):
+    def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str]):
         self.board, self.scene = board, scene
         with board.on(MECHANISM):
-            apart = {name: at for name, at in scene.points.items() if name not in coincident}
+            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in shared}
             self.points: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
-        self.points |= {name: self.points[other] for name, other in coincident.items()}
+        self.points |= {name: self.points[other] for name, other in shared.items()}
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
 
@@ -49,7 +50,7 @@ class Pose:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
         for name in ([link] if link else self.scene.links_of[point]):
-            for other in self.scene.links[name]:
-                if other != point:
+            for other in sorted(self.scene.links[name], key=by_name):
+                if self.scene.points[other] != self.scene.points.get(point):
                     return self.points[other]
-        return next(mark for name, mark in self.points.items() if name != point)
+        return next(mark for name, mark in self.points.items() if self.scene.points[name] != self.scene.points.get(point))

@@ -10,7 +10,8 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from graphplan.mechanism.model import Number, Scene, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import Number, Scene, SlidingDrive
+from graphplan.mechanism.order import turning_drives
 
 
 class Tempo(NamedTuple):
@@ -44,8 +45,8 @@ def tempo(scene: Scene) -> Tempo:
     drawn a fifth of the mechanism."""
     if scene.sheet.kappa:
         return Tempo(1 / scene.sheet.kappa)
-    for drive in scene.drives:
-        if isinstance(drive, TurningDrive) and drive.omega:
+    for drive in turning_drives(scene):
+        if drive.omega:
             return Tempo(drive.omega if drive.omega > 0 else -drive.omega)
     speeds = [drive.speed for drive in scene.drives if isinstance(drive, SlidingDrive)]
     speeds += [v for motion in scene.motions.values() for v in motion.velocity]

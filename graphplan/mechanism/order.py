@@ -1,0 +1,53 @@
+"""The order in which a scene's things are taken, whatever the order in which they are written.
+
+Links by name, the frame last; a link's points as a textbook names them: those on the frame first, then joints, then the
+others, each by name; slides and drives by their links.
+"""
+
+from __future__ import annotations
+
+import re
+
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
+
+Key = tuple[tuple[int, int, str], ...]
+
+
+def by_name(name: str) -> Key:
+    """The key by which names are ordered: numbers in them by size, so that 10 comes after 9."""
+    parts = re.findall(r"\d+|\D+", name)
+    return tuple((0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts)
+
+
+def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
+    """Each link with its points."""
+    def place(point: str) -> tuple[bool, bool, Key]:
+        return FRAME not in scene.links_of[point], len(scene.links_of[point]) < 2, by_name(point)
+
+    links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))
+    return {link: tuple(sorted(scene.links[link], key=place)) for link in links}
+
+
+def ordered_points(scene: Scene) -> tuple[str, ...]:
+    """The points, link by link; last those that no link has."""
+    linked = dict.fromkeys(point for points in ordered_links(scene).values() for point in points)
+    return (*linked, *sorted(scene.points.keys() - linked, key=by_name))
+
+
+def ordered_slides(scene: Scene) -> tuple[Slide, ...]:
+    """The slides by their links."""
+    return tuple(sorted(scene.slides, key=lambda slide: (by_name(slide.link), by_name(slide.along))))
+
+
+def ordered_drives(scene: Scene) -> tuple[Drive, ...]:
+    """The drives by their links, those of turnings first."""
+    def key(drive: Drive) -> tuple[bool, Key, Key]:
+        other = drive.along if isinstance(drive, SlidingDrive) else drive.relative_to
+        return isinstance(drive, SlidingDrive), by_name(drive.link), by_name(other)
+
+    return tuple(sorted(scene.drives, key=key))
+
+
+def turning_drives(scene: Scene) -> tuple[TurningDrive, ...]:
+    """The drives that prescribe a turning, by their links."""
+    return tuple(drive for drive in ordered_drives(scene) if isinstance(drive, TurningDrive))

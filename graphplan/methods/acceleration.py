@@ -139,7 +139,7 @@ class Normal(Plan):
         base = self.pose.points[joint] if weld.to == FRAME else self._driven_seat(weld, joint)
         omega = sum(w.sign * self.tempo.turning(w.drive.omega) for w in chain if isinstance(w.drive, TurningDrive))
         A, X = self.pose.points[joint], self.pose.points[point]
-        if point == joint or not omega:
+        if self.net.spot(point) == self.net.spot(joint) or not omega:
             return base
         return X if omega * omega == 1 and base is A else self.board.step_off(A, X, base, ratio=omega * omega)
 
@@ -153,7 +153,7 @@ class Normal(Plan):
         anchor = self.anchors[link]
         if point == self.net.place(anchor.point, link)[0]:
             return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
-        if self._still(link):
+        if self._still(link) or self.net.spot(point) == self.net.spot(anchor.point):
             return self.figure(link, anchor.point)
         mark = self._scaled(link, anchor.point, point)
         return self.board.named(mark, self.figure_name(link, point))
@@ -189,8 +189,7 @@ class Normal(Plan):
 
     def _side(self, link: str, K: str) -> str | None:
         """The other end of the side on which the semicircle is drawn: a joint if there is one."""
-        places = self.net.scene.points
-        names = [p for p in self.net.links[link] if places[p] != places.get(K)]
+        names = [p for p in self.net.links[link] if self.net.spot(p) != self.net.spot(K)]
         return max(names, key=lambda p: len(self.net.links_of[p]) > 1, default=None)
 
     # ---- drives, guides, given motions ----------------------------------------------------------------------
@@ -247,10 +246,12 @@ class Normal(Plan):
         return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
-        """A point of either link to measure their common turning about: fixed to the frame, if there is one."""
-        places = self.net.scene.points
-        found = [(link, p) for link in (one, two) for p in self.net.links[link] if places[p] != places.get(B)]
-        return max(found, key=lambda pair: FRAME in self.net.links_of[pair[1]])
+        """A point to measure the common turning of two links about: their own, fixed to the frame if there is such."""
+        net = self.net
+        found = [(link, p) for link in (one, two) for p in net.links[link] if net.spot(p) != net.spot(B)]
+        if found:
+            return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
+        return one, next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
     def pole_shift(self, move: Pole) -> Vector | None:
         """The perpendiculars to the two bars cut off what the poles' images differ by."""

@@ -100,21 +100,35 @@ class Facts:
         """What a place knows that this body did not tell it."""
         return min(2, sum(rank for source, rank in self.facts.get(place, {}).items() if source != body))
 
-    def _loci(self, body: str, but: Place) -> Iterator[Locus]:
-        """Loci at other places of the body, from other sources."""
+    def _loci(self, body: str, but: Place = ("", "")) -> Iterator[Locus]:
+        """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
+        seen = {self.net.spot(but[0])}
         for place in self.places[body]:
-            for source, rank in self.facts.get(place, {}).items():
-                if place != but and source != body and rank == 1 and not source.startswith(TRIAL):
-                    yield place, source
-                    break
+            spot = self.net.spot(place[0])
+            if spot not in seen and (locus := self._locus_of(place, body)):
+                seen.add(spot)
+                yield locus
+
+    def _locus_of(self, place: Place, body: str) -> Locus | None:
+        """A locus of a place that another source than this body gives."""
+        for source, rank in self.facts.get(place, {}).items():
+            if source != body and rank == 1 and not source.startswith(TRIAL):
+                return place, source
+        return None
 
     def _like(self, body: str) -> str:
         """The body by whose turning this one's is known, if any."""
         source = self.turning.get(self.net.classes[body], "")
         return "" if source == body else source
 
-    def _count(self, body: str) -> int:
-        return sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
+    def _count(self, body: str, but: Place | None = None) -> int:
+        """How many facts a body has, but for those of one place: a spot has two at most, however many places are there."""
+        told: dict[str, int] = {}
+        for place in self.places[body]:
+            if place != but:
+                spot = self.net.spot(place[0])
+                told[spot] = min(2, told.get(spot, 0) + self._heard(place, body))
+        return sum(told.values()) + bool(self._like(body))
 
     def _known(self, body: str) -> bool:
         return body == self.net.ground or body in self.retired or self._count(body) >= 3
@@ -124,12 +138,24 @@ class Facts:
         if count > 3:
             self._overheard(body, count)
         for place in list(self.places[body]):
-            rest = count - self._heard(place, body)
-            rank = 2 if rest >= 3 else 1 if rest == 2 else 0
-            if rank > self.told.get((body, place), 0) and place not in self.drawn:
-                self._emit(body, place, rank)
+            if place not in self.drawn:
+                rest = self._count(body, place)
+                here = max((self._heard(other, body) for other in self._together(body, place)), default=0)
+                rank = 2 if rest >= 3 or here == 2 else 1 if rest == 2 or here == 1 else 0
+                if rank > self.told.get((body, place), 0):
+                    self._emit(body, place, rank)
         if count >= 3:
             self._turning_known(body)
+
+    def _together(self, body: str, X: Place) -> list[Place]:
+        """The other places of a body that lie in one spot with X: they move alike, however the body turns."""
+        spot = self.net.spot(X[0])
+        return [place for place in self.places[body] if place != X and self.net.spot(place[0]) == spot]
+
+    def _ends(self, body: str, but: Place = ("", "")) -> list[Place]:
+        """The body's places whose ends are drawn, but for those in the spot of one place."""
+        spot = self.net.spot(but[0])
+        return [place for place in self.places[body] if place in self.drawn and self.net.spot(place[0]) != spot]
 
     def _emit(self, body: str, X: Place, rank: int) -> None:
         """Tell a place what the body knows of it."""
@@ -148,7 +174,10 @@ class Facts:
 
     def _line(self, body: str, X: Place) -> Move | None:
         """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
+        here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
+        if here:
+            return Slip(body, here, X, "")
+        known = self._ends(body, X)
         if known:
             return Swing(body, max(known, key=lambda place: self._heard(place, body)), X)
         loci, like = list(self._loci(body, X)), self._like(body)
@@ -158,36 +187,35 @@ class Facts:
 
     def _settle(self, body: str, X: Place) -> Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""
-        loci = list(self._loci(body, ("", "")))
-        own = [locus for locus in loci if locus[0] == X]
-        known = [place for place, _ in loci if place in self.drawn and place != X]
-        if len(loci) < 3 or not own or not known:
+        own, loci = self._locus_of(X, body), list(self._loci(body, X))
+        known = [place for place, _ in loci if place in self.drawn]
+        if len(loci) < 2 or not own or not known:
             return None
         K = known[0]
-        return Settle(body, K, own[0], next(locus for locus in loci if locus[0] not in (K, X)))
+        return Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
 
     def _beside(self, body: str, X: Place) -> Figure | None:
         """The end of X, which has a locus of its own, in a body of which an end and the turning are known."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        like = self._like(body)
+        known, like = self._ends(body, X), self._like(body)
         return Figure(body, known[0], X, like=like) if known and like and self.facts.get(X) else None
 
     def _figure(self, body: str, X: Place) -> Move | None:
-        """The end of X from the whole body."""
-        known = [place for place in self.places[body] if place in self.drawn and place != X]
-        if len(known) > 1:
-            return Figure(body, known[0], X, R=known[1])
+        """The end of X from the whole body, or from an end in the same spot."""
+        here = next((place for place in self._together(body, X) if place in self.drawn), None)
+        if here:
+            return Figure(body, here, X)
+        known = self._ends(body, X)
+        pair = next((R for R in known[1:] if self.net.spot(R[0]) != self.net.spot(known[0][0])), None)
+        if pair:
+            return Figure(body, known[0], X, R=pair)
         if known and (like := self._like(body)):
             return Figure(body, known[0], X, like=like)
         return None
 
     def _turning_known(self, body: str) -> None:
-        if self.net.classes[body] not in self.turning and len(self._ends(body)) > 1:
+        if self.net.classes[body] not in self.turning and len({self.net.spot(X[0]) for X in self._ends(body)}) > 1:
             self.turning[self.net.classes[body]] = body
             self._wake_class(body)
-
-    def _ends(self, body: str) -> list[Place]:
-        return [place for place in self.places[body] if place in self.drawn]
 
     def _wake_class(self, body: str) -> None:
         if body in self.net.slides_of or self.net.turning:
@@ -215,7 +243,7 @@ class Facts:
             return at if at in own else (joints or list(own) or [slide.at])[0]
         for place in self.places[self.net.body[known]]:
             told = sum(rank for source, rank in self.facts.get(place, {}).items() if source != slide.name)
-            if place in self.drawn and told >= 2 and self.net.link_at(self.net.body[known], place) == known:
+            if place in self.drawn and told >= 2 and self.net.has(known, place):
                 return place[0]
         return ""
 

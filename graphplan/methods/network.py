@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
-from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_slides, turning_drives
+from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 
 Place = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -47,6 +47,8 @@ class Network:
     def __post_init__(self) -> None:
         scene = self.scene
         own = ordered_links(scene)
+        first: dict[object, str] = {}
+        self._spots = {point: first.setdefault(scene.points[point], point) for point in ordered_points(scene)}
         self.names = self._names(own)
         self.links = {link: tuple(dict.fromkeys(map(self.name, points))) for link, points in own.items()}
         if any(isinstance(d, TurningDrive) and d.relative_to == FRAME for d in scene.drives):
@@ -74,9 +76,9 @@ class Network:
         """The one name of points that lie in one place of one link, for each point that goes by another's name."""
         names: dict[str, str] = {}
         for points in links.values():
-            first: dict[object, str] = {}
+            first: dict[str, str] = {}
             for point in points:
-                other = first.setdefault(self.scene.points[point], point)
+                other = first.setdefault(self.spot(point), point)
                 one, two = self._followed(names, other), self._followed(names, point)
                 if one != two:
                     names[two] = one
@@ -91,6 +93,10 @@ class Network:
     def name(self, point: str) -> str:
         """The name under which a point is known here."""
         return self.names.get(point, point)
+
+    def spot(self, point: str) -> str:
+        """The first of all points that lie where this one does in this pose; an auxiliary point is its own."""
+        return self._spots.get(point, point)
 
     @property
     def shared(self) -> dict[str, str]:
@@ -108,7 +114,7 @@ class Network:
         for slide in self.all_slides:
             at = self.name(slide.at)
             for name in self.links[slide.along]:
-                if name != at and self.scene.points[name] == self.scene.points[slide.at]:
+                if name != at and self.spot(name) == self.spot(at):
                     found[at, slide.along] = name
         return found
 
@@ -178,6 +184,10 @@ class Network:
         """The link of a body to which a place belongs."""
         point, link = place
         return link or next(m for m in self.members[body] if point in self.links[m])
+
+    def has(self, link: str, place: Place) -> bool:
+        """Whether a place belongs to a link."""
+        return place[1] == link or not place[1] and place[0] in self.links[link]
 
     def places_of(self, body: str) -> list[Place]:
         """The places of the body's own points, joints first."""

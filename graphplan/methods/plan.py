@@ -55,7 +55,7 @@ class Plan:
         self.loci: dict[Locus, Mark] = {}
         self.prime = ""  # of the letters in a trial figure
         self.known: dict[str, list[Place]] = {body: [] for body in net.members}
-        self._told: set[tuple[str, Mark]] = set()
+        self._told: set[tuple[str, str]] = set()
         self.pole_vectors: dict[tuple[Place, str], Vector] = {}
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
@@ -164,8 +164,8 @@ class Plan:
         """Enter an end; the bodies there may be drawn from it."""
         if place not in self.ends and (place[1] in self.net.body or not place[1]):
             for body in self.net.bodies_at(place):
-                if (body, self.point(place)) not in self._told:
-                    self._told.add((body, self.point(place)))
+                if (body, self.net.spot(place[0])) not in self._told:
+                    self._told.add((body, self.net.spot(place[0])))
                     self.known[body].append(place)  # a figure needs points that lie apart
         self.ends[place] = mark
 
@@ -247,6 +247,9 @@ class Plan:
     def _image(self, body: str, place: Place) -> Mark:
         """The end of a place in the figure of the body's top link, by two known ends or one and the turning."""
         known = [p for p in self.known[body] if p != place]
+        here = next((p for p in known if self.net.spot(p[0]) == self.net.spot(place[0])), None)
+        if here:
+            return self._figured(body, here, place, None, "")
         if len(known) > 1:
             return self._figured(body, known[0], place, known[1], "")
         partner = self._partner(body)
@@ -269,6 +272,8 @@ class Plan:
 
     def _as_turned(self, body: str, like: str, A: Place, X: Place, at: Mark) -> Mark:
         """`at` moved by the image of AX in a body that turns as `like` does, but for a known difference."""
+        if self.net.spot(A[0]) == self.net.spot(X[0]):
+            return at
         base = self.point(A), self.point(X)
         if like == self.net.ground:
             mark = self.at_rest(base, at)

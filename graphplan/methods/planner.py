@@ -78,7 +78,7 @@ class Planner(Facts):
         """Bodies with two loci and a slide that could pass on what their crossing, an auxiliary point, tells."""
         for body in loose:
             slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
-            loci = list(self._loci(body, ("", "")))
+            loci = list(self._loci(body))
             if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
                 yield body, loci[0], loci[1]
 
@@ -96,7 +96,7 @@ class Planner(Facts):
         bars: dict[frozenset[str], list[Bar]] = {}
         for body in loose:
             ends = self.places[body]
-            if len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
+            if len({self.net.spot(end[0]) for end in ends}) == len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
@@ -165,7 +165,7 @@ class Planner(Facts):
 
     def _three_loci(self, body: str) -> tuple[Place, Locus] | None:
         """An end found by all loci of a body but one, beside that one."""
-        loci = list(self._loci(body, ("", "")))
+        loci = list(self._loci(body))
         if len(loci) < 3:
             return None
         (X, source), *others = loci
@@ -183,7 +183,7 @@ class Planner(Facts):
 
     def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
         """A locus for X by what the body heard elsewhere."""
-        others = [place for place in ends if place != X]
+        others = [place for place in ends if self.net.spot(place[0]) != self.net.spot(X[0])]
         if others:
             return Swing(body, others[0], X)
         loci, like = list(self._loci(body, X)), self._like(body)

@@ -20,7 +20,7 @@ from graphplan.methods.poses import Pose
 from graphplan.methods.styles import Style, style
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.ways import best_way, growth_of_rates
+from graphplan.methods.ways import growth_of_rates, ways
 from graphplan.phrases import Said, said
 
 
@@ -126,28 +126,38 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     replace the link; `strict` draws with compasses and straightedge alone. Fails with `Refused` where no move of the
     planner reaches what is asked; numbers are not looked at before they are read, so a singular pose shows then.
     """
+    return next(constructions(scene, method=method, plan=plan, strict=strict, inertia=inertia))
+
+
+def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
+                  inertia: str = "couple") -> Iterator[Construction]:
+    """The constructions of what the scene asks for by all ways that there are, best first; see `construct`."""
     if method not in ("", *METHODS):
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
-    best = _best(scene, method, style(plan, inertia))
-    best.prefer, best.strict = METHODS.get(method, ""), strict
-    return best
+    for found in _by_plans(scene, method, style(plan, inertia)):
+        found.prefer, found.strict = METHODS.get(method, ""), strict
+        yield found
 
 
-def _best(scene: Scene, method: str, chosen: Style) -> Construction:
-    """The construction by the best way, on the plans that are asked for, or that the lengths of the links allow.
+def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+    """The constructions on the plans that are asked for, or that the lengths of the links allow.
 
     Orthogonal velocities end on the mechanism plan. Where that reaches far beyond the vectors their ends tell little.
     """
-    best = _by_best_way(scene, method, chosen)
+    found = _by_ways(scene, method, chosen)
     if chosen.free and _uneven(scene):
-        polar = _by_best_way(scene, method, replace(chosen, polar=True))
-        one, other = growth_of_rates(best), growth_of_rates(polar)
+        best = next(found)
+        polar = _by_ways(scene, method, replace(chosen, polar=True))
+        first = next(polar)
+        one, other = growth_of_rates(best), growth_of_rates(first)
         if other < one:
-            polar.notes.append(said(
+            first.notes.append(said(
                 "polar plans, as links differ so much in length: errors of the steps grow {0}-fold, with orthogonal "
                 "velocities {1}-fold", f"{other:.2g}", f"{one:.2g}"))
-            return polar
-    return best
+            yield first
+            yield from polar
+        yield best
+    yield from found
 
 
 def _uneven(scene: Scene) -> bool:
@@ -157,10 +167,11 @@ def _uneven(scene: Scene) -> bool:
     return max(sides, default=0.0) > UNEVEN * min((side for side in sides if side), default=1.0)
 
 
-def _by_best_way(scene: Scene, method: str, chosen: Style) -> Construction:
-    """The construction by the best way; what forces need is not even imported where there are no loads."""
+def _by_ways(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]:
+    """The constructions by all ways; what forces need is not even imported where there are no loads."""
     if scene.loads is None:
-        return best_way(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())[0]
-    from graphplan.methods.loaded import best_loaded
+        found = ways(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
+        return (construction for construction, _ in found)
+    from graphplan.methods.loaded import loaded_constructions
 
-    return best_loaded(scene, method, chosen)
+    return loaded_constructions(scene, method, chosen)

@@ -7,7 +7,7 @@ is drawn if it lies near. Imported for scenes with loads alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Iterator
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers.floats import Floats
@@ -28,7 +28,7 @@ from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.styles import Style
 from graphplan.methods.tempo import extent
 from graphplan.methods.velocity import Velocity
-from graphplan.methods.ways import EQUAL, best_way, growth
+from graphplan.methods.ways import EQUAL, growth, ways
 from graphplan.phrases import said
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
@@ -105,11 +105,12 @@ class Loaded(Draughtsman):
         return tuple(found)
 
 
-def best_loaded(scene: Scene, method: str, style: Style) -> Construction:
-    """The construction of a scene with loads, by the best way through its motion and through its forces."""
+def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
+    """The constructions of a scene with loads, best first: by the ways through its motion, each with its best forces."""
     plans = Plans(scene)
-    best, planner = best_way(Network(scene), method, lambda planner: Loaded(scene, planner, style, plans).draw())
-    return _steadiest(best, planner, style, plans) if style.polygons else best
+    found = ways(Network(scene), method, lambda planner: Loaded(scene, planner, style, plans).draw())
+    for best, planner in found:
+        yield _steadiest(best, planner, style, plans) if style.polygons else best
 
 
 def _steadiest(found: Construction, planner: Planner, style: Style, plans: Plans) -> Construction:

@@ -10,7 +10,8 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import pairwise
+from itertools import combinations, pairwise
+from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.methods.facts import TRIAL, Facts
@@ -29,17 +30,34 @@ class _Open:
     at: Locus
     start: int
 
+
+class Options(NamedTuple):
+    """How many ways on there were at one place of a plan: past a ring of links, or to close a trial."""
+
+    count: int
+    closing: bool = False
+
+
+class Closing(NamedTuple):
+    """What a trial's error is seen by: an end that should lie on a locus, and the moves that draw them."""
+
+    moves: tuple[Move, ...]
+    end: Place
+    locus: Locus
+
+
 class Planner(Facts):
     """Plans one network.
 
-    Where facts run in rings there are several ways on: `choice` says, ring by ring, which is taken (the first where it
-    says nothing), and `options` then tells how many there were. `method` leaves out ways: "trial" all but trials.
+    Where facts run in rings there are several ways on, and several to close a trial: `choice` says, place by place,
+    which is taken (the first where it says nothing), and `options` then tells how many there were. `method` leaves out
+    ways: "trial" all but trials.
     """
 
     def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = ()):
         super().__init__(network)
         self.method, self.choice = method, choice
-        self.options: list[int] = []
+        self.options: list[Options] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
         self.open: list[_Open] = []
@@ -69,10 +87,14 @@ class Planner(Facts):
             ways += [partial(self._try, locus) for locus in self._trials(loose)[:MOST_TRIALS]]
         if not ways:
             return False
-        asked = len(self.options)
-        self.options.append(len(ways))
-        ways[self.choice[asked] if asked < len(self.choice) else 0]()
+        ways[self._chosen(Options(len(ways)))]()
         return True
+
+    def _chosen(self, options: Options) -> int:
+        """Which of several ways on is taken."""
+        asked = len(self.options)
+        self.options.append(options)
+        return self.choice[asked] if asked < len(self.choice) else 0
 
     def _crossings(self, loose: list[str]) -> Iterator[tuple[str, Locus, Locus]]:
         """Bodies with two loci and a slide that could pass on what their crossing, an auxiliary point, tells."""
@@ -135,51 +157,55 @@ class Planner(Facts):
 
     def _overheard(self, body: str, count: int) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
-        closing = self._closing(body) if self.open and count - self.spent.get(body, 0) > 3 else None
-        if closing is None:
+        if not self.open or count - self.spent.get(body, 0) <= 3:
             return
-        end, locus = closing
+        closings = list(self._closings(body))
+        taken = self._chosen(Options(len(closings) + 1, closing=True)) if len(closings) > 1 else 0
+        if taken >= len(closings):
+            return  # another body may close it
+        moves, end, locus = closings[taken]
         trial = self.open.pop()
-        inner = tuple(self.moves[trial.start :])
+        inner = (*self.moves[trial.start :], *moves)
         del self.moves[trial.start :]
         self.moves.append(Trial(trial.at, inner, end, locus))
         self.spent[body] = self.spent.get(body, 0) + 1
         self._queue(*self.places)
 
-    def _closing(self, body: str) -> tuple[Place, Locus] | None:
-        """An end and a locus for it that owe each other nothing, in the body that has heard too much."""
-        told = {place: self._heard(place, body) for place in self.places[body] if place in self.drawn}
-        ends = [place for place, rank in told.items() if rank == 2]
-        for X in ends:
-            if line := self._independent(body, X, ends):
-                self.moves.append(line)
-                return X, (X, body)
-        for K in ends:
-            loci = list(self._loci(body, K))
-            for (R, _), (X, source) in pairwise(loci):
+    def _closings(self, body: str) -> Iterator[Closing]:
+        """Ends with loci that owe each other nothing, in the body that has heard too much; last what may owe a little."""
+        told = {place: self._heard(place, body) for place in self._ends(body)}
+        whole = [place for place, rank in told.items() if rank == 2]
+        for X in whole:
+            if line := self._independent(body, X, whole):
+                yield Closing((line,), X, (X, body))
+        for K in whole:
+            for (R, _), (X, source) in pairwise(self._loci(body, K)):
                 if R in told:
                     copy = (X[0], f"{body} trial")
-                    self.moves.append(Figure(body, K, X, R=R, copy=copy))
-                    return copy, (X, source)
-        return self._three_loci(body)
+                    yield Closing((Figure(body, K, X, R=R, copy=copy),), copy, (X, source))
+        if closing := self._three_loci(body):
+            yield closing
+        for K, X in combinations(told, 2):
+            if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
+                yield Closing((Swing(body, K, X),), X, (X, body))
 
-    def _three_loci(self, body: str) -> tuple[Place, Locus] | None:
+    def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
         loci = list(self._loci(body))
         if len(loci) < 3:
             return None
         (X, source), *others = loci
         like, names = self._like(body), (f"{body} once", f"{body} again")
+        lines: list[Move] = []
         if like:
-            self.moves += [Slip(body, other, X, like, name) for other, name in zip(others, names, strict=False)]
+            lines += [Slip(body, other, X, like, name) for other, name in zip(others, names, strict=False)]
         elif len(others) >= 3:
             pairs = (others[0], others[1]), (others[0], others[2])
-            self.moves += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
+            lines += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
         else:
             return None
         copy = (X[0], f"{body} trial")
-        self.moves.append(Meet(X, names, copy))
-        return copy, (X, source)
+        return Closing((*lines, Meet(X, names, copy)), copy, (X, source))
 
     def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
         """A locus for X by what the body heard elsewhere."""

@@ -8,7 +8,8 @@ construction is drawn with a shaking hand, and the shaking of the results is mea
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections import deque
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
 from random import Random
@@ -27,29 +28,65 @@ if TYPE_CHECKING:
 SHAKE = 1e-9  # of a value; small enough for first order, large enough to stand out from rounding
 HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
+WILD = 1e7  # growth from which on half of the digits are lost: another way is sought
+MOST = 100  # ways that are tried at most
+
+Draw = Callable[["Planner"], "Construction"]
 
 
-def best_way(network: Network, method: str, draw: Callable[[Planner], Construction]) -> tuple[Construction, Planner]:
-    """The construction by the best way on at each ring, one ring after the other, and the planner of that way.
+def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
+    """The constructions by the ways there are, best first, each with its planner; more are sought as they are asked for.
 
-    Fails with `Refused`, naming the links, where no way reaches them.
+    First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, other
+    ways past the rings and other closings of the trials are tried until one is steady. Fails with `Refused`, naming the
+    links, where no way reaches them.
     """
-    taken = _way(network, method, (), draw)
-    weighed = 0
-    ring = 0
-    while ring < len(taken.planner.options):
-        before, count = taken.choice[:ring], taken.planner.options[ring]
-        others = [_way(network, method, (*before, way), draw) for way in range(count) if way != taken.choice[ring]]
-        weighed += len(others)
-        taken = min([taken, *others], key=_Way.rank(min(way.growth for way in [taken, *others])))
+    best = _ring_by_ring(network, method, draw)
+    tried = {best.choice: best}
+    if best.growth < WILD:
+        yield best.told(len(tried))
+    for way in _others(network, method, best, draw):
+        tried[way.choice] = way
+        if way.growth < WILD:
+            yield way.told(len(tried))
+    wild = sorted((way for way in tried.values() if way.construction and way.growth >= WILD), key=_Way.rank(0.0))
+    yield from (way.told(len(tried)) for way in wild)
+    if all(way.construction is None for way in tried.values()):
+        raise best.refusal or Refused("the mechanism", "no construction reaches it", "check the drives")
+
+
+def _ring_by_ring(network: Network, method: str, draw: Draw) -> _Way:
+    """The best way on at each ring, one ring after the other; trials are closed as comes first."""
+    taken, ring = _way(network, method, (), draw), 0
+    while ring < len(options := taken.planner.options):
+        if not options[ring].closing:
+            others = [_way(network, method, (*taken.choice[:ring], way), draw)
+                      for way in range(options[ring].count) if way != taken.choice[ring]]
+            weighed = taken.weighed + len(others)
+            taken = min([taken, *others], key=_Way.rank(min(way.growth for way in [taken, *others])))
+            taken.weighed = weighed
         ring += 1
-    if taken.construction is None:
-        raise taken.refusal or Refused("the mechanism", "no construction reaches it", "check the drives")
-    if weighed:
-        taken.construction.notes.append(
-            said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
-                 joined(taken.construction.ways or [said("travelling facts")]), f"{taken.growth:.2g}", weighed + 1))
-    return taken.construction, taken.planner
+    return taken
+
+
+def _others(network: Network, method: str, best: _Way, draw: Draw) -> Iterator[_Way]:
+    """Further ways, the likest to the best one first."""
+    waiting, seen = deque([best]), {best.choice}
+    while waiting:
+        for choice in _neighbours(waiting.popleft()):
+            if choice not in seen and len(seen) < MOST:
+                seen.add(choice)
+                way = _way(network, method, choice, draw)
+                waiting.append(way)
+                yield way
+
+
+def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
+    """The choices that differ from a way's at one place; the last place first."""
+    for place in reversed(range(len(way.planner.options))):
+        for other in range(way.planner.options[place].count):
+            if other != way.choice[place]:
+                yield (*way.choice[:place], other)
 
 
 @dataclass
@@ -61,6 +98,17 @@ class _Way:
     construction: Construction | None
     refusal: Refused | None
     growth: float
+    weighed: int = 0
+
+    def told(self, tried: int) -> tuple[Construction, Planner]:
+        """The construction, which says how many ways it was weighed against, and its planner."""
+        assert self.construction is not None
+        among = max(self.weighed + 1, tried)
+        if among > 1:
+            self.construction.notes.append(
+                said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
+                     joined(self.construction.ways or [said("travelling facts")]), f"{self.growth:.2g}", among))
+        return self.construction, self.planner
 
     @staticmethod
     def rank(least: float) -> Callable[[_Way], tuple[float, int]]:

@@ -1,12 +1,13 @@
 """The order in which a scene's things are taken, whatever the order in which they are written.
 
-Links by name, the frame last; a link's points as a textbook names them: those on the frame first, then joints, then the
-others, each by name; slides and drives by their links.
+Links by name, the frame last; a link's points as motion passes through them: those on the frame first, then joints with
+links before this one, joints with links after it, and the others, each by name; slides and drives by their links.
 """
 
 from __future__ import annotations
 
 import re
+from functools import partial
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
 
@@ -21,11 +22,16 @@ def by_name(name: str) -> Key:
 
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
     """Each link with its points."""
-    def place(point: str) -> tuple[bool, bool, Key]:
-        return FRAME not in scene.links_of[point], len(scene.links_of[point]) < 2, by_name(point)
-
     links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))
-    return {link: tuple(sorted(scene.links[link], key=place)) for link in links}
+    rank = {link: -1 if link == FRAME else number for number, link in enumerate(links)}
+
+    def place(link: str, point: str) -> tuple[int, Key]:
+        first = min((rank[other] for other in scene.links_of[point] if other != link), default=None)
+        if first is None:
+            return 3, by_name(point)
+        return (0 if first < 0 else 1 if first < rank[link] else 2), by_name(point)
+
+    return {link: tuple(sorted(scene.links[link], key=partial(place, link))) for link in links}
 
 
 def ordered_points(scene: Scene) -> tuple[str, ...]:

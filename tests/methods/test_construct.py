@@ -132,8 +132,6 @@ def test_exact_numbers_of_an_irrational_scene_are_refused() -> None:
 
 # A fault seeded in the planner or in a plan: what is replaced, by what. Each must show in the numbers or in a refusal.
 FAULTS = {
-    "a body hears its own word": (Planner, "_heard", lambda self, place, body: min(
-        2, sum(self.facts.get(place, {}).values()))),
     "turning of a slide's partner is not heard": (Planner, "_like", lambda self, body: ""),
     "the guide is drawn the wrong way": (velocity.Orthogonal, "across", False),
     "figures are drawn with the wrong turn": (acceleration.Normal, "turn", "parallel"),

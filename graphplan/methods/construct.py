@@ -131,11 +131,23 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
 
 def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,
                   inertia: str = "couple") -> Iterator[Construction]:
-    """The constructions of what the scene asks for by all ways that there are, best first; see `construct`."""
+    """The constructions of what the scene asks for by all ways that there are, best first; see `construct`.
+
+    Those of the method that is asked for come first, then such of others, which say so.
+    """
     if method not in ("", *METHODS):
         raise Refused(f"method {method}", "there is no such form", f"one of {', '.join(METHODS)}")
-    for found in _by_plans(scene, method, style(plan, inertia)):
-        found.prefer, found.strict = METHODS.get(method, ""), strict
+    chosen = style(plan, inertia)
+    try:
+        for found in _by_plans(scene, method, chosen):
+            found.prefer, found.strict = METHODS.get(method, ""), strict
+            yield found
+    except Refused:
+        if not method:
+            raise
+    for found in _by_plans(scene, "", chosen) if method else ():
+        found.notes.append(said("the method that was asked for does not serve in this pose; another way is drawn"))
+        found.strict = strict
         yield found
 
 

@@ -122,7 +122,7 @@ class Facts:
         return "" if source == body else source
 
     def _count(self, body: str, but: Place | None = None) -> int:
-        """How many facts a body has, but for those of one place: a spot has two at most, however many places are there."""
+        """How many facts a body has, but for those of one place: a spot has two at most, whatever places are there."""
         told: dict[str, int] = {}
         for place in self.places[body]:
             if place != but:
@@ -161,6 +161,11 @@ class Facts:
         """Tell a place what the body knows of it."""
         figure = self._figure(body, X) if rank == 2 else None
         if rank == 2 and figure is None and not self.told.get((body, X)):
+            if begun := self._begun(body, X):
+                self.moves += begun
+                self.told[body, X] = rank
+                self._file(X, body, rank)
+                return
             rank = 1  # known wholly, but no end is drawn yet to begin a figure at
         whole = rank == 1 and (self._settle(body, X) or self._beside(body, X))
         move = figure or whole or (self._line(body, X) if rank == 1 else None)
@@ -211,6 +216,22 @@ class Facts:
         if known and (like := self._like(body)):
             return Figure(body, known[0], X, like=like)
         return None
+
+    def _crossed(self, body: str, X: Place) -> tuple[list[Move], Meet] | None:
+        """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
+        loci, like = list(self._loci(body, X)), self._like(body)
+        names = f"{body} once", f"{body} again"
+        lines: list[Move] = []
+        if like and len(loci) >= 2:
+            lines += [Slip(body, locus, X, like, name) for locus, name in zip(loci, names, strict=False)]
+        elif len(loci) >= 3:
+            pairs = (loci[0], loci[1]), (loci[0], loci[2])
+            lines += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
+        return (lines, Meet(X, names)) if lines else None
+
+    def _begun(self, body: str, X: Place) -> list[Move]:
+        """Moves for the end of X in a body that is known by loci elsewhere; without them X waits for other facts."""
+        return []
 
     def _turning_known(self, body: str) -> None:
         if self.net.classes[body] not in self.turning and len({self.net.spot(X[0]) for X in self._ends(body)}) > 1:

@@ -106,7 +106,7 @@ class Loaded(Draughtsman):
 
 
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
-    """The constructions of a scene with loads, best first: by the ways through its motion, each with its best forces."""
+    """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
     plans = Plans(scene)
     found = ways(Network(scene), method, lambda planner: Loaded(scene, planner, style, plans).draw())
     for best, planner in found:

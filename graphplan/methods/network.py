@@ -187,7 +187,7 @@ class Network:
 
     def has(self, link: str, place: Place) -> bool:
         """Whether a place belongs to a link."""
-        return place[1] == link or not place[1] and place[0] in self.links[link]
+        return place[1] == link or (not place[1] and place[0] in self.links[link])
 
     def places_of(self, body: str) -> list[Place]:
         """The places of the body's own points, joints first."""

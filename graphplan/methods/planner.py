@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.methods.facts import TRIAL, Facts
-from graphplan.methods.moves import Auxiliary, Carry, Figure, Locus, Meet, Move, Pole, Slip, Swing, Trial
+from graphplan.methods.moves import Auxiliary, Carry, Figure, Locus, Move, Pole, Slip, Swing, Trial
 from graphplan.methods.network import POLE, Network, Place
 
 MOST_TRIALS = 6  # at how many places a trial may begin
@@ -32,10 +32,10 @@ class _Open:
 
 
 class Options(NamedTuple):
-    """How many ways on there were at one place of a plan: past a ring of links, or to close a trial."""
+    """How many ways on there were at one place of a plan; `rare` ones matter only where the first does not serve."""
 
-    count: int
-    closing: bool = False
+    ways: int
+    rare: bool = False
 
 
 class Closing(NamedTuple):
@@ -49,8 +49,9 @@ class Closing(NamedTuple):
 class Planner(Facts):
     """Plans one network.
 
-    Where facts run in rings there are several ways on, and several to close a trial: `choice` says, place by place,
-    which is taken (the first where it says nothing), and `options` then tells how many there were. `method` leaves out
+    Where facts run in rings there are several ways on, and rare ones elsewhere: to close a trial, to begin a figure.
+    `choice` says, place by place, which is taken (the first where it says nothing), and `options` then tells how many
+    there were. `method` leaves out
     ways: "trial" all but trials.
     """
 
@@ -118,7 +119,8 @@ class Planner(Facts):
         bars: dict[frozenset[str], list[Bar]] = {}
         for body in loose:
             ends = self.places[body]
-            if len({self.net.spot(end[0]) for end in ends}) == len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
+            spots = {self.net.spot(end[0]) for end in ends}
+            if len(spots) == len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
@@ -160,7 +162,7 @@ class Planner(Facts):
         if not self.open or count - self.spent.get(body, 0) <= 3:
             return
         closings = list(self._closings(body))
-        taken = self._chosen(Options(len(closings) + 1, closing=True)) if len(closings) > 1 else 0
+        taken = self._chosen(Options(len(closings) + 1, rare=True)) if len(closings) > 1 else 0
         if taken >= len(closings):
             return  # another body may close it
         moves, end, locus = closings[taken]
@@ -172,7 +174,7 @@ class Planner(Facts):
         self._queue(*self.places)
 
     def _closings(self, body: str) -> Iterator[Closing]:
-        """Ends with loci that owe each other nothing, in the body that has heard too much; last what may owe a little."""
+        """Ends with loci that owe each other nothing, in the body that has heard too much; last such as may."""
         told = {place: self._heard(place, body) for place in self._ends(body)}
         whole = [place for place, rank in told.items() if rank == 2]
         for X in whole:
@@ -192,20 +194,17 @@ class Planner(Facts):
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
         loci = list(self._loci(body))
-        if len(loci) < 3:
+        crossed = self._crossed(body, loci[0][0]) if loci else None
+        if crossed is None:
             return None
-        (X, source), *others = loci
-        like, names = self._like(body), (f"{body} once", f"{body} again")
-        lines: list[Move] = []
-        if like:
-            lines += [Slip(body, other, X, like, name) for other, name in zip(others, names, strict=False)]
-        elif len(others) >= 3:
-            pairs = (others[0], others[1]), (others[0], others[2])
-            lines += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
-        else:
-            return None
-        copy = (X[0], f"{body} trial")
-        return Closing((*lines, Meet(X, names, copy)), copy, (X, source))
+        lines, meet = crossed
+        copy = (meet.place[0], f"{body} trial")
+        return Closing((*lines, meet._replace(copy=copy)), copy, loci[0])
+
+    def _begun(self, body: str, X: Place) -> list[Move]:
+        """The end of X where a body's loci are all elsewhere: a beginning of its own, or nothing, so that X waits."""
+        crossed = self._crossed(body, X)
+        return [*crossed[0], crossed[1]] if crossed and self._chosen(Options(2, rare=True)) else []
 
     def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
         """A locus for X by what the body heard elsewhere."""

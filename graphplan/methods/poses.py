@@ -49,8 +49,9 @@ class Pose:
     def far_from(self, place: Place) -> Mark:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
+        at = self.scene.points.get(point)
         for name in ([link] if link else self.scene.links_of[point]):
             for other in sorted(self.scene.links[name], key=by_name):
-                if self.scene.points[other] != self.scene.points.get(point):
+                if self.scene.points[other] != at:
                     return self.points[other]
-        return next(mark for name, mark in self.points.items() if self.scene.points[name] != self.scene.points.get(point))
+        return next(mark for name, mark in self.points.items() if self.scene.points[name] != at)

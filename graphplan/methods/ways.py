@@ -28,17 +28,17 @@ if TYPE_CHECKING:
 SHAKE = 1e-9  # of a value; small enough for first order, large enough to stand out from rounding
 HANDS = 3  # how often the construction is drawn with another shaking
 EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
-WILD = 1e7  # growth from which on half of the digits are lost: another way is sought
-MOST = 100  # ways that are tried at most
+WILD = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
+MOST = 64  # ways that are tried at most
 
 Draw = Callable[["Planner"], "Construction"]
 
 
 def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
-    """The constructions by the ways there are, best first, each with its planner; more are sought as they are asked for.
+    """The constructions by all ways, best first, each with its planner; more are sought as they are asked for.
 
-    First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, other
-    ways past the rings and other closings of the trials are tried until one is steady. Fails with `Refused`, naming the
+    First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, all
+    other choices are tried, rare ones among them, until one is steady. Fails with `Refused`, naming the
     links, where no way reaches them.
     """
     best = _ring_by_ring(network, method, draw)
@@ -56,12 +56,12 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
 
 
 def _ring_by_ring(network: Network, method: str, draw: Draw) -> _Way:
-    """The best way on at each ring, one ring after the other; trials are closed as comes first."""
+    """The best way on at each ring, one ring after the other; rare choices are left alone."""
     taken, ring = _way(network, method, (), draw), 0
     while ring < len(options := taken.planner.options):
-        if not options[ring].closing:
+        if not options[ring].rare:
             others = [_way(network, method, (*taken.choice[:ring], way), draw)
-                      for way in range(options[ring].count) if way != taken.choice[ring]]
+                      for way in range(options[ring].ways) if way != taken.choice[ring]]
             weighed = taken.weighed + len(others)
             taken = min([taken, *others], key=_Way.rank(min(way.growth for way in [taken, *others])))
             taken.weighed = weighed
@@ -84,7 +84,7 @@ def _others(network: Network, method: str, best: _Way, draw: Draw) -> Iterator[_
 def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
     """The choices that differ from a way's at one place; the last place first."""
     for place in reversed(range(len(way.planner.options))):
-        for other in range(way.planner.options[place].count):
+        for other in range(way.planner.options[place].ways):
             if other != way.choice[place]:
                 yield (*way.choice[:place], other)
 

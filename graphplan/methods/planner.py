@@ -119,8 +119,8 @@ class Planner(Facts):
         bars: dict[frozenset[str], list[Bar]] = {}
         for body in loose:
             ends = self.places[body]
-            spots = {self.net.spot(end[0]) for end in ends}
-            if len(spots) == len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
+            rigid = len(self.net.members[body]) == 1 and len({self.net.spot(end[0]) for end in ends}) == 2
+            if rigid and len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():

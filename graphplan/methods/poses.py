@@ -50,7 +50,7 @@ class Pose:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
         at = self.scene.points.get(point)
-        for name in ([link] if link else self.scene.links_of[point]):
+        for name in ([link] if link else sorted(self.scene.links_of[point], key=by_name)):
             for other in sorted(self.scene.links[name], key=by_name):
                 if self.scene.points[other] != at:
                     return self.points[other]

@@ -1,0 +1,67 @@
+"""Any linkage that the drives determine is constructed as the solver has it, to the last digit, in any order of writing.
+
+More than CI tries: `LINKAGES=7000 python -m pytest tests/random`.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from fractions import Fraction
+
+import pytest
+from linkages import scenes
+
+from graphplan.errors import SingularPose
+from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.solver import Rates, solve
+
+LINKAGES = int(os.environ.get("LINKAGES", "240"))
+TOGETHER = 20  # linkages to a test
+LONGEST = 5.0  # seconds for one construction and its numbers
+STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
+
+
+def rates(scene: Scene) -> Rates | None:
+    """The solver's rates, as fractions; None where the pose is singular."""
+    try:
+        return solve(scene, exact=True)
+    except SingularPose:
+        return None
+
+
+@pytest.mark.parametrize("first", range(0, LINKAGES, TOGETHER))
+def test_linkages_are_constructed_exactly(first: int) -> None:
+    """Every velocity, acceleration, turning and sliding is the solver's as a fraction, whatever the method and plan."""
+    for seed in range(first, first + TOGETHER):
+        for number, scene in enumerate(scenes(seed)):
+            truth = rates(scene)
+            if truth is None:
+                break
+            method, plan = STYLES[(seed + number) % len(STYLES)]
+            begun = time.process_time()
+            results = construct(scene, method=method, plan=plan).read(Fractions())
+            assert time.process_time() - begun < LONGEST, f"linkage {seed}, order {number}"
+            for kind, values in results.items():
+                exact = getattr(truth, kind.replace(" ", "_"))
+                wrong = {name for name, value in values.items() if value != exact[name]}
+                assert not wrong, f"linkage {seed}, order {number}, {method} {plan}: {kind} of {wrong}"
+
+
+@pytest.mark.parametrize("first", range(0, LINKAGES // 4, TOGETHER))
+def test_the_order_of_writing_draws_nothing_else(first: int) -> None:
+    """Links, points, slides and drives in another order give the same steps with the same letters."""
+    for seed in range(first, first + TOGETHER):
+        found = [scene for scene in scenes(seed) if rates(scene)]
+        drawn = {tuple(construct(scene).sentences()) for scene in found}
+        assert len(drawn) <= 1, f"linkage {seed}"
+
+
+def test_most_linkages_are_regular() -> None:
+    """Chance makes few poses singular, and links of every number: the other tests are not empty."""
+    found = [next(scenes(seed)) for seed in range(LINKAGES)]
+    assert sum(rates(scene) is not None for scene in found) > 0.8 * len(found)
+    assert {len(scene.moving) for scene in found} == set(range(1, 10))
+    assert all(isinstance(x, Fraction) for scene in found for at in scene.points.values() for x in at)

@@ -9,7 +9,7 @@ from machine import Points, machine, seat, tip, towards, turn
          at=(190, 240))
 def dump_truck(t: float) -> Points:
     O, Q = 0j, 200 - 40j
-    A = tip(Q, t, O, 180)
+    A = tip(O, 180, Q, t)
     T = towards(O, 400, A)
     return locals()
 
@@ -21,7 +21,7 @@ ARM = dict(slides="r1 along c1 at C on BC; r2 along c2 at E on DE; r3 along c3 a
          at=((300, 130, 190), (270, 115, 205)))
 def excavator(a: float, b: float, c: float) -> Points:
     O, B = 0j, 60 - 40j
-    C = tip(B, a, O, 315)
+    C = tip(O, 315, B, a)
     D, F = seat(O, C, 360), seat(O, C, 450 - 120j)
     E = tip(D, b, F, 100)
     H, Q, G = seat(F, E, 20 + 30j), seat(F, E, -170 + 20j), seat(F, E, -210)
@@ -45,10 +45,10 @@ def backhoe(a: float, b: float, c: float) -> Points:
 
 
 @machine("arm:OAJP bell:SJT link:TU bucket:PUV c1:Q r1:A c2:R r2:S frame:OQR", drives="r1/c1 r2/c2",
-         slides="r1 along c1 at A on QA; r2 along c2 at S on RS", at=((150, 190), (185, 170)))
+         slides="r1 along c1 at A on QA; r2 along c2 at S on RS", at=((140, 130), (165, 150)))
 def front_loader_z_bar(a: float, b: float) -> Points:
     O, Q, R = 0j, 10 - 70j, 20 + 30j
-    A = tip(Q, a, O, 150)
+    A = tip(O, 150, Q, a)
     J, P = seat(O, A, 190 + 10j), seat(O, A, 290 - 70j)
     S = tip(R, b, J, 80)
     T = seat(J, S, -75 + 10j)
@@ -62,7 +62,7 @@ def front_loader_z_bar(a: float, b: float) -> Points:
          drives="rod/cylinder second/boom third/second")
 def telescopic_boom(a: float, e: float, f: float) -> Points:
     O, Q = 0j, 80 - 30j
-    A = tip(Q, a, O, 120)
+    A = tip(O, 120, Q, a)
     E, F = towards(O, e, A), towards(O, f, A)
     return locals()
 
@@ -72,7 +72,7 @@ def telescopic_boom(a: float, e: float, f: float) -> Points:
          drives="rod/cylinder second/boom r2/c2")
 def telescopic_loader_with_jib(a: float, e: float, b: float) -> Points:
     O, Q = 0j, 80 - 30j
-    A = tip(Q, a, O, 120)
+    A = tip(O, 120, Q, a)
     E = towards(O, e, A)
     D, H = seat(E, O, 60 + 20j), seat(E, O, -50)
     K = tip(H, 60, D, b)
@@ -116,7 +116,45 @@ def aerial_scissor_with_wedge(foot: float) -> Points:
 @machine("lower:OBA upper:PDC post:ACE c:Q r:B frame:OPQ", slides="r along c at B on QB", drives="r/c", at=(120, 150))
 def parallel_lift(t: float) -> Points:
     O, P, Q = 0j, 60j, 60 - 50j
-    B = tip(Q, t, O, 130)
+    B = tip(O, 130, Q, t)
     A = towards(O, 250, B)
     C, D, E = A + P, P + B, A + 80 + 100j
+    return locals()
+
+
+@machine("boom:OCDN first:NEGT second:GKS c1:B r1:C c2:D r2:E c3:T r3:K frame:OB",
+         slides="r1 along c1 at C on BC; r2 along c2 at E on DE; r3 along c3 at K on TK", drives="r1/c1 r2/c2 r3/c3",
+         at=((250, 170, 120), (280, 190, 135)))
+def concrete_pump_arm(a: float, b: float, c: float) -> Points:
+    O, B = 0j, 60 - 20j
+    C = tip(O, 240, B, a)
+    D, N = seat(O, C, 250 + 30j), seat(O, C, 400)
+    E = tip(D, b, N, 50)
+    G, T = seat(N, E, -60 - 300j), seat(N, E, -10 - 170j)
+    K = tip(G, 45, T, c)
+    S = seat(G, K, 200 - 200j)
+    return locals()
+
+
+@machine("left:OAC right:PBD c1:A r1:B frame:OP", drives="left r1/c1", slides="r1 along c1 at B on AB", at=((100, 90), (80, 70)))
+def clamshell_grab(s: float, length: float) -> Points:
+    O, P = 0j, 40 + 0j
+    A = O + 60 * turn(s)
+    B = tip(A, length, P, 60)
+    C, D = O - A / 2 + 20j, P - (B - P) / 2 + 20j
+    return locals()
+
+
+@machine("left:OAC right:OBD c1:A r1:B frame:O", drives="left r1/c1", slides="r1 along c1 at B on AB", at=((150, 90), (120, 70)))
+def cylinder_between_two_arms_on_one_pin(s: float, length: float) -> Points:
+    O, A = 0j, 60 * turn(s)
+    B = tip(A, length, O, 60)
+    C, D = -1.5 * A, -1.5 * B
+    return locals()
+
+
+@machine("OAM AB PBN c:M r:N frame:OP", drives="r/c", slides="r along c at N on MN")
+def four_bar_moved_by_a_cylinder_between_its_arms() -> Points:
+    O, P, A, B = 0j, 80 + 0j, -10 + 60j, 75 + 70j
+    M, N = -20 + 15j, 80 + 90j
     return locals()

@@ -32,7 +32,7 @@ def atkinson_engine(t: float) -> Points:
     return locals()
 
 
-@machine("OAC AB BK CD PED E EFL QL FGH G HK frame:OPQ",
+@machine("OAC AB BK CD PD E EFL QL FGH G HK frame:OPQ",
          slides="3 along frame at B on 1,0; 6 along 5 at E on PD; 10 along frame at G on 1,0")
 def walschaerts_valve_gear() -> Points:
     O, P, Q, A, C = 0j, -120 + 60j, -150 + 130j, 30 + 40j, -20 + 15j

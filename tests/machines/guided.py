@@ -131,7 +131,7 @@ def toggle_press(t: float) -> Points:
     return locals()
 
 
-@machine("OL LBH B frame:O", slides="3 along frame at B on 0,1", at=(75, 110))
+@machine("OL LBH B frame:O", slides="3 along frame at B on 0,1", at=(75, 60))
 def bottle_jack_lever(t: float) -> Points:
     O, L = 0j, 40 * turn(t)
     B = reach(L, 30, 25 + 0j, 1j)

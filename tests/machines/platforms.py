@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from machine import Points, machine, tip, turn
+from machine import Points, machine, reach, tip, turn
 
 
 @machine("OA ABE frame:O", drives="1 2", at=((30, 80), (120, 20)))
@@ -37,7 +37,7 @@ def five_bar_driven_at_the_elbow(s: float, t: float) -> Points:
     return locals()
 
 
-LEGS = ((40, 60, 10), (60, 45, -15))
+LEGS = ((50, 55, 65), (60, 45, 40))
 
 
 @machine("ABCM c1:O r1:A c2:P r2:B c3:Q r3:C frame:OPQ", drives="r1/c1 r2/c2 r3/c3", at=LEGS,
@@ -87,4 +87,39 @@ def crane_cart_with_pendulum(x: float, t: float) -> Points:
     O, W = 0j, x + 0j
     K = W + 20j
     T = K - 100 * turn(t)
+    return locals()
+
+
+@machine("OA AB BC CD PD frame:OP", drives="1 3-2 5", at=((100, 40, 110), (110, 30, 115)))
+def six_links_in_a_ring(s: float, t: float, u: float) -> Points:
+    O, P, A = 0j, 120 + 0j, 80 * turn(s)
+    D = P + 70 * turn(u)
+    B = A + 50 * turn(t)
+    C = tip(B, 45, D, 60)
+    return locals()
+
+
+@machine("OA AB BC CD PD frame:OP", drives="2-1 3-2 5-4", at=((100, 40, 110), (110, 30, 115)))
+def six_links_driven_at_their_elbows(s: float, t: float, u: float) -> Points:
+    O, P, A = 0j, 120 + 0j, 80 * turn(s)
+    D = P + 70 * turn(u)
+    B = A + 50 * turn(t)
+    C = tip(B, 45, D, 60)
+    return locals()
+
+
+@machine("ABCM OD DA PE EB QF FC frame:OPQ", drives="3-2 5-4 7-6", at=LEGS)
+def three_rrr_driven_at_the_knees(x: float, y: float, t: float) -> Points:
+    O, P, Q, M = 0j, 120 + 0j, 50 + 130j, complex(x, y)
+    A, B, C = (M + 25 * turn(t + k) for k in (215, -40, 95))
+    D, E, F = tip(O, 45, A, 50), tip(P, 50, B, 45), tip(Q, 45, C, 50)
+    return locals()
+
+
+@machine("ABCM AD BE CF d:D e:E f:F frame:OPQ", drives="d/frame e/frame f/frame", at=LEGS,
+         slides="d along frame at D on OP; e along frame at E on PQ; f along frame at F on QO")
+def three_prr_platform(x: float, y: float, t: float) -> Points:
+    O, P, Q, M = 0j, 120 + 0j, 50 + 130j, complex(x, y)
+    A, B, C = (M + 25 * turn(t + k) for k in (215, -40, 95))
+    D, E, F = reach(A, 45, O, P - O), reach(B, 50, P, Q - P), reach(C, 60, Q, O - Q)
     return locals()

@@ -50,8 +50,8 @@ def stephenson_three(t: float) -> Points:
 
 @machine("QD OA ABC PB CD frame:OPQ")
 def stephenson_three_by_its_dyad() -> Points:
-    O, P, Q = 0j, 120 + 0j, 200 + 90j
-    A, B, C, D = 20 + 35j, 115 + 85j, 55 + 110j, 150 + 140j
+    O, P, Q = 0j, 120 + 0j, 230 + 60j
+    A, B, C, D = -10 + 40j, 115 + 85j, 55 + 110j, 180 + 120j
     return locals()
 
 
@@ -86,14 +86,10 @@ def pair_of_jansen_legs(t: float) -> Points:
     return locals()
 
 
-@machine("OM MCD BC AE DEF frame:OAB", at=(20, 170))
-def klann_leg(t: float) -> Points:
-    O, A, B = 0j, -23 + 62j, -59 - 18j
-    M = 27 * turn(t)
-    C = tip(M, 62, B, 32)
-    D = M + (C - M) * 1.88 * turn(-10)
-    E = tip(A, 53, D, 52)
-    F = D + (E - D) * 1.9 * turn(20)
+@machine("OM MCD BC AE DEF frame:OAB")
+def klann_leg() -> Points:
+    O, A, B, M = 160 + 75j, 137 + 137j, 101 + 57j, 133 + 75j
+    C, D, E, F = 75 + 73j, 23 + 87j, 87 + 137j, 0j
     return locals()
 
 

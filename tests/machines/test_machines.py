@@ -12,7 +12,7 @@ import graphplan as gp
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.scene import parse
 
-FAMILIES = ("fourbars", "sixbars")
+FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
 for family in FAMILIES:
     import_module(family)
 

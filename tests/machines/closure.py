@@ -23,7 +23,7 @@ class Closure:
     """A machine that can be moved, from a pose in which its lengths are true."""
 
     def __init__(self, machine: Machine, at: Points):
-        self.machine = machine
+        self.machine, self.where = machine, at
         self.size = max(abs(p - q) for p in at.values() for q in at.values())
         self.at = {point: z / self.size for point, z in at.items()}
         self.column = {link: 3 * i for i, link in enumerate(link for link in machine.links if link != "frame")}
@@ -102,12 +102,12 @@ class Closure:
 
         found: Rates = {}
         for point, z in self.at.items():
-            for kind, pair in zip(("velocity", "acceleration"), derived(self.place(q, self.carrier(point), z))):
-                found[kind, point] = complex(*pair) * self.size
+            velocity, acceleration = derived(self.place(q, self.carrier(point), z) * self.size)
+            found["velocity", point], found["acceleration", point] = complex(*velocity), complex(*acceleration)
         for link in self.column:
             found["omega", link], found["alpha", link] = derived(self.turned(q, link))
         for slide in self.machine.slides:
-            along = slide.direction(self.at)
-            for kind, rate in zip(("slide velocity", "slide acceleration"), derived(self.slip(q, slide)[0])):
-                found[kind, f"{slide.link} along {slide.along}"] = rate * self.size * along / abs(along)
+            name, along = f"{slide.link} along {slide.along}", slide.direction(self.where)
+            speed, change = derived(self.slip(q, slide)[0] * self.size / abs(along))
+            found["slide velocity", name], found["slide acceleration", name] = speed * along, change * along
         return found

@@ -90,7 +90,7 @@ class Closure:
         return "frame" if "frame" in links else links[0]
 
     def rates(self) -> Rates:
-        """The velocity and the acceleration of every point and every block on its guide, omega and alpha of each link."""
+        """Velocity and acceleration of every point and of every block on its guide, omega and alpha of each link."""
         circle = np.exp(2j * np.pi * np.arange(TIMES) / TIMES)
         inverse, q = self.inverse(self.start, 0.0), self.start[:, None] + 0 * circle
         for _ in range(60):

@@ -11,6 +11,7 @@ from machine import Machine, Points, family
 
 import graphplan as gp
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.scene import parse
 
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
@@ -97,3 +98,13 @@ def test_the_order_of_writing_means_nothing(machine: Machine, k: int) -> None:
     for order, plan in ((1, "orthogonal"), (2, "polar")):
         ours = constructed(read(machine, closure.where, order), plan)
         assert gap(ours, truth, closure.size) < ROUNDING * condition
+
+
+@pytest.mark.parametrize(("machine", "k"), marked([m for m in MACHINES + REDUNDANT if m.at == ([],)], (0,)))
+def test_round_poses_agree_exactly(machine: Machine, k: int) -> None:
+    """Where the pose is of round numbers, construction and solver are the same fractions, in any order of writing."""
+    exact = gp.analytic.solve(read(machine, machine.pose(k)), exact=True)
+    for order in (0, 1, 2):
+        for kind, named in gp.construct(read(machine, machine.pose(k), order)).read(Fractions()).items():
+            truth = getattr(exact, kind.replace(" ", "_"))
+            assert named == {name: truth[name] for name in named}

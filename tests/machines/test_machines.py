@@ -17,12 +17,7 @@ from graphplan.mechanism.scene import parse
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
 MACHINES = [machine for name in FAMILIES for machine in family(name)]
 REDUNDANT = family("redundant")
-WRONG = {  # today: halves of a driven pair whose figures hang on two links, or that serve as a bar of a relative pole
-    "backhoe", "car jack", "concrete pump arm", "excavator", "four bar moved by a cylinder between its arms",
-    "knuckle boom crane", "landing gear with the cylinder at its knee", "parallel loader",
-    "peaucellier by a cylinder across", "scissor lift with the cylinder between its bars",
-    "scissor lift with the cylinder between its stages", "telescopic loader with jib",
-}
+WRONG = {"four bar moved by a cylinder between its arms"}  # today: a driven pair serves as a bar of a relative pole
 REFUSED = {machine.name for machine in REDUNDANT}  # today: special geometry that the count of freedoms does not see
 LENGTHS = {"velocity": 1, "slide velocity": 1, "acceleration": 2, "slide acceleration": 2}  # how often derived
 ANGLES = {"omega": 1, "alpha": 2}

@@ -94,7 +94,10 @@ class Closure:
         circle = np.exp(2j * np.pi * np.arange(TIMES) / TIMES)
         inverse, q = self.inverse(self.start, 0.0), self.start[:, None] + 0 * circle
         for _ in range(60):
-            q = q - inverse @ self.residuals(q, RADIUS * circle)
+            step = inverse @ self.residuals(q, RADIUS * circle)
+            q = q - step
+            if abs(step).max() < 1e-15:
+                break
         assert abs(self.residuals(q, RADIUS * circle)).max() < 1e-13
 
         def derived(values: Any) -> tuple[Any, Any]:

@@ -32,6 +32,7 @@ class Swing(NamedTuple):
     body: str
     K: Place
     X: Place
+    source: str = ""
 
 
 class Slip(NamedTuple):

@@ -116,10 +116,10 @@ class Plan:
                 self._end(place, self._rest(place))
             case Seed(place):
                 self._end(place, self.seeded(place))
-            case Swing(body, K, X):
+            case Swing(body, K, X, source):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.board.side(self.point(K), self.point(X))
-                self._locus((X, body), getattr(self.board, self.turn)(side, through), move)
+                self._locus((X, source or body), getattr(self.board, self.turn)(side, through), move)
             case Slip(body, A, X, like, source):
                 self._locus((X, source or body), self._slipped(body, A, X, like), move)
             case Carry(body, A, B, X, source):

@@ -177,19 +177,20 @@ class Planner(Facts):
         """Ends with loci that owe each other nothing, in the body that has heard too much; last such as may."""
         told = {place: self._heard(place, body) for place in self._ends(body)}
         whole = [place for place, rank in told.items() if rank == 2]
+        own = f"{body} trial"  # a source of its own: what the body told before stands
         for X in whole:
-            if line := self._independent(body, X, whole):
-                yield Closing((line,), X, (X, body))
+            if line := self._independent(body, X, whole, own):
+                yield Closing((line,), X, (X, own))
         for K in whole:
             for (R, _), (X, source) in pairwise(self._loci(body, K)):
                 if R in told:
-                    copy = (X[0], f"{body} trial")
+                    copy = (X[0], own)
                     yield Closing((Figure(body, K, X, R=R, copy=copy),), copy, (X, source))
         if closing := self._three_loci(body):
             yield closing
         for K, X in combinations(told, 2):
             if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
-                yield Closing((Swing(body, K, X),), X, (X, body))
+                yield Closing((Swing(body, K, X, own),), X, (X, own))
 
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
@@ -206,12 +207,12 @@ class Planner(Facts):
         crossed = self._crossed(body, X)
         return [*crossed[0], crossed[1]] if crossed and self._chosen(Options(2, rare=True)) else []
 
-    def _independent(self, body: str, X: Place, ends: list[Place]) -> Move | None:
+    def _independent(self, body: str, X: Place, ends: list[Place], own: str) -> Move | None:
         """A locus for X by what the body heard elsewhere."""
         others = [place for place in ends if self.net.spot(place[0]) != self.net.spot(X[0])]
         if others:
-            return Swing(body, others[0], X)
+            return Swing(body, others[0], X, own)
         loci, like = list(self._loci(body, X)), self._like(body)
         if loci and like:
-            return Slip(body, loci[0], X, like)
-        return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
+            return Slip(body, loci[0], X, like, own)
+        return Carry(body, loci[0], loci[1], X, own) if len(loci) > 1 else None

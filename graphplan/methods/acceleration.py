@@ -71,18 +71,25 @@ class Normal(Plan):
         links = [link for link in self.net.links if link != FRAME and self._moving(link)]
         joints = {k: sum(len(self.net.links_of[p]) > 1 for p in self.net.links[k]) for k in links}
         for root in sorted(links, key=lambda link: -joints[link]):
-            if root in anchors:
-                continue
-            anchors[root] = Anchor("", self._centre(root))
-            waiting = deque([root])
-            while waiting:
-                link = waiting.popleft()
-                self.order[link] = len(self.order)
-                for other, anchor in self._beside(link):
-                    if other not in anchors and self._moving(other):
-                        anchors[other] = anchor
-                        waiting.append(other)
+            if root not in anchors:
+                self._hang(root, Anchor("", self._centre(root)), anchors)
         return anchors
+
+    def _hang(self, root: str, anchor: Anchor, anchors: dict[str, Anchor]) -> None:
+        """Give a link its anchor, and all that hang on it theirs: links tied by drives before the others."""
+        anchors[root] = anchor
+        tied, others = deque([root]), deque([root])
+        while tied or others:
+            if tied:
+                beside = self._driven_beside(tied.popleft())
+            else:
+                self.order[others[0]] = len(self.order)
+                beside = self._beside(others.popleft())
+            for link, at in beside:
+                if link not in anchors and self._moving(link):
+                    anchors[link] = at
+                    tied.append(link)
+                    others.append(link)
 
     def _centre(self, root: str) -> str:
         """The point at which the plan begins: a joint with another rich link, if the root has one."""
@@ -93,12 +100,15 @@ class Normal(Plan):
 
         return max(net.links[root], key=riches)
 
-    def _beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
-        """The links beside a link, drives first: what they prescribe is measured from there."""
+    def _driven_beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
+        """The links that drives tie to a link: what they prescribe is measured from there."""
         for weld in self.net.welds.values():
             if link in (weld.link, weld.to):
                 other = weld.to if link == weld.link else weld.link
                 yield other, Anchor(link, weld.slide.at if weld.slide else weld.at, weld.slide)
+
+    def _beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
+        """The links beside a link, by pins and slides."""
         for point in self.net.links[link]:
             for other in self.net.links_of[point]:
                 yield other, Anchor(link, point)

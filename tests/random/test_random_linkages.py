@@ -1,4 +1,4 @@
-"""Any linkage that the drives determine is constructed as the solver has it, to the last digit, in any order of writing.
+"""Any linkage that its drives determine is constructed as the solver has it, to the last digit, in any order.
 
 More than CI tries: `LINKAGES=7000 python -m pytest tests/random`.
 """

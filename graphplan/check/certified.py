@@ -48,8 +48,8 @@ class Certified(Report):
 
     def truth(self, part: str) -> Mapping[str, Any]:
         """The solver's values for one kind of reading."""
-        if self.rubbed and part.endswith("with friction"):
-            return {str(k): value for k, value in enumerate(self.rubbed.balances, 1)}
+        if self.rubbed and self.held and part.endswith("with friction"):
+            return self.held.named(self.rubbed.balances)
         return super().truth(part)
 
     @cached_property

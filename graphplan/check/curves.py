@@ -51,10 +51,14 @@ def quantities(scene: Scene, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
 
 def asking(scene: Scene, wanted: Sequence[Quantity]) -> Scene:
     """The scene, asking also for what these quantities are told by."""
+    find = scene.find
     points = [point for quantity in wanted for point in quantity.points]
     velocity, acceleration = (tuple(p for p in scene.points if p in {*asked, *points})
-                              for asked in (scene.find.velocity, scene.find.acceleration))
-    return replace(scene, find=replace(scene.find, velocity=velocity, acceleration=acceleration))
+                              for asked in (find.velocity, find.acceleration))
+    names = [quantity.name for quantity in wanted]
+    links, slides = (None if asked is None else tuple(name for name in known if name in {*asked, *names})
+                     for asked, known in ((find.links, scene.moving), (find.slides, [s.name for s in scene.slides])))
+    return replace(scene, find=replace(find, velocity=velocity, acceleration=acceleration, links=links, slides=slides))
 
 
 def curves(found: Cycle, wanted: Sequence[Quantity]) -> list[Curve]:

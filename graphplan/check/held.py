@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -36,11 +36,15 @@ class Held:
         arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
         joints = {pair_name(p, link): self.reactions.joints[p, link] for p, link, _ in pairs(self.scene)}
         slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
-        balances = {str(k): value for k, value in enumerate(self.reactions.balances, 1)}
+        balances = self.named(self.reactions.balances)
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
         turned = {name: value for name, value in balances.items() if name not in held}
         return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
                 "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._standing}
+
+    def named(self, values: Iterable[Any]) -> dict[str, Any]:
+        """What is said of each balance in the scene's order, by its name."""
+        return dict(zip(self.scene.loads.named_balances if self.scene.loads else (), values, strict=True))
 
     @property
     def asked(self) -> list[tuple[str, str, str]]:
@@ -50,14 +54,16 @@ class Held:
 
     @property
     def rubbed(self) -> dict[str, Any]:
-        """The balances with friction that are drawn, in one round."""
-        return {name: value for kind in RUBBED for name, value in self.results.get(kind, {}).items()}
+        """The balances with friction that are drawn, in one round, in the scene's order."""
+        found = {name: value for kind in RUBBED for name, value in self.results.get(kind, {}).items()}
+        order = self.scene.loads.named_balances if self.scene.loads else ()
+        return {name: found[name] for name in order if name in found}
 
     @property
     def _standing(self) -> dict[str, dict[str, Any]]:
         """The balances with friction as they stand in the end, where some are drawn: a round of their own."""
         kinds = [kind for kind in RUBBED if kind in self.results and self.rounds]
-        return {kind: {str(k): value for k, value in enumerate(self.standing.balances, 1)
+        return {kind: {name: value for name, value in self.named(self.standing.balances).items()
                        if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in kinds}
 
     def _arm(self, slide: Slide) -> Any:
@@ -103,12 +109,12 @@ class Held:
     def _delivered(self, suffix: str) -> Any:
         """The power that the balances of the construction give, in force * length/s."""
         loads, rates, delivered = self.scene.loads, self.reactions.rates, 0.0
-        for number, balance in enumerate(loads.balances if loads else (), 1):
+        for name, balance in loads.named_balances.items() if loads else ():
             if balance.at:
-                force, velocity = self.results["balance" + suffix][str(number)], rates.velocity[balance.at]
+                force, velocity = self.results["balance" + suffix][name], rates.velocity[balance.at]
                 delivered += force[0] * velocity[0] + force[1] * velocity[1]
             else:
-                moment = self.results["balance moment" + suffix][str(number)]
+                moment = self.results["balance moment" + suffix][name]
                 delivered += moment * metre(self.scene.units) * rates.omega[balance.link]
         return delivered
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Slide
+from graphplan.methods.readings import balances
 
 if TYPE_CHECKING:
     from graphplan.check.held import Held
@@ -43,7 +44,7 @@ def _forces(found: Report) -> dict[str, Any]:
     """Balance and reactions; nothing where there are no loads."""
     if found.held is None:
         return {}
-    balances = [_kept(found, str(k)) for k in range(1, len(found.held.power) + 1)]
+    told = _balances(found, balances(found.scene, found.results))
     entries: list[dict[str, Any]] = []
     for point, link, pin in found.held.asked:
         force = _number(found.results["reaction"][f"{link} at {point}"])
@@ -51,8 +52,8 @@ def _forces(found: Report) -> dict[str, Any]:
     for slide in found.scene.slides:
         if slide.name in found.results.get("slide reaction", {}):
             entries.append(_slide(found, slide))
-    told = {"balance": balances[0] if len(balances) == 1 else balances} if balances else {}
-    return {**told, "reactions": entries, **_friction(found.held)}
+    kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
+    return {**kept, "reactions": entries, **_friction(found, found.held)}
 
 
 def _slide(found: Report, slide: Slide) -> dict[str, Any]:
@@ -67,14 +68,13 @@ def _slide(found: Report, slide: Slide) -> dict[str, Any]:
     }
 
 
-def _friction(held: Held) -> dict[str, Any]:
+def _friction(found: Report, held: Held) -> dict[str, Any]:
     """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
     if not held.rubbed:
         return {}
-    drawn = [held.rubbed[name] for name in sorted(held.rubbed)]
-    told = {"balance": [_balance(value) for value in drawn], "efficiency": held.efficiency}
+    told = {"balance": _balances(found, held.rubbed), "efficiency": held.efficiency}
     if held.rounds:
-        told["stands"] = {"balance": [_balance(value) for value in held.standing.balances],
+        told["stands"] = {"balance": _balances(found, held.named(held.standing.balances)),
                           "efficiency": held.standing.efficiency}
     return {"friction": told}
 
@@ -90,15 +90,11 @@ def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]
     return table
 
 
-def _kept(found: Report, name: str) -> dict[str, Any]:
-    """One balance, from the force plans, else from the lever."""
-    kinds = ("balance", "balance moment", "lever", "lever moment")
-    return next(_balance(found.results[kind][name]) for kind in kinds if name in found.results.get(kind, {}))
-
-
-def _balance(value: Any) -> dict[str, Any]:
-    """A balance as JSON takes it."""
-    return {"force" if isinstance(value, tuple) else "moment": _number(value)}
+def _balances(found: Report, values: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Balances by name as JSON takes them: a moment on a link, or a force at a point of it."""
+    named = found.scene.loads.named_balances if found.scene.loads else {}
+    return [{"force": _number(value), "link": named[name].link, "at": named[name].at} if named[name].at
+            else {"moment": _number(value), "link": named[name].link} for name, value in values.items()]
 
 
 def _number(value: Any) -> Any:

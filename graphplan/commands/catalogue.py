@@ -43,9 +43,9 @@ def run(options: argparse.Namespace) -> int:
 
 def _asked(scene: Scene) -> Iterator[str]:
     """What kinds of results a scene asks for."""
-    if scene.find.velocity:
+    if scene.find.velocity or scene.find.links or scene.find.slides:
         yield "velocity"
-    if scene.find.acceleration:
+    if scene.find.acceleration or scene.find.links or scene.find.slides:
         yield "acceleration"
     if scene.loads is not None:
         yield "forces"

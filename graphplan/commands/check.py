@@ -52,8 +52,8 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
     for part, ours in found.results.items():
         truth = found.truth(part)
         lines += [f"{part + ' ' + name:<24}{_text(ours[name]):>32}{_text(truth[name]):>32}" for name in ours]
-    powers = found.held.power if found.held else ()
-    lines += [f"{f'power balance {number}':<24}{_text(value):>32}" for number, value in enumerate(powers, 1)]
+    powers = found.held.named(found.held.power) if found.held else {}
+    lines += [f"{f'power balance {name}':<24}{_text(value):>32}" for name, value in powers.items()]
     lines.append("")
     for kind, difference in found.check.items():
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")

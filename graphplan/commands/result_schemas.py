@@ -61,8 +61,10 @@ def _units() -> Fragment:
 
 def _balance() -> Fragment:
     """The moment or the force that keeps the motion."""
-    return {"oneOf": [table({"moment": told("in force * m, counter-clockwise positive", _value())}),
-                      table({"force": told("its components", _vector())})]}
+    link = told("the link that it acts on", TEXT)
+    return {"oneOf": [table({"moment": told("in force * m, counter-clockwise positive", _value()), "link": link}),
+                      table({"force": told("its components", _vector()), "link": link,
+                             "at": told("the point of the link where it acts", TEXT)})]}
 
 
 def _reactions() -> Fragment:
@@ -91,7 +93,7 @@ def solve() -> Fragment:
         "units": told("the units of the scene, which the results are in", _units()),
         "points": told("of every point that is asked for", _by_name(_some({
             "velocity": told("in length/s", _vector()), "acceleration": told("in length/s^2", _vector())}))),
-        "links": told("of every moving link that is turned", _by_name(_some({
+        "links": told("of every link that is asked for, or of which two points are", _by_name(_some({
             "omega": told("in rad/s, counter-clockwise positive", _value()), "alpha": told("in rad/s^2", _value())}))),
         "slides": told("of the point `at` relative to the guide, along it, in fixed axes", _by_name(_some({
             "velocity": told("in length/s", _vector()), "acceleration": told("in length/s^2", _vector())}))),

@@ -125,7 +125,8 @@ B = { distances = { A = 120, C = 90 }, side = "left" }
 M = { on = "A B", distance = 60 }""",
         "links": '[links]\n1 = "O A"\n2 = "A M B"\n3 = "C B"\nframe = "O C"',
         "drive": CRANK,
-    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["B", "M"]\nacceleration = "all"',
+    }, {"units": UNITS, "sheet": SHEET,
+        "find": '[find]\nvelocity = ["B", "M"]\nacceleration = "all"\nlinks = ["2", "3"]',
         **_loads('link = "1"', "2", "M")}),
     "slider-crank": Start("Slider-crank", {
         "points": """[points]
@@ -136,7 +137,8 @@ M = { on = "A B", distance = 75 }""",
         "links": '[links]\n1 = "O A"\n2 = "A M B"\n3 = "B"\nframe = "O"',
         "slides": '[[slides]]\nlink = "3"\nalong = "frame"\nat = "B"\ndirection = [1, 0]',
         "drive": CRANK,
-    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["B"]\nacceleration = ["B", "M"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["B"]\nacceleration = ["B", "M"]\n'
+        'links = ["2"]\nslides = ["3 along frame"]',
         **_loads('link = "1"', "2", "M"), "friction": '[[friction]]\nslide = ["3", "frame"]\ncoefficient = 0.1'}),
     "slotted-link": Start("Slotted link with crank and block", {
         "points": """[points]
@@ -147,7 +149,8 @@ D = { on = "C A", distance = 250 }""",
         "links": '[links]\n1 = "O A"\n2 = "A"\n3 = "C D"\nframe = "O C"',
         "slides": '[[slides]]\nlink = "2"\nalong = "3"\nat = "A"\ndirection = "C D"',
         "drive": CRANK,
-    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["D"]\nacceleration = ["D"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["D"]\nacceleration = ["D"]\n'
+        'links = ["3"]\nslides = ["2 along 3"]',
         **_loads('link = "1"', "3", "D")}),
     "cylinder": Start("Boom on a cylinder", {
         "points": """[points]
@@ -159,7 +162,8 @@ D = [30, 40]""",
         "links": '[links]\nboom = "E A"\nbarrel = "O C"\nrod = "D A"\nframe = "O E"',
         "slides": '[[slides]]\nlink = "rod"\nalong = "barrel"\nat = "D"\ndirection = "O C"',
         "drive": '[[drive]]\nslide = ["rod", "barrel"]\nspeed = 20\nacceleration = 0',
-    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]',
+    }, {"units": UNITS, "sheet": SHEET, "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]\n'
+        'links = ["boom"]\nslides = "all"',
         **_loads('on = "rod"\nat = "D"\ndirection = "O C"', "boom", "A")}),
     "open-chain": Start("Open chain, both ends moved", {
         "points": """[points]
@@ -175,7 +179,7 @@ L = [200, 10]""",
         "points": "[points]\nO = [0, 0]\nA = [30, 40]",
         "links": '[links]\n1 = "O A"\nframe = "O"',
         "drive": CRANK,
-        "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]',
+        "find": '[find]\nvelocity = ["A"]\nacceleration = ["A"]\nlinks = ["1"]',
     }, {"units": UNITS, "sheet": SHEET, **_loads('link = "1"', "1", "A"),
         "friction": '[[friction]]\nat = "O"\nradius = 5\ncoefficient = 0.1'}),
 }

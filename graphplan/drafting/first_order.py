@@ -19,8 +19,8 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
-from graphplan.methods.construction import Construction, Reading
-from graphplan.methods.readings import kind_named, thing_named
+from graphplan.methods.construction import Construction
+from graphplan.methods.readings import Reading, kind_named, thing_named
 from graphplan.methods.tempo import extent
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.deviations import Deviation
@@ -81,6 +81,8 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     homes, largest = Planes(drawing).homes, largest_values(drawing, hand.values)
     found = []
     for reading, _, value in readings(drawing, hand.draw(domain, errors), domain):
+        if not reading.marks:
+            continue  # it is given, not drawn
         squares = variance(value if isinstance(value, tuple) else (value,))
         wanted = [drawing.drawn.wanted[position] for position in reading.marks]
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, homes[wanted[-1]])
@@ -96,7 +98,7 @@ def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> It
     wanted = [values[index] for index in drawing.drawn.wanted]
     for reading in drawing.readings:
         marks = [wanted[position] for position in reading.marks]
-        yield reading, marks, drawing.value(reading.kind, marks, domain)
+        yield reading, marks, drawing.value(reading, marks, domain)
 
 
 def _of_mm(kind: str, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
@@ -107,7 +109,7 @@ def _of_mm(kind: str, marks: Sequence[Any], scales: Scales, panel: str) -> float
     if kind in RATES:
         turning = scales.speed if kind == "omega" else scales.acceleration
         return turning(panel) / math.dist(marks[0], marks[1])
-    if len(marks) > 2:
+    if "moment" in kind and len(marks) > 1:
         return None
     measures = {"velocity": scales.speed, "acceleration": scales.acceleration, "arm": scales.of}
     return measures.get(kind.split()[-1], scales.force)(panel)

@@ -46,6 +46,8 @@ def sampled(drawing: Construction, hand: Hand, hands: int = HANDS, seed: int = S
         domain = Arrays()
         values = hand.draw(domain, lambda step: [normal(0.0, size, hands) for size in hand.slips[step]])
         for reading, _, value in readings(drawing, values, domain):
+            if not reading.marks:
+                continue  # it is given, not drawn
             parts = np.broadcast_arrays(*(value if isinstance(value, tuple) else (value,)), missed)[:-1]
             missed = missed | np.isnan(parts).any(axis=0)
             mean, variance = np.nanmean(parts, axis=1), np.nanvar(parts, axis=1)

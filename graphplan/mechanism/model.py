@@ -7,6 +7,7 @@ angles in radians, counter-clockwise positive.
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
@@ -94,14 +95,18 @@ class Motion:
 
 @dataclass(frozen=True)
 class Find:
-    """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted.
+    """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
+    whose rates and slides whose velocities and accelerations are wanted.
 
-    `reactions` is None where nothing is said of them: then all are found where there are loads.
+    None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
+    two points are asked for, and the sliding of pairs whose point is asked for.
     """
 
     velocity: tuple[str, ...]
     acceleration: tuple[str, ...]
     reactions: tuple[str, ...] | None = None
+    links: tuple[str, ...] | None = None
+    slides: tuple[str, ...] | None = None
 
 
 @dataclass(frozen=True)
@@ -142,6 +147,14 @@ class Balance:
     direction: Pair | None = None
     written: Written = field(default=None, compare=False)
 
+    @property
+    def spellings(self) -> tuple[str, str, str]:
+        """Its names, each longer than the one before: by the link, by a force's point, and by its direction, too."""
+        if self.direction is None:
+            return self.link, self.link, self.link
+        dx, dy = map(float, self.direction)
+        return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
+
 
 @dataclass(frozen=True)
 class Friction:
@@ -163,6 +176,14 @@ class Loads:
     moments: tuple[Moment, ...]
     balances: tuple[Balance, ...]
     frictions: tuple[Friction, ...] = ()
+
+    @cached_property
+    def named_balances(self) -> dict[str, Balance]:
+        """The balances by their names in results: the link, or where several act on one, more of what tells them apart.
+        """
+        borne = Counter(name for balance in self.balances for name in dict.fromkeys(balance.spellings))
+        return {next((name for name in balance.spellings if borne[name] == 1), balance.spellings[-1]): balance
+                for balance in self.balances}
 
 
 @dataclass(frozen=True)

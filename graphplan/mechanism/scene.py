@@ -21,6 +21,8 @@ from graphplan.mechanism.numerals import decimal
 from graphplan.mechanism.placements import needs, place, read_placement
 from graphplan.mechanism.sections import (
     Names,
+    moving_links,
+    read_asked,
     read_drives,
     read_links,
     read_motions,
@@ -173,18 +175,23 @@ def _presentation(item: Item | None, units: Units) -> Presentation:
 
 
 def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
-    """What is asked for: if nothing is said, velocity and acceleration of every joint that can move."""
+    """What is asked for: if nothing is said, velocity and acceleration of every joint that can move, or where there is
+    none of every point that can, and the rates of every link."""
     if item is not None:
-        fields = item.fields(("velocity", "acceleration", "reactions"), {}) or {}
-        reactions = fields.pop("reactions", None)
-        asked = {key: read_question(entry, names) for key, entry in fields.items()}
-        forces = None if reactions is None else read_reactions(reactions, names, slides)
-        return Find(asked.get("velocity", ()), asked.get("acceleration", ()), forces)
+        fields = item.fields(("velocity", "acceleration", "links", "slides", "reactions"), {}) or {}
+        return Find(
+            read_question(fields["velocity"], names) if "velocity" in fields else (),
+            read_question(fields["acceleration"], names) if "acceleration" in fields else (),
+            read_reactions(fields["reactions"], names, slides) if "reactions" in fields else None,
+            read_asked(fields["links"], "link", moving_links(names)) if "links" in fields else None,
+            read_asked(fields["slides"], "slide", [s.name for s in slides], "slides") if "slides" in fields else None,
+        )
     fixed = names.links.get(FRAME, ())
     named = Counter(point for points in names.links.values() for point in points)
     at = {slide.at for slide in slides}
-    moving = tuple(p for p in names.points if (named[p] > 1 or p in at) and p not in fixed)
-    return Find(moving, moving)
+    movable = [p for p in names.points if named[p] and p not in fixed]
+    moving = tuple(p for p in movable if named[p] > 1 or p in at) or tuple(movable)
+    return Find(moving, moving, links=moving_links(names))
 
 
 def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | float]], faults: Faults) -> None:

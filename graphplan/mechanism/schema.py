@@ -138,6 +138,10 @@ def _find() -> Fragment:
     return table({
         "velocity": told('the points whose velocities are asked for, or "all"', names(POINT)),
         "acceleration": told('the points whose accelerations are asked for, or "all"', names(POINT)),
+        "links": told('the links whose angular velocities and accelerations are asked for, or "all"; without it those '
+                      "of which two points are asked for", names(LINK)),
+        "slides": told('the slides (such as "3 along 2") whose velocities and accelerations are asked for, or "all"; '
+                       "without it those whose point is asked for", names(TEXT)),
         "reactions": told('the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
                           names(TEXT)),
     }, required=())
@@ -219,7 +223,8 @@ def scene() -> Fragment:
         "slides": told("a sliding pair: one link slides along another", listed(_slide())),
         "drive": told("what drives it: one entry for each degree of freedom", listed(_drive())),
         "motion": told("the given motion of a point, for open chains", _motion()),
-        "find": told("what is asked for; without it the velocity and acceleration of every joint", _find()),
+        "find": told("what is asked for; without it the velocity and acceleration of every joint, and the "
+                     "rates of every link", _find()),
         "sheet": told("how the sheet should look; the command line has the last word", _sheet()),
         "masses": told("the mass of a link", _masses()),
         "forces": told("a force on a link", listed(_force())),

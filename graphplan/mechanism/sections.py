@@ -262,3 +262,27 @@ def read_question(item: Item, names: Names) -> tuple[str, ...]:
         elif point is not None:
             asked[point] = None
     return tuple(asked)
+
+
+def moving_links(names: Names) -> tuple[str, ...]:
+    """The links that are not the frame."""
+    return tuple(link for link in names.links if link != FRAME)
+
+
+def read_asked(item: Item, kind: str, known: Collection[str], *tables: str) -> tuple[str, ...]:
+    """The links or slides of which something is asked; "all" are all of them."""
+    if not item.faults.none_in("links", *tables):
+        return ()  # what is meant may be among those that have faults
+    if item.value == "all":
+        return tuple(known)
+    if not isinstance(item.value, list):
+        such = {"link": '["2", "3"]', "slide": '["3 along 2"]'}[kind]
+        item.fault(f"{described(item.value)} where a list of {kind}s is wanted", f'a list such as {such}, or "all"')
+        return ()
+    asked: dict[str, None] = {}
+    for entry in item.value:
+        if entry == FRAME:
+            item.fault("the frame stands still", f"a moving {kind}")
+        elif (name := Item(entry, item.where, item.faults).name_of(kind, known)) is not None:
+            asked[name] = None
+    return tuple(asked)

@@ -12,8 +12,9 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.network import Network
+from graphplan.methods.readings import ACCELERATION, VELOCITY, Vectors, balances
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -29,21 +30,27 @@ STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at
 class Poses:
     """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
 
-    All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place.
+    All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place; fixed
+    points stand still in all.
     """
 
+    scene: Scene
+    n: int
     results: Results
     faults: Faults
 
     @property
-    def velocity(self) -> dict[str, Any]:
+    def velocity(self) -> Vectors:
         """The velocities of points."""
-        return self.results.get("velocity", {})
+        return self._vectors(VELOCITY)
 
     @property
-    def acceleration(self) -> dict[str, Any]:
+    def acceleration(self) -> Vectors:
         """The accelerations of points."""
-        return self.results.get("acceleration", {})
+        return self._vectors(ACCELERATION)
+
+    def _vectors(self, kind: str) -> Vectors:
+        return Vectors(self.results.get(kind, {}), self.scene.links.get(FRAME, ()), np.zeros(self.n, dtype=complex))
 
     @property
     def omega(self) -> dict[str, Any]:
@@ -62,10 +69,9 @@ class Poses:
 
     @property
     def balances(self) -> list[Any]:
-        """The balances, by force plans or else by the lever: moments in force * m, forces as complex numbers."""
-        kinds = ("lever", "lever moment", "balance", "balance moment")
-        found = {name: value for kind in kinds for name, value in self.results.get(kind, {}).items()}
-        return [value for _, value in sorted(found.items())]
+        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
+        complex numbers."""
+        return [*balances(self.scene, self.results).values()]
 
 
 def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
@@ -83,7 +89,7 @@ def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
             progress(place.stop, n)
-    return Poses(results, faults)
+    return Poses(construction.scene, n, results, faults)
 
 
 def _wanted(construction: Construction, n: int, only: Collection[str] | None) -> Results:

@@ -9,14 +9,26 @@ from itertools import combinations
 from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene, SlidingDrive
 from graphplan.methods.acceleration import Normal, PolarAcceleration
-from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction, Reading
+from graphplan.methods.construction import Construction
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
+from graphplan.methods.panels import link_named
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
+from graphplan.methods.rates import Needed, Side, Turnings, apart, sides
+from graphplan.methods.readings import (
+    ACCELERATION,
+    ALPHA,
+    OMEGA,
+    ORDER,
+    SLIDE_ACCELERATION,
+    SLIDE_VELOCITY,
+    VELOCITY,
+    Reading,
+)
 from graphplan.methods.styles import Style, style
 from graphplan.methods.tempo import tempo
 from graphplan.methods.velocity import Orthogonal, Polar, Velocity
@@ -35,21 +47,33 @@ class Draughtsman:
         self.moves = planner.moves
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
+        self.turnings = Turnings(scene)
 
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
         velocity.draw(self.moves)
         self._points(velocity, VELOCITY, self.scene.find.velocity)
-        self._links(velocity, "omega", self.scene.find.velocity)
-        self._slides(velocity, "slide velocity", self.scene.find.velocity)
-        plan = self.accelerations(velocity) if self.scene.find.acceleration else None
+        self._links(velocity, OMEGA, self.scene.find.velocity)
+        self._slides(velocity, SLIDE_VELOCITY, self.scene.find.velocity)
+        plan = self.accelerations(velocity) if self._accelerated else None
         return self.finished(velocity, plan)
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
-        """What is drawn so far, as a construction."""
+        """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
+        which marks are drawn anyway."""
+        self._rates(plan, ALPHA)
+        self._rates(velocity, OMEGA)
+        self.readings.sort(key=lambda reading: ORDER.get(reading.kind, len(ORDER)))
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             tuple(_ways(self.moves)))
+
+    @property
+    def _accelerated(self) -> bool:
+        """Whether an acceleration is asked for that the drives do not prescribe."""
+        find = self.scene.find
+        free = any(self.turnings.given(link) is None for link in find.links or ())
+        return bool(find.acceleration or find.slides or free)
 
     def accelerations(self, velocity: Velocity) -> Normal:
         """The plan of accelerations, and what is asked of it."""
@@ -57,15 +81,20 @@ class Draughtsman:
         plan = kind(self.board, self.net, self.pose, velocity, self.moves)
         plan.draw(self.moves)
         self._points(plan, ACCELERATION, self.scene.find.acceleration)
-        self._links(plan, "alpha", self.scene.find.acceleration)
-        self._slides(plan, "slide acceleration", self.scene.find.acceleration)
+        self._links(plan, ALPHA, self.scene.find.acceleration)
+        self._slides(plan, SLIDE_ACCELERATION, self.scene.find.acceleration)
         return plan
 
-    def read(self, kind: str, of: str, *marks: Mark) -> None:
+    def read(self, kind: str, of: str, *marks: Mark, excess: Number = 0, given: Number | Pair | None = None) -> None:
         """Note what is read, and keep the marks that it is read from."""
         start = len(self.marks)
         self.marks.extend(marks)
-        self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks)))))
+        self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks))), excess, given))
+
+    def _given(self, kind: str, link: str) -> Number | None:
+        """The rate that the drives prescribe for a link."""
+        rates = self.turnings.given(link)
+        return rates and getattr(rates, kind)
 
     def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
         for name in names:
@@ -73,32 +102,63 @@ class Draughtsman:
             if place not in plan.ends:
                 why = said("no construction known here reaches it")
                 raise Refused(said("point {0}", name), why, "ask for other points")
-            self.read(kind, name, plan.home(place), plan.ends[place])
+            motion = self.scene.motions.get(name)
+            given = getattr(motion, kind) if motion else None
+            self.read(kind, name, plan.home(place), plan.ends[place], given=given)
 
     def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
-        for link in self.scene.moving:
-            known = {*asked, *self.scene.motions}
-            names = [p for p in self.scene.links[link] if p in known or FRAME in self.scene.links_of[p]]
-            names = [p for p in map(self.net.name, names) if (p, "") in plan.ends]
-            P, R = max(combinations(names, 2), key=lambda pair: self._apart(*pair), default=("", ""))
-            if set(names) & set(asked) and self._apart(P, R):
+        links, sought = self.scene.find.links, {*map(self.net.name, asked)}
+        for link in self.scene.moving if links is None else links:
+            known = sought | {*map(self.net.name, self.scene.motions)}
+            names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
+            names = [p for p in names if (p, "") in plan.ends]
+            P, R = max(combinations(names, 2), key=lambda pair: apart(self.scene, *pair), default=("", ""))
+            if P and sought & {*names}:
                 vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
-                self.read(kind, link, self.pose.points[P], self.pose.points[R], *vectors)
+                points = self.pose.points[P], self.pose.points[R]
+                self.read(kind, link, *points, *vectors, given=self._given(kind, link))
 
-    def _apart(self, P: str, R: str) -> float:
-        """How far apart two points are: a link's turning is read off its longest side."""
-        one, two = (self.scene.points.get(name, (0, 0)) for name in (P, R))
-        return max(abs(float(p - q)) for p, q in zip(one, two, strict=True))
+    def _rates(self, plan: Plan | None, kind: str) -> None:
+        """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
+        read = {reading.of for reading in self.readings if reading.kind == kind}
+        links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
+        needed = Needed(self.board, self.marks)
+        cheapest: dict[frozenset[str], Side] = {}
+        for link in links:
+            alike = self.turnings.alike(link)
+            if (given := self._given(kind, link)) is not None or plan is None:
+                self.read(kind, link, given=given)
+                continue
+            if (group := frozenset(alike)) not in cheapest:
+                side = cheapest[group] = self._cheapest(plan, link, needed)
+                needed.add(side.marks)
+            side = cheapest[group]
+            self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
+
+    def _cheapest(self, plan: Plan, link: str, needed: Needed) -> Side:
+        """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway."""
+        found = sides(plan, self.turnings.alike(link))
+        if not found:
+            why = said("no construction known here reaches it")
+            raise Refused(link_named(link), why, "ask for other links")
+        return min(found, key=needed.price)
 
     def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
-        """The sliding of each pair whose point is asked for."""
+        """The sliding of each pair that is asked for, by its name or by its point."""
+        names = self.scene.find.slides
+        drives = [drive for drive in self.scene.drives if isinstance(drive, SlidingDrive)]
+        rates = {SLIDE_VELOCITY: {(drive.link, drive.along): drive.speed for drive in drives},
+                 SLIDE_ACCELERATION: {(drive.link, drive.along): drive.acceleration for drive in drives}}
         for slide in self.scene.slides:
-            if slide.at in asked:
+            if slide.at in asked if names is None else slide.name in names:
                 begin = plan.end_in(slide.along, slide.at)
                 end = plan.end_in(slide.link, slide.at)
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)
-                self.read(kind, slide.name, plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end)
+                vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
+                given = rates[kind].get((slide.link, slide.along))
+                guide = [self.pose.guide(slide)] if given else []
+                self.read(kind, slide.name, *guide, *vector, given=given)
 
 
 def _ways(moves: Iterable[Move]) -> Iterator[Said]:

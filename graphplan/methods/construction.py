@@ -16,16 +16,26 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Program, Step
-from graphplan.mechanism.model import Number, Scene
+from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.mechanism.units import metre
+from graphplan.methods.readings import (
+    ACCELERATION,
+    FORCE_READERS,
+    NUMBERS,
+    PLANS,
+    READERS,
+    VELOCITY,
+    Reading,
+    Vectors,
+    balances,
+    prescribed,
+)
 from graphplan.methods.tempo import Tempo
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
     from graphplan.methods.replay import Free, Replay
-
-VELOCITY, ACCELERATION = "velocity", "acceleration"
 
 
 class Arrow(NamedTuple):
@@ -41,14 +51,6 @@ class Arrow(NamedTuple):
     panel: str
     start: int
     end: int
-
-
-class Reading(NamedTuple):
-    """What is read from the program: of what kind, of which thing, between which wanted marks (by position)."""
-
-    kind: str
-    of: str
-    marks: tuple[int, ...]
 
 
 @dataclass(repr=False)
@@ -129,7 +131,7 @@ class Construction:
         """How velocities, accelerations and forces are found, in a few words each."""
         found: dict[str, list[str]] = {}
         for kind in (VELOCITY, ACCELERATION):
-            if any(reading.kind == kind for reading in self.readings):
+            if any(reading.marks and PLANS.get(reading.kind) == kind for reading in self.readings):
                 ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self.ways]))
                 found[kind] = ways or [PLAIN[self.turned, kind]]
         return found | self._force_method()
@@ -196,8 +198,12 @@ class Construction:
         return self.told([values[index] for index in self.program.wanted], domain)
 
     def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
-        """All readings from the values of the wanted marks, by kind and name."""
-        return self._named(lambda r: self.value(r.kind, [wanted[position] for position in r.marks], domain))
+        """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
+        def value(reading: Reading) -> Any:
+            marks = [wanted[position] for position in reading.marks]
+            return (self.value if reading.given is None else prescribed)(reading, marks, domain)
+
+        return self._named(value)
 
     def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
         """Something for each reading, by kind and name."""
@@ -206,11 +212,14 @@ class Construction:
             results.setdefault(reading.kind, {})[reading.of] = value(reading)
         return results
 
-    def value(self, kind: str, marks: list[Any], domain: Domain) -> Any:
-        """What marks say: a rate in the scene's lengths and seconds, or a force in its units."""
-        if kind in FORCE_READERS:
-            return FORCE_READERS[kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))
-        return READERS[kind](marks, domain.lift(self.tempo.unit), self.turned)
+    def value(self, reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
+        """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
+        if not marks:
+            return prescribed(reading, marks, domain)
+        if reading.kind in FORCE_READERS:
+            return FORCE_READERS[reading.kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))
+        value = READERS[reading.kind](marks, domain.lift(self.tempo.unit), self.turned)
+        return value + domain.lift(reading.excess) if reading.excess else value
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
                  only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
@@ -277,9 +286,9 @@ class Construction:
         return self.read(Floats())
 
     @property
-    def velocity(self) -> dict[str, complex]:
-        """The velocities asked for, in length units of the scene per second."""
-        return {name: complex(*pair) for name, pair in self._floats.get(VELOCITY, {}).items()}
+    def velocity(self) -> Vectors:
+        """The velocities asked for, in length units of the scene per second; of a fixed point 0."""
+        return self._vectors(VELOCITY)
 
     @property
     def reactions(self) -> dict[str, complex]:
@@ -289,15 +298,19 @@ class Construction:
 
     @property
     def balances(self) -> list[complex | float]:
-        """The balances, by force plans or else by the lever: moments in force * m, forces as complex numbers."""
-        kinds = ("lever", "lever moment", "balance", "balance moment")
-        found = {name: value for kind in kinds for name, value in self._floats.get(kind, {}).items()}
-        return [complex(*value) if isinstance(value, tuple) else float(value) for _, value in sorted(found.items())]
+        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
+        complex numbers."""
+        found = balances(self.scene, self._floats)
+        return [complex(*value) if isinstance(value, tuple) else float(value) for value in found.values()]
 
     @property
-    def acceleration(self) -> dict[str, complex]:
-        """The accelerations asked for, in length units of the scene per second squared."""
-        return {name: complex(*pair) for name, pair in self._floats.get(ACCELERATION, {}).items()}
+    def acceleration(self) -> Vectors:
+        """The accelerations asked for, in length units of the scene per second squared; of a fixed point 0."""
+        return self._vectors(ACCELERATION)
+
+    def _vectors(self, kind: str) -> Vectors:
+        found = {name: complex(*pair) for name, pair in self._floats.get(kind, {}).items()}
+        return Vectors(found, self.scene.links.get(FRAME, ()), 0j)
 
 
 PLAIN = {
@@ -312,79 +325,3 @@ WEIGHED = ("carry", "coriolis")  # the compounds whose choice of form is told
 def _compared(reason: str) -> bool:
     """Whether there was a choice of form."""
     return isinstance(reason, Said) and reason.key == RATHER.english
-
-
-def _difference(one: Any, two: Any) -> Any:
-    return two[0] - one[0], two[1] - one[1]
-
-
-def _read_velocity(marks: list[Any], unit: Any, turned: bool) -> Any:
-    x, y = _difference(*marks)
-    return (y * unit, -x * unit) if turned else (x * unit, y * unit)
-
-
-def _read_acceleration(marks: list[Any], unit: Any, turned: bool) -> Any:
-    x, y = _difference(*marks)
-    return x * unit * unit, y * unit * unit
-
-
-def _read_omega(marks: list[Any], unit: Any, turned: bool) -> Any:
-    """From the vectors of two points P, R: marks P, R, begin and end of each."""
-    P, R, p0, p1, r0, r1 = marks
-    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
-    if not turned:
-        w = -w[1], w[0]
-    return -(u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]) * unit
-
-
-def _read_alpha(marks: list[Any], unit: Any, turned: bool) -> Any:
-    P, R, p0, p1, r0, r1 = marks
-    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
-    return (u[0] * w[1] - u[1] * w[0]) / (u[0] * u[0] + u[1] * u[1]) * unit * unit
-
-
-READERS = {
-    VELOCITY: _read_velocity,
-    ACCELERATION: _read_acceleration,
-    "omega": _read_omega,
-    "alpha": _read_alpha,
-    "slide velocity": _read_velocity,
-    "slide acceleration": _read_acceleration,
-}
-
-
-def _read_force(marks: list[Any], phi: Any, metre: Any) -> Any:
-    x, y = _difference(*marks)
-    return x / phi, y / phi
-
-
-def _read_moment(marks: list[Any], phi: Any, metre: Any) -> Any:
-    """Of forces, each by its point, tail and head, about the first mark."""
-    pole, *rest = marks
-    total = 0 * phi
-    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
-        arm, force = _difference(pole, C), _difference(tail, head)
-        total = total + (arm[0] * force[1] - arm[1] * force[0])
-    return total / phi / metre
-
-
-def _read_arm(marks: list[Any], phi: Any, metre: Any) -> Any:
-    """From the slide's point to where its reaction acts, in the scene's lengths."""
-    return _difference(*marks)
-
-
-FORCE_READERS = {
-    "reaction": _read_force,
-    "slide reaction": _read_force,
-    "slide moment": _read_moment,
-    "slide arm": _read_arm,
-    "balance": _read_force,
-    "balance moment": _read_moment,
-    "balance with friction": _read_force,
-    "balance moment with friction": _read_moment,
-    "lever": _read_force,
-    "lever moment": _read_moment,
-}
-
-# Readings that are one number; the others are vectors.
-NUMBERS = frozenset({"omega", "alpha", *(kind for kind in FORCE_READERS if "moment" in kind)})

@@ -79,12 +79,12 @@ def pair_name(point: str, link: str) -> str:
 
 def rubbed(loading: Loading, forces: Forces) -> Iterator[Result]:
     """The balances with friction, by kind and name."""
-    for number, balance in enumerate(loading.loads.balances, 1):
+    for name, balance in loading.loads.named_balances.items():
         if balance.at:
-            yield RUBBED, str(number), forces.balances[balance]
+            yield RUBBED, name, forces.balances[balance]
         else:
             pair = forces.moments[balance]
-            yield RUBBED_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
+            yield RUBBED_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:
@@ -97,12 +97,12 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
         if asked is None or slide.name in asked:
             yield SLIDE_REACTION, slide.name, forces.slides[slide]
             yield SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
-    for number, balance in enumerate(loading.loads.balances, 1):
+    for name, balance in loading.loads.named_balances.items():
         if balance.at:
-            yield BALANCE, str(number), forces.balances[balance]
+            yield BALANCE, name, forces.balances[balance]
         else:
             pair = forces.moments[balance]
-            yield BALANCE_MOMENT, str(number), _about(loading.arm(balance.link)[0], pair or ())
+            yield BALANCE_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 
 
 def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Result], list[Shown]]:
@@ -110,17 +110,17 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Resul
     scene, board = loading.scene, pose.board
     results: list[Result] = []
     shown: list[Shown] = []
-    for mode, balance in enumerate(loading.loads.balances):
+    for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
         serves = moving(scene)
         motion = velocity if serves else virtual(scene, unit_drives(scene, mode), pose, {})
         panel = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}"
         lever = Lever(board, motion, loading, panel)
         if balance.at:
             marks: tuple[Mark, ...] = lever.force(balance)
-            results.append((LEVER, str(mode + 1), marks))
+            results.append((LEVER, name, marks))
         else:
             marks = lever.moment(balance.link)
-            results.append((LEVER_MOMENT, str(mode + 1), marks))
+            results.append((LEVER_MOMENT, name, marks))
         shown += [*lever.shown, Shown("balance", f"{'F' if balance.at else 'T'}_{balance.link}", *marks[-2:])]
     return results, shown
 

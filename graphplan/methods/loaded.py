@@ -16,7 +16,7 @@ from graphplan.mechanism.model import Loads, Scene, TurningDrive
 from graphplan.mechanism.units import metre
 from graphplan.methods.acceleration import Normal
 from graphplan.methods.construct import Draughtsman
-from graphplan.methods.construction import Construction, Reading
+from graphplan.methods.construction import Construction
 from graphplan.methods.forces import Plans, Result, Way, arms, freed_reactions, levers, reactions, results, rubbed
 from graphplan.methods.friction import Rubbed
 from graphplan.methods.loading import Loading, force_scale
@@ -24,6 +24,7 @@ from graphplan.methods.network import Network
 from graphplan.methods.panels import slide_named
 from graphplan.methods.planner import Planner
 from graphplan.methods.reactions import Shown
+from graphplan.methods.readings import Reading
 from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.styles import Style
 from graphplan.methods.tempo import extent

@@ -20,6 +20,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
 from graphplan.methods.network import Network
 from graphplan.methods.planner import Planner
+from graphplan.methods.readings import ACCELERATION, ORDER, VELOCITY
 from graphplan.phrases import joined, said
 
 if TYPE_CHECKING:
@@ -140,13 +141,15 @@ def growth(program: Program) -> float:
 
 
 def growth_of_rates(construction: Construction) -> float:
-    """The same for the velocities and accelerations that are read, each kind beside its largest: the marks may lie far
-    from the origin, and the vectors between them be short."""
+    """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
+    beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
     def read(kind: str, hand: Random | None) -> list[Any] | None:
         marks = _drawn(construction.program, hand)
-        return marks and list(construction.told(marks, Floats()).get(kind, {}).values())
+        values = construction.told(marks, Floats()).get(kind, {}).values() if marks else ()
+        return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
 
-    kinds = {reading.kind for reading in construction.readings} & {"velocity", "acceleration"}
+    told = {reading.kind for reading in construction.readings}
+    kinds = told & {VELOCITY, ACCELERATION} or told & ORDER.keys()
     return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
 
 

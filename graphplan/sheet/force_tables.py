@@ -107,11 +107,11 @@ class ForceTables:
         """Each balance by force plans and by the lever, side by side."""
         loads = self.drawing.scene.loads
         table: Table = []
-        for number, balance in enumerate(loads.balances if loads else (), 1):
+        for name, balance in loads.named_balances.items() if loads else ():
             moment = "" if balance.at else " moment"
-            found = {way: self.values.get(kind.format(moment), {}).get(str(number)) for way, kind in WAYS.items()}
+            found = {way: self.values.get(kind.format(moment), {}).get(name) for way, kind in WAYS.items()}
             ways = {way: value for way, value in found.items() if value is not None}
-            off = [self._off(WAYS[way].format(moment), str(number)) for way in ways]
+            off = [self._off(WAYS[way].format(moment), name) for way in ways]
             heads = (said("balance"), *(way() for way in ways))
             table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
             table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)

@@ -18,6 +18,7 @@ from graphplan.errors import Refused
 from graphplan.handed.results import in_scene_units
 from graphplan.handed.traces import Number
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.readings import NUMBERS, Reading
 from graphplan.phrases import Said, said
 from graphplan.sheet.scales import digits
 from graphplan.verify.board import Deviation, PointDeviation, plain
@@ -67,19 +68,25 @@ def _expected(walk: Walk, values: Sequence[Any]) -> dict[Key, Expected]:
     """Every number that a drawing says."""
     drawing, found = walk.board.drawing, {}
     for reading, marks, value in readings(drawing, values, walk.board.domain):
-        home = walk.board.homes[drawing.drawn.wanted[reading.marks[-1]]]
-        length = READ * walk.board.pencil.point / walk.board.mm(home)
-        shaken = [_difference(walk, reading.kind, [plain(mark) for mark in marks], shift)
-                  for shift in ((length, 0.0), (0.0, length))]
         parts = value if isinstance(value, tuple) else (value,)
-        found[reading.kind, reading.of] = Expected(parts, math.hypot(*shaken) / math.sqrt(len(parts)))
+        found[reading.kind, reading.of] = Expected(parts, _read(walk, reading, [plain(mark) for mark in marks]))
     return found
 
 
-def _difference(walk: Walk, kind: str, marks: Sequence[Any], shift: tuple[float, float]) -> float:
+def _read(walk: Walk, reading: Reading, marks: Sequence[Any]) -> float:
+    """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
+    if not marks:
+        return 0.0
+    home = walk.board.homes[walk.board.drawing.drawn.wanted[reading.marks[-1]]]
+    length = READ * walk.board.pencil.point / walk.board.mm(home)
+    shaken = [_difference(walk, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
+    return math.hypot(*shaken) / math.sqrt(1 if reading.kind in NUMBERS else 2)
+
+
+def _difference(walk: Walk, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
     """How much a reading changes as its last mark is shifted."""
     def value(last: tuple[float, float]) -> Any:
-        found = walk.board.drawing.value(kind, [*marks[:-1], last], Floats())
+        found = walk.board.drawing.value(reading, [*marks[:-1], last], Floats())
         return complex(*found) if isinstance(found, tuple) else found
 
     x, y = marks[-1]
@@ -97,8 +104,9 @@ def _judged(walk: Walk, number: Number, own: Mapping[Key, Expected], true: Mappi
     astray = walk.erred and not Deviation(straight.off, deviation.covariance).fits(chance)
     right = deviation.fits(chance)
     reason = None if right else _reason(walk, value, key, own)
-    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, deviation.size,
-                         deviation.tolerance(chance), truth, reason[1] if reason else None, reason[0] if reason else "")
+    tolerance = deviation.tolerance(chance) if deviation.covariance.any() else 0.0  # none of a zero that is given
+    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, deviation.size, tolerance, truth,
+                         reason[1] if reason else None, reason[0] if reason else "")
 
 
 def _reason(walk: Walk, value: Sequence[float], key: Key, own: Mapping[Key, Expected]) -> tuple[str, Said] | None:

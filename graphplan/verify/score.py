@@ -9,7 +9,8 @@ from dataclasses import dataclass, fields
 from graphplan.drafting.settings import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
-from graphplan.methods.construction import ACCELERATION, VELOCITY, Construction
+from graphplan.methods.construction import Construction
+from graphplan.methods.readings import ACCELERATION, PLANS, VELOCITY
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.verify.findings import judged
 from graphplan.verify.verdict import UNSEEN, Judgement
@@ -17,8 +18,6 @@ from graphplan.verify.verdict import UNSEEN, Judgement
 POSE, FORCE, RESULTS = "pose", "force", "results"
 MOST = 1000.0  # of a weight
 LEAST = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost something
-KINDS = {"velocity": VELOCITY, "omega": VELOCITY, "slide velocity": VELOCITY,
-         "acceleration": ACCELERATION, "alpha": ACCELERATION, "slide acceleration": ACCELERATION}
 NOTHING = phrase("nothing to judge")
 GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
@@ -122,7 +121,7 @@ def served(drawing: Construction) -> list[str]:
     drawn = drawing.drawn
     groups = [FORCE if drawing.scene.loads else VELOCITY] * len(drawn)
     for group in (ACCELERATION, VELOCITY):
-        kinds = (reading for reading in drawing.readings if KINDS.get(reading.kind) == group)
+        kinds = (reading for reading in drawing.readings if PLANS.get(reading.kind) == group)
         for index in _needed(drawn, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
             groups[index] = group
     return [POSE] * drawn.givens + groups[drawn.givens:]

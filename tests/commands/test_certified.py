@@ -82,9 +82,9 @@ def run(*arguments: str) -> int:
 
 
 def numbers(value: Any) -> list[Any]:
-    """All numbers of nested results, in their order."""
+    """All numbers of nested results, in their order; names of links and points are none."""
     if isinstance(value, dict):
-        return [number for part in value.values() for number in numbers(part)]
+        return [number for key, part in value.items() if key not in ("link", "at") for number in numbers(part)]
     return [number for part in value for number in numbers(part)] if isinstance(value, tuple | list) else [value]
 
 

@@ -156,7 +156,8 @@ link = "1"
 link = "4"
 """
     told = solved(text, monkeypatch, capsys)
-    assert [list(balance) for balance in told["balance"]] == [["moment"], ["moment"]]
+    assert [list(balance) for balance in told["balance"]] == [["moment", "link"], ["moment", "link"]]
+    assert [balance["link"] for balance in told["balance"]] == ["1", "4"]
     assert told["check"]["force"] < 1e-12
 
 
@@ -200,5 +201,5 @@ def test_check_shows_three_opinions(monkeypatch: pytest.MonkeyPatch, capsys: pyt
     """`check` puts force plans and lever beside the solver, and the power balance below."""
     assert ran(["check"], REST, monkeypatch) == 0
     out = capsys.readouterr().out
-    for row in ("reaction 2 at A", "balance 1", "lever 1", "power balance 1", "largest difference in force"):
+    for row in ("reaction 2 at A", "balance 2", "lever 2", "power balance 2", "largest difference in force"):
         assert row in out

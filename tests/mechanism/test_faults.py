@@ -263,6 +263,18 @@ FAULTS: list[tuple[str, str]] = [
         PRESS + '[find]\nvelocity = "A"',
         'find.velocity: the string "A" where a list of points is wanted; a list such as ["A", "C"], or "all"',
     ),
+    (PRESS + '[find]\nlinks = ["4"]', "find.links: there is no link 4; one of 1, 2, 3"),
+    (PRESS + '[find]\nlinks = ["frame"]', "find.links: the frame stands still; a moving link"),
+    (
+        PRESS + "[find]\nlinks = 3",
+        'find.links: the number 3 where a list of links is wanted; a list such as ["2", "3"], or "all"',
+    ),
+    (PRESS + '[find]\nslides = ["3 on frame"]', "find.slides: there is no slide 3 on frame; perhaps 3 along frame"),
+    (
+        PRESS + '[find]\nslides = "3 along frame"',
+        'find.slides: the string "3 along frame" where a list of slides is wanted; '
+        'a list such as ["3 along 2"], or "all"',
+    ),
     (
         changed(PRESS, ("M = {", "Z = [9, 9]\nM = {")) + '[find]\nacceleration = ["Z"]',
         "find.acceleration: no link has the point Z, so it has no motion; a point of a link",

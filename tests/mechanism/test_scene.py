@@ -14,7 +14,7 @@ from scene_texts import ACTUATOR, OPEN, PRESS, changed
 
 from graphplan.errors import SceneError
 from graphplan.mechanism import scene as module
-from graphplan.mechanism.model import Motion, Pair, SlidingDrive, TurningDrive, Units
+from graphplan.mechanism.model import Balance, Find, Loads, Motion, Pair, SlidingDrive, TurningDrive, Units
 from graphplan.mechanism.scene import load, parse
 
 
@@ -136,6 +136,14 @@ QUESTIONS = [
     ("[find]", (), ()),
     ("", ("A", "B"), ("A", "B")),
 ]
+RATES = [
+    ('[find]\nlinks = ["3", "2", "3"]', ("3", "2"), None),
+    ('[find]\nlinks = "all"\nslides = "all"', ("1", "2", "3"), ("3 along frame",)),
+    ('[find]\nslides = ["3 along frame"]', None, ("3 along frame",)),
+    ("[find]\nlinks = []", (), None),
+    ("[find]", None, None),
+    ("", ("1", "2", "3"), None),
+]
 
 
 def test_questions() -> None:
@@ -143,6 +151,31 @@ def test_questions() -> None:
     for find, velocity, acceleration in QUESTIONS:
         asked = parse(PRESS + find, "x").find
         assert (asked.velocity, asked.acceleration) == (velocity, acceleration), find
+
+
+def test_questions_of_links_and_slides() -> None:
+    """Links and slides are asked for by name; by default the rates of every link, beside a question none by name."""
+    for find, links, slides in RATES:
+        asked = parse(PRESS + find, "x").find
+        assert (asked.links, asked.slides) == (links, slides), find
+
+
+def test_a_mechanism_without_moving_joints_is_asked_for_its_points() -> None:
+    """Of a lone crank by default the velocities of its points are asked for."""
+    crank = '[points]\nO = [0, 0]\nP = [30, 40]\n[links]\n1 = "O P"\nframe = "O"\n[[drive]]\nlink = "1"\nomega = 2'
+    assert parse(crank, "crank").find == Find(("P",), ("P",), links=("1",))
+
+
+def test_balances_are_named_by_their_links() -> None:
+    """A balance has its link's name; where several act on one link, a force its point's too, and its direction."""
+    moment, other, force = Balance("1"), Balance("2"), Balance("1", "A", (Fraction(1), Fraction(-2)))
+    upwards = Balance("1", "A", (Fraction(0), Fraction(1)))
+    for balances, names in [
+        ([moment, other], ["1", "2"]), ([force], ["1"]), ([moment, force], ["1", "1 at A"]),
+        ([upwards, force], ["1 at A along (0, 1)", "1 at A along (1, -2)"]),
+    ]:
+        loads = Loads((Fraction(0), Fraction(0)), {}, (), (), tuple(balances))
+        assert loads.named_balances == dict(zip(names, balances, strict=True))
 
 
 def test_units_and_gravity() -> None:

@@ -351,13 +351,28 @@ class Plan:
         place, locus = move.at[0], self.loci[move.at]
         trials: list[Mark] = []
         outer = self.prime
+        before = self._drawn()
         for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
+            self._back_to(before)
             self.prime = outer + prime
             start = self.board.pick(locus, self.home(place), self.pose.far_from(place), ratio=ratio)
             self._know(place, self.board.named(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]
         self.prime = outer
+        self._back_to(before)
         A1, Z1, l1, A2, Z2, l2 = trials
-        self.ends[place] = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
+        true = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
+        self._know(place, true)
         self.draw(move.moves)
+
+    def _drawn(self) -> tuple[Any, ...]:
+        """What is drawn by now."""
+        known = {body: list(places) for body, places in self.known.items()}
+        return dict(self.ends), dict(self.loci), known, set(self._told), dict(self.pole_vectors)
+
+    def _back_to(self, drawn: tuple[Any, ...]) -> None:
+        """Begin once more from what was drawn before a trial: nothing of another trial figure may serve in this one."""
+        ends, loci, known, told, vectors = drawn
+        self.ends, self.loci, self._told, self.pole_vectors = dict(ends), dict(loci), set(told), dict(vectors)
+        self.known = {body: list(places) for body, places in known.items()}

@@ -191,6 +191,20 @@ class Planner(Facts):
         for K, X in combinations(told, 2):
             if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
                 yield Closing((Swing(body, K, X, own),), X, (X, own))
+        for X, source in filter(None, (self._locus_of(place, body) for place in self.places[body])):
+            for figure in self._figures(body, X):
+                copy = (X[0], own)
+                yield Closing((figure._replace(copy=copy),), copy, (X, source))
+
+    def _figures(self, body: str, X: Place) -> Iterator[Figure]:
+        """The end of X by the others that are drawn: by one in the same spot, by one and the turning, or by two."""
+        yield from (Figure(body, K, X) for K in self._together(body, X) if K in self.drawn)
+        known, like = self._ends(body, X), self._like(body)
+        if like:
+            yield from (Figure(body, K, X, like=like) for K in known)
+        for K, R in combinations(known, 2):
+            if self.net.spot(K[0]) != self.net.spot(R[0]):
+                yield Figure(body, K, X, R=R)
 
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""

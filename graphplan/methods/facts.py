@@ -1,7 +1,9 @@
 """Facts that travel along joints: what is known of each place of a mechanism, who said so, and what follows.
 
 Each body has three unknowns, each place two. A body with two facts gives every other place of it one (a locus), with
-three facts two (the end itself). All of it happens on the mechanism's graph; the pose is not looked at.
+three facts two (the end itself). The moves are found on the mechanism's graph. The pose has one word in it: whether
+facts are independent there. Two loci of a place that are parallel are one fact, three loci of a body through one point
+are two; that is decided modulo a prime, and no length or angle matters.
 
 A fact is filed at its place under its source, so that a body never takes its own word for news.
 """
@@ -10,13 +12,18 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
+from itertools import combinations
 
+from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Slide
 from graphplan.mechanism.order import by_name
-from graphplan.methods.moves import Carry, Figure, Guide, Locus, Meet, Move, Rest, Seed, Settle, Slip, Swing
+from graphplan.methods.moves import Auxiliary, Carry, Figure, Guide, Locus, Meet, Move, Rest, Seed, Settle, Slip, Swing
 from graphplan.methods.network import Network, Place
+from graphplan.methods.residues import Image, Two, less, parallel, product, quarter, residues
 
 TRIAL = "trial"  # the source of what is only assumed
+Fact = Two | None  # the normal of a locus; nothing where the end itself is known
+ANYWHERE: Two = (1939, 1974)  # the normal of what is only assumed: like no line of the pose
 
 
 class Facts:
@@ -25,19 +32,20 @@ class Facts:
     def __init__(self, network: Network):
         self.net = network
         self.moves: list[Move] = []
-        self.facts: dict[Place, dict[str, int]] = {}
+        self.facts: dict[Place, dict[str, Fact]] = {}
         self.drawn: set[Place] = set()
         self.places = {body: network.places_of(body) for body in network.members}
         self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
         self.told: dict[tuple[str, Place], int] = {}
+        self.spots: dict[str, Two] = {}
         self.turning: dict[str, str] = {}
         self.passed: set[str] = set()
         self.retired: set[str] = set()
         self.waiting: deque[str | Slide] = deque()
         self.queued: set[str | Slide] = set()
 
-    def _overheard(self, body: str, count: int) -> None:
-        """A body has heard this many facts, three being enough: a planner with an open trial may close it here."""
+    def _overheard(self, body: str) -> None:
+        """A body has heard more facts than are independent: a planner with an open trial may close it here."""
 
     # ---- travelling -----------------------------------------------------------------------------------------
 
@@ -50,12 +58,12 @@ class Facts:
             self._wake_class(ground)
         for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
             self.moves.append(Seed((point, "")))
-            self._file((point, ""), "motion", 2)
+            self._file((point, ""), "motion", None)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)
 
     def _rest(self, place: Place) -> None:
         self.moves.append(Rest(place))
-        self._file(place, self.net.ground, 2)
+        self._file(place, self.net.ground, None)
 
     def _queue(self, *nodes: str | Slide) -> None:
         for node in nodes:
@@ -74,17 +82,16 @@ class Facts:
             elif node != self.net.ground:
                 self._through_body(node)
 
-    def _file(self, place: Place, source: str, rank: int, *, marked: bool = False) -> None:
+    def _file(self, place: Place, source: str, fact: Fact, *, marked: bool = False) -> None:
         """Enter a fact; where a place then knows enough, its end is marked, and the neighbours are told."""
         here = self.facts.setdefault(place, {})
-        here[source] = max(rank, here.get(source, 0))
-        if marked:
-            self.drawn.add(place)
-        elif place not in self.drawn and sum(here.values()) >= 2:
-            if max(here.values()) < 2:
-                one, two = list(here)[:2]
-                self.moves.append(Meet(place, (one, two)))
-            self.drawn.add(place)
+        here[source] = fact if here.get(source, fact) is not None else None
+        if place not in self.drawn:
+            pair = next(((one, two) for one, two in combinations(here, 2) if _cross(here[one], here[two])), None)
+            if pair and not marked and None not in here.values():
+                self.moves.append(Meet(place, pair))
+            if pair or marked or None in here.values():
+                self.drawn.add(place)
         self._tell(place)
 
     def _tell(self, place: Place) -> None:
@@ -97,8 +104,18 @@ class Facts:
         return self.bodies[place]
 
     def _heard(self, place: Place, body: str) -> int:
-        """What a place knows that this body did not tell it."""
-        return min(2, sum(rank for source, rank in self.facts.get(place, {}).items() if source != body))
+        """How many independent facts a place knows that this body did not tell it."""
+        facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
+        if len(facts) < 2:
+            return 2 if None in facts else len(facts)
+        return 2 if any(_cross(one, two) for one, two in combinations(facts, 2)) else 1
+
+    def _spot(self, place: Place) -> Two:
+        """Where a place lies in the pose."""
+        point = place[0]
+        if point not in self.spots:
+            self.spots[point] = residues(self.net.scene.points[point])
+        return self.spots[point]
 
     def _loci(self, body: str, but: Place = ("", "")) -> Iterator[Locus]:
         """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
@@ -111,10 +128,24 @@ class Facts:
 
     def _locus_of(self, place: Place, body: str) -> Locus | None:
         """A locus of a place that another source than this body gives."""
-        for source, rank in self.facts.get(place, {}).items():
-            if source != body and rank == 1 and not source.startswith(TRIAL):
+        for source, fact in self.facts.get(place, {}).items():
+            if source != body and fact is not None and not source.startswith(TRIAL):
                 return place, source
         return None
+
+    def _normal(self, locus: Locus) -> Two:
+        """The normal of a locus on the plan of orthogonal velocities; on the others all are turned alike."""
+        place, source = locus
+        normal = self.facts[place][source]
+        assert normal is not None
+        return normal
+
+    def _carried(self, A: Locus, B: Locus, X: Place) -> Two:
+        """The normal of the locus that two loci give a third place; nothing where their crossing tells its end."""
+        one, two = self._normal(A), self._normal(B)
+        p = product(one, less(self._spot(A[0]), self._spot(X)))
+        q = product(two, less(self._spot(B[0]), self._spot(X)))
+        return (q * one[0] - p * two[0]) % PRIME, (q * one[1] - p * two[1]) % PRIME
 
     def _like(self, body: str) -> str:
         """The body by whose turning this one's is known, if any."""
@@ -122,21 +153,33 @@ class Facts:
         return "" if source == body else source
 
     def _count(self, body: str, but: Place | None = None) -> int:
-        """How many facts a body has, but for those of one place: a spot has two at most, whatever places are there."""
-        told: dict[str, int] = {}
+        """How many independent facts a body has, but for those of one place."""
+        image = Image()
+        if self._like(body):
+            image.turning()
         for place in self.places[body]:
             if place != but:
-                spot = self.net.spot(place[0])
-                told[spot] = min(2, told.get(spot, 0) + self._heard(place, body))
-        return sum(told.values()) + bool(self._like(body))
+                self._enter(image, place, body)
+        return image.rank
+
+    def _enter(self, image: Image, place: Place, body: str) -> None:
+        """What a place tells of a body's image, besides the body's own word."""
+        at = self._spot(place)
+        for source, fact in self.facts.get(place, {}).items():
+            if source != body:
+                image.end(at) if fact is None else image.locus(fact, at)
+
+    def _excess(self, body: str) -> int:
+        """How many facts of a body follow from its others."""
+        heard = sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
+        return heard - self._count(body)
 
     def _known(self, body: str) -> bool:
         return body == self.net.ground or body in self.retired or self._count(body) >= 3
 
     def _through_body(self, body: str) -> None:
         count = self._count(body)
-        if count > 3:
-            self._overheard(body, count)
+        self._overheard(body)
         for place in list(self.places[body]):
             if place not in self.drawn:
                 rest = self._count(body, place)
@@ -160,35 +203,47 @@ class Facts:
     def _emit(self, body: str, X: Place, rank: int) -> None:
         """Tell a place what the body knows of it."""
         figure = self._figure(body, X) if rank == 2 else None
-        if rank == 2 and figure is None and not self.told.get((body, X)):
-            if begun := self._begun(body, X):
-                self.moves += begun
-                self.told[body, X] = rank
-                self._file(X, body, rank)
-                return
-            rank = 1  # known wholly, but no end is drawn yet to begin a figure at
-        whole = rank == 1 and (self._settle(body, X) or self._beside(body, X))
-        move = figure or whole or (self._line(body, X) if rank == 1 else None)
-        if move is None:
-            return
-        if isinstance(whole, (Settle, Figure)):
-            self.moves.append(Swing(body, whole.K, X))  # a locus that others may ask for; pruned if nobody does
-        self.moves.append(move)
-        self.told[body, X] = rank
-        self._file(X, body, rank, marked=bool(whole))
+        if figure:
+            self._tell_end(body, X, [figure])
+        elif not self.told.get((body, X)):  # known wholly, maybe, but no end is drawn yet to begin a figure at
+            whole = self._settle(body, X) or self._beside(body, X)
+            if whole:
+                line = Swing(body, whole.K, X)  # a locus that others may ask for; pruned if nobody does
+                self._tell_locus(body, X, [line, whole], self._swung(whole.K, X), marked=True)
+            else:
+                self._tell_line(body, X)
 
-    def _line(self, body: str, X: Place) -> Move | None:
+    def _tell_end(self, body: str, X: Place, moves: list[Move]) -> None:
+        self.moves += moves
+        self.told[body, X] = 2
+        self._file(X, body, None)
+
+    def _tell_locus(self, body: str, X: Place, moves: list[Move], normal: Two, marked: bool = False) -> None:
+        self.moves += moves
+        self.told[body, X] = 1
+        self._file(X, body, normal, marked=marked)
+
+    def _swung(self, K: Place, X: Place) -> Two:
+        """The normal of the locus that a body gives X about K."""
+        return quarter(less(self._spot(X), self._spot(K)))
+
+    def _tell_line(self, body: str, X: Place) -> None:
         """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
         here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
+        known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
         if here:
-            return Slip(body, here, X, "")
-        known = self._ends(body, X)
-        if known:
-            return Swing(body, max(known, key=lambda place: self._heard(place, body)), X)
-        loci, like = list(self._loci(body, X)), self._like(body)
-        if loci and like:
-            return Slip(body, loci[0], X, like)
-        return Carry(body, loci[0], loci[1], X) if len(loci) > 1 else None
+            self._tell_locus(body, X, [Slip(body, here, X, "")], self._normal(here))
+        elif known:
+            K = max(known, key=lambda place: self._heard(place, body))
+            self._tell_locus(body, X, [Swing(body, K, X)], self._swung(K, X))
+        elif loci and like:
+            self._tell_locus(body, X, [Slip(body, loci[0], X, like)], self._normal(loci[0]))
+        elif len(loci) > 1:
+            normal = self._carried(loci[0], loci[1], X)
+            if any(normal):
+                self._tell_locus(body, X, [Carry(body, loci[0], loci[1], X)], normal)
+            elif _cross(self._normal(loci[0]), self._normal(loci[1])):  # X is the auxiliary point itself
+                self._tell_end(body, X, [Auxiliary(body, loci[0], loci[1], X)])
 
     def _settle(self, body: str, X: Place) -> Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""
@@ -219,19 +274,25 @@ class Facts:
 
     def _crossed(self, body: str, X: Place) -> tuple[list[Move], Meet] | None:
         """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
-        loci, like = list(self._loci(body, X)), self._like(body)
-        names = f"{body} once", f"{body} again"
+        loci = [self._locus_of(place, body) for place in self.places[body]]
+        spot, like = self.net.spot(X[0]), self._like(body)
+        found: dict[str, Two] = {}
         lines: list[Move] = []
-        if like and len(loci) >= 2:
-            lines += [Slip(body, locus, X, like, name) for locus, name in zip(loci, names, strict=False)]
-        elif len(loci) >= 3:
-            pairs = (loci[0], loci[1]), (loci[0], loci[2])
-            lines += [Carry(body, A, B, X, name) for (A, B), name in zip(pairs, names, strict=True)]
-        return (lines, Meet(X, names)) if lines else None
-
-    def _begun(self, body: str, X: Place) -> list[Move]:
-        """Moves for the end of X in a body that is known by loci elsewhere; without them X waits for other facts."""
-        return []
+        if like:
+            given = [locus for locus in loci if locus and self.net.spot(locus[0][0]) != spot]
+            ways: Iterator[tuple[Move, Two]] = ((Slip(body, A, X, like), self._normal(A)) for A in given)
+        else:
+            apart = combinations(self._loci(body, X), 2)
+            ways = ((Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)
+        for move, normal in ways:
+            if any(normal) and (not found or _cross(normal, next(iter(found.values())))):
+                name = f"{body} again" if found else f"{body} once"
+                found[name] = normal
+                lines.append(move._replace(source=name))
+            if len(found) == 2:
+                one, two = found
+                return lines, Meet(X, (one, two))
+        return None
 
     def _turning_known(self, body: str) -> None:
         if self.net.classes[body] not in self.turning and len({self.net.spot(X[0]) for X in self._ends(body)}) > 1:
@@ -252,7 +313,7 @@ class Facts:
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
                 self.moves.append(Guide(slide, point, known, new))
-                self._file(target, slide.name, 1)
+                self._file(target, slide.name, residues(slide.direction))
 
     def _seen(self, slide: Slide, known: str, new: str) -> str:
         """A point whose end is known in the plane of `known`, not by way of this slide."""
@@ -263,11 +324,15 @@ class Facts:
             joints = [p for p in own if len(self.net.links_of[p]) > 1]
             return at if at in own else (joints or list(own) or [slide.at])[0]
         for place in self.places[self.net.body[known]]:
-            told = sum(rank for source, rank in self.facts.get(place, {}).items() if source != slide.name)
-            if place in self.drawn and told >= 2 and self.net.has(known, place):
+            if place in self.drawn and self._heard(place, slide.name) == 2 and self.net.has(known, place):
                 return place[0]
         return ""
 
     def _add_place(self, body: str, place: Place) -> None:
         if place not in self.places[body]:
             self.places[body].append(place)
+
+
+def _cross(one: Fact, two: Fact) -> bool:
+    """Whether two loci of a place cross in one point."""
+    return one is not None and two is not None and not parallel(one, two)

@@ -14,9 +14,10 @@ from itertools import combinations, pairwise
 from typing import NamedTuple
 
 from graphplan.errors import Refused
-from graphplan.methods.facts import TRIAL, Facts
+from graphplan.methods.facts import ANYWHERE, TRIAL, Facts
 from graphplan.methods.moves import Auxiliary, Carry, Figure, Locus, Move, Pole, Slip, Swing, Trial
 from graphplan.methods.network import POLE, Network, Place
+from graphplan.methods.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
 DEEPEST = 4  # trials within trials
@@ -68,6 +69,8 @@ class Planner(Facts):
         self._seed()
         while True:
             self._travel()
+            if self._begin():
+                continue
             loose = [body for body in self.places if not self._known(body)]
             if not loose and not self.open:
                 return self.moves
@@ -103,14 +106,22 @@ class Planner(Facts):
             slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
             loci = list(self._loci(body))
             if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
-                yield body, loci[0], loci[1]
+                if not parallel(self._normal(loci[0]), self._normal(loci[1])):
+                    yield body, loci[0], loci[1]
+
+    def _auxiliary_spot(self, one: Locus, two: Locus) -> Two:
+        """Where the auxiliary point of two loci lies: each line through its place runs as the locus does."""
+        spot = meet(*(line(self._normal(locus), self._spot(locus[0])) for locus in (one, two)))
+        assert spot is not None
+        return spot
 
     def _cross(self, body: str, one: Locus, two: Locus) -> None:
         place = (f"auxiliary point of {body}", self.net.link_at(body, one[0]))
+        self.spots[place[0]] = self._auxiliary_spot(one, two)
         self._add_place(body, place)
         self.bodies[place] = [body]
         self.moves.append(Auxiliary(body, one, two, place))
-        self._file(place, body, 2)
+        self._file(place, body, None)
 
     # ---- relative poles -------------------------------------------------------------------------------------
 
@@ -125,7 +136,12 @@ class Planner(Facts):
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
             if len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair):
-                yield pair, found
+                if self._pole_spot(found):
+                    yield pair, found
+
+    def _pole_spot(self, bars: list[Bar]) -> Two | None:
+        """Where the relative pole lies, if the bars are not parallel."""
+        return meet(*(line(self._swung(D, G), self._spot(D)) for _, D, G in bars))
 
     def _fit(self, body: str) -> bool:
         """A single link with two facts."""
@@ -134,6 +150,9 @@ class Planner(Facts):
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
         one, two = sorted(pair)
         place = (f"pole of {one} and {two}", POLE)
+        spot = self._pole_spot(bars)
+        assert spot is not None
+        self.spots[place[0]] = spot
         self.bodies[place] = [one, two]
         for body in (one, two):
             self._add_place(body, place)
@@ -149,19 +168,22 @@ class Planner(Facts):
         if len(self.open) >= DEEPEST:
             return []
         loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
-                for source, rank in self.facts.get(place, {}).items() if rank == 1]
+                for source, fact in self.facts.get(place, {}).items() if fact is not None]
         return list(dict.fromkeys(loci))
 
     def _try(self, at: Locus) -> None:
         """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
         self.open.append(_Open(at, len(self.moves)))
-        self._file(at[0], TRIAL + str(len(self.open)), 1, marked=True)
+        self.spent |= {body: max(self._excess(body), self.spent.get(body, 0)) for body in self.places}
+        self._file(at[0], TRIAL + str(len(self.open)), ANYWHERE, marked=True)
 
-    def _overheard(self, body: str, count: int) -> None:
+    def _overheard(self, body: str) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
-        if not self.open or count - self.spent.get(body, 0) <= 3:
+        if not self.open or self._excess(body) <= self.spent.get(body, 0):
             return
         closings = list(self._closings(body))
+        if not closings:
+            return
         taken = self._chosen(Options(len(closings) + 1, rare=True)) if len(closings) > 1 else 0
         if taken >= len(closings):
             return  # another body may close it
@@ -216,10 +238,16 @@ class Planner(Facts):
         copy = (meet.place[0], f"{body} trial")
         return Closing((*lines, meet._replace(copy=copy)), copy, loci[0])
 
-    def _begun(self, body: str, X: Place) -> list[Move]:
-        """The end of X where a body's loci are all elsewhere: a beginning of its own, or nothing, so that X waits."""
-        crossed = self._crossed(body, X)
-        return [*crossed[0], crossed[1]] if crossed and self._chosen(Options(2, rare=True)) else []
+    def _begin(self) -> bool:
+        """Begin the figure of a body that is known by loci alone, if there is one that nobody gives an end to."""
+        for body in self.places:
+            if body != self.net.ground and body not in self.retired and self._count(body) == 3:
+                for X in self.places[body]:
+                    crossed = self._crossed(body, X) if X not in self.drawn else None
+                    if crossed and not self._ends(body):
+                        self._tell_end(body, X, [*crossed[0], crossed[1]])
+                        return True
+        return False
 
     def _independent(self, body: str, X: Place, ends: list[Place], own: str) -> Move | None:
         """A locus for X by what the body heard elsewhere."""

@@ -7,6 +7,7 @@ determine twice or not at all.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 
@@ -78,23 +79,36 @@ def _reached(near: Mapping[str, Iterable[str]], start: list[str]) -> set[str]:
     return reached
 
 
-def check_mobility(scene: Scene, faults: Faults) -> None:
-    """As many drives and given motions as degrees of freedom, and each link held just once."""
+def check_mobility(scene: Scene, faults: Faults) -> Scene:
+    """The scene, with what special geometry makes redundant in it.
+
+    Else as many drives and given motions as degrees of freedom, and each link held just once.
+    """
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
     given = drives + 2 * motions
     told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")
     what = f"mobility {freedoms} but {told}"
+    held = bracing(scene)
     if freedoms < given:
+        if not held.loose and (drives or motions):
+            from graphplan.mechanism.special import special  # few scenes need it
+
+            found = special(scene)
+            if found and found.shaking:
+                shake = f"{_listed(found.shaking)} can shake in this pose but not move"
+                faults.add("links", shake, "lengths with which they move, or fewer joints and slides")
+            if found:
+                return replace(scene, redundant=found.redundant, repeating=found.repeating)
         instead = "fewer drives, or fewer joints and slides" if freedoms > 0 else "a chain with fewer joints and slides"
         faults.add("drive", what, instead)
-        return
-    held = bracing(scene)
+        return scene
     loose, twice = _listed(held.loose), _listed(held.overbraced)
     if freedoms > given:
         faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
     elif not held.sound:
         what = f"{twice} {_are(held.overbraced)} overbraced while {loose} {_are(held.loose)} loose"
         faults.add("links", what, "joints, slides and drives that hold each link just once")
+    return scene
 
 
 def check_balance(scene: Scene, faults: Faults) -> None:

@@ -16,7 +16,7 @@ from graphplan.mechanism.faults import Faults, perhaps
 from graphplan.mechanism.items import Item, quoted
 from graphplan.mechanism.loads import TABLES as LOADS
 from graphplan.mechanism.loads import check_loads, read_loads, read_reactions
-from graphplan.mechanism.model import FRAME, Find, Placement, Presentation, Scene, Slide, Units
+from graphplan.mechanism.model import FRAME, Find, Pair, Placement, Presentation, Scene, Slide, Units
 from graphplan.mechanism.numerals import decimal
 from graphplan.mechanism.placements import needs, place, read_placement
 from graphplan.mechanism.sections import (
@@ -136,8 +136,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         irrational=tuple(names.irrational),
         sheet=_presentation(items.get("sheet"), units),
     )
-    _check(scene, placed, faults)
-    return scene
+    return _checked(scene, placed, faults)
 
 
 def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
@@ -194,10 +193,10 @@ def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
     return Find(moving, moving, links=moving_links(names))
 
 
-def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | float]], faults: Faults) -> None:
-    """The checks of the whole, each where what it rests on has no faults of its own."""
+def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
+    """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
-        return
+        return scene
     guides = {point for slide in scene.slides for point in slide.through or ()}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
     if faults.none_in("points", "slides"):
@@ -207,7 +206,9 @@ def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | fl
     elif faults.none_in("links", "slides", "drive", "motion"):
         check_connections(scene, faults)
         if faults.none_in("links"):
-            check_mobility(scene, faults)
+            scene = check_mobility(scene, faults)
         if faults.none_in("links", "drive", *LOADS):
             check_loads(scene, faults)
     check_joints(scene, placed, faults)
+    return scene
+

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.phrases import Said, arranged, joined, phrase, said
 
 MECHANISM, LEVER, FRICTION, FORCE_PLAN = "mechanism", "lever", " with friction", "force plan "
@@ -111,6 +111,14 @@ def acting(name: str) -> Said:
     """The link and the joint of a reaction by its name in results, such as `2 at B`."""
     link, _, point = name.rpartition(" at ")
     return joined((_bare(link), said("at {0}", point)), " ")
+
+
+def redundancies(scene: Scene) -> Iterator[Said]:
+    """What is said of the pairs that special geometry makes redundant."""
+    joints = {condition.pair for condition in scene.redundant if condition.way in ("x", "y")}
+    for pair in scene.redundant_pairs:
+        yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
+                   acting(pair) if pair in joints else sliding(pair))
 
 
 def _bare(link: str) -> str:

@@ -55,17 +55,17 @@ class Echelon(Generic[K]):
                 weights[k] = weights.get(k, Decimal(0)) - weights[i] * factor
         return {i for i, weight in weights.items() if abs(weight) > NOTHING}
 
-    def solve(self, right: Sequence[Decimal]) -> dict[K, Decimal] | None:
-        """The solution, zero where it is free; None where the right-hand side contradicts the equations."""
+    def solve(self, right: Sequence[Decimal], chosen: Mapping[K, Decimal]) -> dict[K, Decimal] | None:
+        """The solution with chosen values of what is free; None where the right-hand side contradicts the equations."""
         sides: list[Decimal] = []
         for row, side in zip(self._rows, right, strict=True):
             sides.append(side - sum((f * sides[i] for i, f in row.taken.items()), Decimal(0)))
         size = max(map(abs, right), default=Decimal(0))
         if any(row.pivot is None and abs(side) > NOTHING * size for row, side in zip(self._rows, sides, strict=True)):
             return None
-        values: dict[K, Decimal] = {}
+        values = dict(chosen)
         for row, side in zip(reversed(self._rows), reversed(sides), strict=True):
             if row.pivot is not None:
-                known = sum((c * values.get(k, 0) for k, c in row.terms.items() if k != row.pivot), Decimal(0))
+                known = sum((c * values[k] for k, c in row.terms.items() if k != row.pivot), Decimal(0))
                 values[row.pivot] = (side - known) / row.terms[row.pivot]
         return values

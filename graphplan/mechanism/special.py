@@ -8,7 +8,7 @@ higher derivatives: the motion is continued as a power series, until a condition
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from random import Random
@@ -25,44 +25,38 @@ ORDER = 4
 
 
 class Special(NamedTuple):
-    """What special geometry makes redundant; `repeating` are all conditions that follow from others of them, so that
-    statics cannot tell their forces. Or the links that can but shake by it: they move to first order only.
+    """What rank at the pose tells of a mechanism: its degrees of freedom, and the links that have a velocity.
+
+    `moves` says whether these go beyond velocities. `redundant` are conditions without which the others say as much;
+    `repeating` are all that follow from others of them, so that statics cannot tell their forces.
     """
 
-    redundant: tuple[Condition, ...] = ()
-    repeating: tuple[Condition, ...] = ()
-    shaking: tuple[str, ...] = ()
+    freedoms: int
+    links: tuple[str, ...]
+    moves: bool
+    redundant: tuple[Condition, ...]
+    repeating: tuple[Condition, ...]
 
 
-def special(scene: Scene) -> Special | None:
-    """How special geometry lets the scene's drives determine its motion; None where it does not."""
+def special(scene: Scene) -> Special:
+    """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=DIGITS):
         system = System(replace(scene, motions={}, redundant=()), pose=fine_pose(scene))
-        found = Echelon[Unknown]()
-        pairs = sorted(system.pairs, key=_Order(scene))
-        redundant = [equation.condition for equation in pairs if not found.add(equation.terms)]
-        given = [*system.drives, *_motions(scene, system)]
-        if not all(found.add(equation.terms) for equation in given) or found.rank < len(system.unknowns):
-            return None
+        pairs, found = sorted(system.pairs, key=_Order(scene)), Echelon[Unknown]()
+        redundant = tuple(equation.condition for equation in pairs if not found.add(equation.terms))
+        repeating = tuple(pairs[i].condition for i in sorted(found.repeated()))
+        freedoms = len(system.unknowns) - found.rank
         course = _Course(system)
-        if _continues(course, found, pairs, given):
-            return Special(tuple(redundant), tuple(pairs[i].condition for i in sorted(found.repeated())))
-        return Special(shaking=tuple(sorted(filter(course.starts, scene.moving), key=by_name)))
-
-
-def _motions(scene: Scene, system: System) -> Iterator[Equation]:
-    """A given motion is prescribed as a drive's is; one link that has the point suffices."""
-    for point in scene.motions:
-        link = min(scene.links_of[point], key=by_name)
-        for way, terms in system.velocity(link, point).items():
-            yield Equation(terms, (link,), Condition(link, point, way))
+        moves = _continues(course, found, pairs, system.unknowns)
+        links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
+        return Special(freedoms, links, moves, redundant, repeating)
 
 
 class _Order:
     """The order in which conditions are taken in: of those that repeat each other the last is called redundant.
 
-    Driven links come first, then those with many pairs; of one link its pairs with the frame. Nothing depends on the
-    order in which the scene is written.
+    Driven links come first, joints before slides, then links with many pairs; of one link its pairs with the frame.
+    Nothing depends on the order in which the scene is written.
     """
 
     def __init__(self, scene: Scene):
@@ -73,20 +67,20 @@ class _Order:
             for link in (slide.link, slide.along):
                 self._pairs[link] += 1
 
-    def __call__(self, equation: Equation) -> tuple[bool, int, Key, bool, Key, str]:
+    def __call__(self, equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
         link, on, way = equation.condition
-        return link not in self._driven, -self._pairs[link], by_name(link), on not in self._fixed, by_name(on), way
+        return (link not in self._driven, way in ("across", "turn"), -self._pairs[link], by_name(link),
+                on not in self._fixed, by_name(on), way)
 
 
-def _continues(course: _Course, found: Echelon[Unknown], pairs: Sequence[Equation], given: Sequence[Equation]) -> bool:
-    """Whether the motion can be continued beyond its velocities, the drives going any way they like."""
+def _continues(course: _Course, found: Echelon[Unknown], pairs: Sequence[Equation],
+               unknowns: Iterable[Unknown]) -> bool:
+    """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
     chance = Random(1909)
     for _ in range(ORDER):
         course.lengthen()
-        wanted = [Decimal(0)] * len(pairs) + [Decimal(chance.randrange(-999, 999)) / 1000 for _ in given]
-        sides = [side - course.excess(equation.condition)
-                 for side, equation in zip(wanted, [*pairs, *given], strict=True)]
-        values = found.solve(sides)
+        any_way = {unknown: Decimal(chance.randrange(-999, 999)) / 1000 for unknown in unknowns}
+        values = found.solve([-course.excess(equation.condition) for equation in pairs], any_way)
         if values is None:
             return False
         course.settle(values)

@@ -158,7 +158,9 @@ class Facts:
         return [place for place in self.places[body] if place in self.drawn and self.net.spot(place[0]) != spot]
 
     def _emit(self, body: str, X: Place, rank: int) -> None:
-        """Tell a place what the body knows of it."""
+        """Tell a place what the body knows of it, unless others have told the same: special geometry repeats it."""
+        if (body, X) in self.net.repeating:
+            return
         figure = self._figure(body, X) if rank == 2 else None
         if rank == 2 and figure is None and not self.told.get((body, X)):
             if begun := self._begun(body, X):

@@ -11,6 +11,7 @@ Links, points, slides and drives are taken in an order of their own, so that the
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
@@ -188,6 +189,11 @@ class Network:
     def has(self, link: str, place: Place) -> bool:
         """Whether a place belongs to a link."""
         return place[1] == link or (not place[1] and place[0] in self.links[link])
+
+    @cached_property
+    def repeating(self) -> frozenset[tuple[str, Place]]:
+        """The places that have nothing new to hear from a body, since its pair there is redundant."""
+        return frozenset((self.body[c.link], (c.on, "")) for c in self.scene.redundant if c.way in ("x", "y"))
 
     def places_of(self, body: str) -> list[Place]:
         """The places of the body's own points, joints first."""

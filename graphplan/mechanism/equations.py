@@ -39,9 +39,11 @@ class Equation(NamedTuple):
 
 
 class Pose(NamedTuple):
-    """Where the points are, and the directions of the slides by their two links, in decimals."""
+    """Where the points are, in which direction each moving link's joints are held in the way x, and the directions of
+    the slides by their two links; in decimals."""
 
     points: Mapping[str, tuple[Decimal, Decimal]]
+    axes: Mapping[str, tuple[Decimal, Decimal]]
     guides: Mapping[tuple[str, str], tuple[Decimal, Decimal]]
 
 
@@ -50,7 +52,7 @@ class System:
     """All freedoms of a scene's moving links and all equations, the scene's redundant conditions left out.
 
     With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work. Without a
-    `pose` points and guides are in general position.
+    `pose` points and guides are in general position; in a pose a bar's joints are held across it (x) and along it (y).
     """
 
     scene: Scene
@@ -100,9 +102,18 @@ class System:
         for link in self.scene.moving:
             for point in self.scene.links[link]:
                 if point in joints or point in self.known:
-                    for way, terms in self.velocity(link, point).items():
-                        joint = {(("joint", point), way): -1} if point in joints else {}
-                        yield Equation(terms | joint, (link,), Condition(link, point, way))
+                    ways = self.velocity(link, point)
+                    if point in joints:
+                        ways = {way: terms | {(("joint", point), way): -1} for way, terms in ways.items()}
+                    for way, terms in self._held(link, ways).items():
+                        yield Equation(terms, (link,), Condition(link, point, way))
+
+    def _held(self, link: str, ways: dict[str, Terms]) -> dict[str, Terms]:
+        """The two equations of a joint along x and y, or in the link's own axes."""
+        if not self.pose:
+            return ways
+        ax, ay = self.pose.axes[link]
+        return {"x": _sum((ax, ways["x"]), (ay, ways["y"])), "y": _sum((-ay, ways["x"]), (ax, ways["y"]))}
 
     def _slides(self) -> Iterator[Equation]:
         """The two links turn alike, and the sliding point does not leave the guide line."""
@@ -151,12 +162,17 @@ class System:
 
     def _relative(self, link: str, other: str, point: str, along: tuple[Any, Any]) -> Terms:
         """The velocity of a point of one link relative to the other, its component along a direction."""
-        total: Terms = {}
-        for name, sign in ((link, 1), (other, -1)):
-            for factor, terms in zip(along, self.velocity(name, point).values(), strict=True):
-                for unknown, coefficient in terms.items():
-                    total[unknown] = total.get(unknown, 0) + sign * factor * coefficient
-        return total
+        return _sum(*((sign * factor, terms) for name, sign in ((link, 1), (other, -1))
+                      for factor, terms in zip(along, self.velocity(name, point).values(), strict=True)))
+
+
+def _sum(*parts: tuple[Any, Terms]) -> Terms:
+    """The sum of weighted terms."""
+    total: Terms = {}
+    for weight, terms in parts:
+        for unknown, coefficient in terms.items():
+            total[unknown] = total.get(unknown, 0) + weight * coefficient
+    return total
 
 
 def ends(drive: Drive) -> tuple[str, str]:

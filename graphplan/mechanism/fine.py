@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from decimal import Decimal, localcontext
 from fractions import Fraction
 from functools import cache, partial
+from typing import Any
 
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.equations import Pose
@@ -27,7 +29,15 @@ def fine_pose(scene: Scene) -> Pose:
         arms = {name: (_decimal(x - first[0]), _decimal(y - first[1])) for name, (x, y) in points.items()}
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
         places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
-        return Pose(places, {(slide.link, slide.along): _guide(slide, points) for slide in scene.slides})
+        axes = {link: _unit(*map(Decimal, across(scene, link, places))) for link in scene.moving}
+        return Pose(places, axes, {(slide.link, slide.along): _guide(slide, points) for slide in scene.slides})
+
+
+def across(scene: Scene, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
+    """Square to a link that is a bar between two joints; of any other link along x."""
+    joints = [places[point] for point in scene.links[link] if point in scene.joints]
+    (ax, ay), (bx, by) = joints if len(joints) == 2 else ((0, 0), (0, 0))
+    return (ay - by, bx - ax) if (ax, ay) != (bx, by) else (1, 0)
 
 
 def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
@@ -43,9 +53,13 @@ def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
 
 def _guide(slide: Slide, points: dict[str, tuple[Fraction, Fraction]]) -> Place:
     written = slide.direction if slide.written is None else vector(slide.written, points.__getitem__, FINELY)[:2]
-    dx, dy = map(_decimal, exactly(written))
-    length = (dx * dx + dy * dy).sqrt()
-    return dx / length, dy / length
+    x, y = exactly(written)
+    return _unit(_decimal(x), _decimal(y))
+
+
+def _unit(x: Decimal, y: Decimal) -> Place:
+    length = (x * x + y * y).sqrt()
+    return x / length, y / length
 
 
 def _decimal(number: Fraction) -> Decimal:

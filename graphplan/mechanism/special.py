@@ -125,8 +125,8 @@ class _Course:
         if way in ("across", "along"):
             return self._slip(link, on, way)
         assert self._pose
-        x, y = self._pose.points[on]
-        return self._cosines[link][-1] * (x if way == "x" else y)
+        (x, y), (ax, ay) = self._pose.points[on], self._pose.axes[link]
+        return self._cosines[link][-1] * (ax * x + ay * y if way == "x" else ax * y - ay * x)
 
     def _slip(self, link: str, on: str, way: str) -> Decimal:
         """The sliding point on one link relative to the other, its component along or across the guide."""

@@ -88,11 +88,20 @@ def _solved(rows: Sequence[Row], right: Sequence[Number], n: int, width: int) ->
 
 
 def _shortest(matrix: Any, sides: Any) -> Any:
-    """The shortest of the closest solutions in each pose, nan where the rank is less than in general."""
-    left, sigma, right = np.linalg.svd(matrix, full_matrices=False)
+    """A solution by least squares in each pose, its columns and rows equilibrated; nan where the rank is too small."""
+    columns = _lengths(matrix, 1)
+    rows = _lengths(matrix / columns, 2)
+    left, sigma, right = np.linalg.svd(matrix / columns / rows, full_matrices=False)
     regular = sigma[:, -1:] > _ROUNDING * sigma[:, :1]
     weights = np.divide(1.0, sigma, out=np.full_like(sigma, np.nan), where=regular)
-    return right.swapaxes(1, 2) @ (weights[:, :, None] * (left.swapaxes(1, 2) @ sides))
+    found = right.swapaxes(1, 2) @ (weights[:, :, None] * (left.swapaxes(1, 2) @ (sides / rows)))
+    return found / columns.swapaxes(1, 2)
+
+
+def _lengths(matrix: Any, axis: int) -> Any:
+    """The lengths of the columns (axis 1) or rows (axis 2) in each pose, 1 in the place of 0."""
+    lengths = np.linalg.norm(matrix, axis=axis, keepdims=True)
+    return np.where(lengths > 0, lengths, 1.0)
 
 
 def _alone(matrix: Any, side: Any) -> Any:

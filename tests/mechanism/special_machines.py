@@ -110,7 +110,7 @@ def whole(x: int, y: int) -> Complex:
     return Fraction(x), Fraction(y)
 
 
-FOCAL = focal(whole(19, 20), whole(-7, 15), whole(-5, 3), whole(4, 9), whole(-2, 3))
+FOCAL = focal(whole(4, 10), whole(2, 10), (Fraction(1), Fraction(1, 10)), whole(-4, 3), whole(2, -1))
 
 MACHINES = (
     Machine("three cranks on a parallelogram",

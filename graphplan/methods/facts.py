@@ -249,6 +249,8 @@ class Facts:
     def _through_slide(self, slide: Slide) -> None:
         """A known end in one link's plane gives the other link one locus, once."""
         for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
+            if known in self.net.passive or slide.name in self.net.unguided:
+                continue
             if slide.name not in self.passed and (point := self._seen(slide, known, new)):
                 target = self.net.place(point, new)
                 self.passed.add(slide.name)

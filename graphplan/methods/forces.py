@@ -93,9 +93,9 @@ def pair_name(point: str, link: str) -> str:
 def rubbed(loading: Loading, forces: Forces) -> Iterator[Result]:
     """The balances with friction, by kind and name."""
     for name, balance in loading.loads.named_balances.items():
-        if balance.at:
+        if balance in forces.balances:
             yield RUBBED, name, forces.balances[balance]
-        else:
+        elif balance in forces.moments:
             pair = forces.moments[balance]
             yield RUBBED_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 

@@ -114,11 +114,18 @@ def acting(name: str) -> Said:
 
 
 def redundancies(scene: Scene) -> Iterator[Said]:
-    """What is said of the pairs that special geometry makes redundant."""
-    joints = {condition.pair for condition in scene.redundant if condition.way in ("x", "y")}
+    """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
     for pair in scene.redundant_pairs:
         yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
-                   acting(pair) if pair in joints else sliding(pair))
+                   _named(pair))
+    if scene.loads and scene.indeterminate_pairs:
+        yield said("statically indeterminate, so not drawn: reactions {0}",
+                   joined(map(_named, scene.indeterminate_pairs)))
+
+
+def _named(pair: str) -> Said:
+    """A pair by its name in results."""
+    return sliding(pair) if " along " in pair else acting(pair)
 
 
 def _bare(link: str) -> str:

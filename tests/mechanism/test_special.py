@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 from random import Random
 from typing import Any
 
@@ -10,10 +11,12 @@ import numpy as np
 import pytest
 from special_machines import MACHINES, Machine
 
+from graphplan.check.printed import data
 from graphplan.check.report import report
+from graphplan.cycle import follow
 from graphplan.errors import SceneError, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
-from graphplan.mechanism.scene import parse
+from graphplan.mechanism.scene import load, packaged, parse
 from graphplan.mechanism.structure import mobility, structure
 from graphplan.solver import power, reactions, solve
 
@@ -177,3 +180,65 @@ def test_special_geometry_is_seen_in_irrational_poses() -> None:
     assert parse(PLACED, "placed").redundant_pairs == ("4 at D",)
     with pytest.raises(SceneError, match="mobility 0 but 1 drive"):
         parse(PLACED.replace("distance = 20 }", "distance = 20.00000000000000001 }"), "nearly")
+
+
+@every
+def test_any_link_may_drive_it(machine: Machine) -> None:
+    """Whatever link or slide is driven, the construction is exact, or the pose is singular for that drive."""
+    slides = [f"{link}/{along}" for link, along, *_ in machine.slides]
+    for drive in [*(link for link in machine.links if link != FRAME), *slides]:
+        try:
+            scene = parse(replace(machine, drive=drive).text(), machine.name)
+        except SceneError:  # its drive says what a slide does: the link does not turn
+            assert slides
+            assert drive in machine.links
+            continue
+        try:
+            assert not any(report(scene, exact=True).check.values()), drive
+        except SingularPose:
+            with pytest.raises(SingularPose):
+                solve(scene, exact=True)
+
+
+@every
+def test_what_hangs_on_it_has_its_reactions_drawn(machine: Machine) -> None:
+    """The reactions in the dyad are drawn, and the balance; those that equilibrium does not tell are noted."""
+    scene = parse(loaded(machine), machine.name)
+    found, told = report(scene, exact=True), reactions(scene, exact=True)
+    assert found.check["force"] == 0
+    drawn = {*found.results.get("reaction", {}), *found.results.get("slide reaction", {})}
+    assert {"Y at Z1", "Y at Z2"} <= drawn <= {f"{link} at {point}" for point, link in told.joints} | set(told.slides)
+    assert {"lever", "lever moment"} & found.results.keys()
+    assert any("statically indeterminate" in note for note in found.drawing.notes)
+
+
+def test_a_reaction_that_statics_cannot_tell_is_refused_by_name() -> None:
+    """Asked for alone it is a fault that names it; asked for beside others at its joint it is named in the results."""
+    text = loaded(MACHINES[0]) + '\n[find]\nreactions = ["{}"]'
+    with pytest.raises(SceneError, match="the reaction 4 at D is statically indeterminate"):
+        parse(text.format("D"), "asked")
+    assert data(report(parse(text.format("A"), "asked")))["indeterminate"] == ["2 at A"]
+
+
+@pytest.mark.parametrize("name", [name for name in packaged() if not load(name).motions])
+def test_a_bar_too_many_changes_nothing(name: str) -> None:
+    """A bar between two points of one link is told as redundant or makes another so, and the rates stay the same."""
+    text, scene, chance = load(name).text, load(name), Random(name)
+    link = chance.choice([link for link in scene.moving if len(scene.links[link]) > 1])
+    one, two = chance.sample(scene.links[link], 2)
+    doubled = parse(text.replace("[links]", f'[links]\nbar = "{one} {two}"', 1), name)
+    assert doubled.redundant
+    found = report(doubled, exact=not doubled.irrational)
+    assert found.agrees
+    assert all(found.rates.omega[k] == pytest.approx(omega, abs=1e-9) for k, omega in solve(scene).omega.items())
+
+
+@pytest.mark.parametrize("machine", [m for m in MACHINES if "/" not in m.drive], ids=lambda machine: machine.name)
+def test_it_is_followed_around_its_cycle(machine: Machine) -> None:
+    """From the given pose it goes on, all its lengths kept, and construction and solver agree there."""
+    scene = parse(machine.text(), machine.name)
+    points = follow(scene, 9, (-4, 4)).points
+    for link, named in scene.links.items():
+        for one, other in combinations(named, 2):
+            lengths = np.abs(points[one] - points[other])
+            assert lengths == pytest.approx(np.full(9, lengths[4]), rel=1e-9), link

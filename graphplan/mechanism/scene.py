@@ -137,14 +137,17 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
 
 
 def _counting(scene: Scene) -> set[str]:
-    """The points on whose coordinates results depend: others place points, or are points of links that nothing uses."""
+    """The points on whose coordinates results depend: others place points, or are points of links that nothing uses.
+
+    Loads may be laid off from any point of a link.
+    """
     loads = scene.loads
     found = {*scene.joints, *scene.motions, *scene.find.velocity, *scene.find.acceleration}
     for slide in scene.slides:
         found |= {slide.at, *(slide.through or ())}
     if loads is not None:
-        found |= {mass.centre for mass in loads.masses.values()} | {force.at for force in loads.forces}
-        found |= {point for b in loads.balances for point in (b.at, *(points_of(b.written) if b.written else ()))}
+        found |= {point for points in scene.links.values() for point in points}
+        found |= {point for balance in loads.balances for point in points_of(balance.written or "")}
     return found
 
 

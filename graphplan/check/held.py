@@ -34,7 +34,7 @@ class Held:
     def truth(self) -> dict[str, dict[str, Any]]:
         """What the solver says of every force that the construction gives, by the same kinds and names."""
         arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
-        joints = {pair_name(p, link): self.reactions.joints[p, link] for p, link, _ in pairs(self.scene)}
+        joints = {pair_name(p, link): force for (p, link), force in self.reactions.joints.items()}
         slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
         balances = self.named(self.reactions.balances)
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
-from graphplan.mechanism.model import Slide
+from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods.readings import balances
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def data(found: Report) -> dict[str, Any]:
         "links": _merged(found, scene.moving, omega="omega", alpha="alpha"),
         "slides": _merged(found, (s.name for s in scene.slides), velocity="slide velocity",
                                acceleration="slide acceleration"),
+        **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
         **_protocol(found),
     }
@@ -53,7 +54,15 @@ def _forces(found: Report) -> dict[str, Any]:
         if slide.name in found.results.get("slide reaction", {}):
             entries.append(_slide(found, slide))
     kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
-    return {**kept, "reactions": entries, **_friction(found, found.held)}
+    return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.held)}
+
+
+def _indeterminate(scene: Scene) -> dict[str, Any]:
+    """The pairs whose reactions are asked for, though equilibrium does not tell them."""
+    asked = scene.find.reactions
+    names = [name for name in scene.indeterminate_pairs
+             if asked is None or name in asked or name.rpartition(" at ")[2] in asked]
+    return {"indeterminate": names} if names else {}
 
 
 def _slide(found: Report, slide: Slide) -> dict[str, Any]:

@@ -130,6 +130,7 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     try:
         drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
     except Refused as refused:
+        solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
         raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
     domain: Domain = Fractions() if exact else Floats()
     try:

@@ -33,10 +33,12 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.shortcuts import shortcuts
     from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
+    from graphplan.methods.panels import redundancies
 
     scene = load(options.scene)
     found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia)
-    groups, notes = structure(scene).lines(), [str(note) for note in (*shortcuts(found.drawing), *replacements(scene))]
+    groups = structure(scene).lines()
+    notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
     if options.json:
         write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n", None)
     else:

@@ -97,9 +97,11 @@ def solve() -> Fragment:
             "omega": told("in rad/s, counter-clockwise positive", _value()), "alpha": told("in rad/s^2", _value())}))),
         "slides": told("of the point `at` relative to the guide, along it, in fixed axes", _by_name(_some({
             "velocity": told("in length/s", _vector()), "acceleration": told("in length/s^2", _vector())}))),
+        "redundant": told("the pairs that special geometry makes redundant, such as 4 at D", TEXTS),
         "balance": told("what keeps the motion: a list where there are several drives",
                         {"anyOf": [_balance(), listed(_balance())]}),
         "reactions": told("the forces of links on each other", _reactions()),
+        "indeterminate": told("the pairs whose reactions equilibrium does not tell, such as 4 at D", TEXTS),
         "friction": told("the balance with friction", _friction()),
         "method": told("how it is drawn", _by_kind(TEXTS)),
         "check": told("the largest difference from the analytic solver beside the largest value of its kind",
@@ -108,7 +110,8 @@ def solve() -> Fragment:
         "digits": told("how many digits are proven, with --digits", COUNT),
         "bounds": told("the most that a number of each kind may be off, with --digits", _by_kind(DECIMAL)),
         "pencil": told("how far off each result is drawn, with --pencil", _pencil()),
-    }, optional=("balance", "reactions", "friction", "method", "steps", "digits", "bounds", "pencil"))
+    }, optional=("redundant", "balance", "reactions", "indeterminate", "friction", "method", "steps", "digits",
+                 "bounds", "pencil"))
 
 
 # --- steps ---------------------------------------------------------------------------------------------------------

@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide, SlidingDrive
+from graphplan.mechanism.fine import across
+from graphplan.mechanism.model import FRAME, Condition, Drive, Number, Scene, Slide, SlidingDrive
 from graphplan.mechanism.structure import structure
 
 Array = Any
@@ -77,15 +78,35 @@ class Linkage:
     def _pins(self) -> Iterator[Bond]:
         """Each joint of k links is k - 1 pins, on the link that is placed first: nothing moves there, either way."""
         for point in self.scene.joints:
-            first, *others = sorted(self.scene.links_of[point], key=self.order.__getitem__)
+            held = {link: self._held(link, point, "x", "y") for link in self.scene.links_of[point]}
+            first, *others = sorted(held, key=lambda link: (len(held[link]) < 2, self.order[link]))
             for link in others:
-                yield from (Gliding(link, first, FRAME, self.places[point], way) for way in (1, 1j))
+                to, across = (FRAME, 1 + 0j) if len(held[link]) == 2 else (link, self._across(link))
+                for way in held[link]:
+                    yield Gliding(link, first, to, self.places[point], across if way == "x" else 1j * across)
 
     def _slides(self) -> Iterator[Bond]:
         for slide in self.scene.slides:
-            yield Turning(slide.link, slide.along)
-            across = 1j * direction(slide)
-            yield Gliding(slide.link, slide.along, slide.along, self.places[slide.at], across)
+            held = self._held(slide.link, slide.along, "turn", "across")
+            if "turn" in held:
+                yield Turning(slide.link, slide.along)
+            if "across" in held:
+                across = 1j * direction(slide)
+                yield Gliding(slide.link, slide.along, slide.along, self.places[slide.at], across)
+
+    def _held(self, link: str, on: str, *ways: str) -> list[str]:
+        """Those of these ways in which a pair holds a link, but for what special geometry makes redundant."""
+        return [way for way in ways if Condition(link, on, way) not in self.scene.redundant]
+
+    def _across(self, link: str) -> complex:
+        """The way x of the link's joints in the given pose; it turns with the link."""
+        way = complex(*across(self.scene, link, {name: (z.real, z.imag) for name, z in self.places.items()}))
+        return way / abs(way)
+
+    def special(self, part: tuple[str, ...]) -> bool:
+        """Whether a pair of a part is redundant by special geometry, wholly or in a condition."""
+        near = {*part, *(point for link in part for point in self.points(link))}
+        return any({condition.link, condition.on} & near for condition in self.scene.redundant)
 
     def _drives(self) -> Iterator[Bond]:
         for drive, pace in zip(self.scene.drives, self.paces, strict=True):

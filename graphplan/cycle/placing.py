@@ -87,7 +87,8 @@ class Placing:
 
     def __init__(self, linkage: Linkage):
         self.linkage = linkage
-        self.drawn = [_driven(linkage, part) or _constructed(linkage, part) for part in linkage.parts]
+        self.drawn = [None if linkage.special(part) else _driven(linkage, part) or _constructed(linkage, part)
+                      for part in linkage.parts]
 
     def poses(self, travel: Array) -> Array | None:
         """The poses at these travels as :mod:`closure` has them, nan where one cannot be drawn; none if a part is not.

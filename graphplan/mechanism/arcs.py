@@ -72,7 +72,7 @@ def _on_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -
     first = data["on"].split()[0]
     (x, y), (ux, uy, _) = at(first), vector(data["on"], at, sharp)
     length, exact = sharp.root(ux * ux + uy * uy)
-    return x + data["distance"] * ux / length, y + data["distance"] * uy / length, exact
+    return x + data["distance"] * ux / length, y + data["distance"] * uy / length, exact or not data["distance"]
 
 
 def _half_chord(square: Any, radius_square: Any, rounded: bool, sharp: Reckoning) -> tuple[Any, bool]:

@@ -45,7 +45,7 @@ def freedom(unknowns: Iterable[K], equations: Sequence[Mapping[K, int]]) -> set[
 
     Sparse elimination, lightest equation first: on chains it costs little more than reading them.
     """
-    rows = [{k: c for k, c in row.items() if c} for row in equations]
+    rows = [{k: c % PRIME for k, c in row.items() if c % PRIME} for row in equations]
     users: dict[K, set[int]] = {k: set() for k in unknowns}
     for i, row in enumerate(rows):
         for k in row:

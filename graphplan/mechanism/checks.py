@@ -7,6 +7,7 @@ determine twice or not at all.
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from itertools import combinations, pairwise
 
@@ -78,23 +79,45 @@ def _reached(near: Mapping[str, Iterable[str]], start: list[str]) -> set[str]:
     return reached
 
 
-def check_mobility(scene: Scene, faults: Faults) -> None:
-    """As many drives and given motions as degrees of freedom, and each link held just once."""
+def check_mobility(scene: Scene, faults: Faults) -> Scene:
+    """The scene, with what special geometry makes redundant in it.
+
+    A fault unless it has as many drives and given motions as degrees of freedom, and each link is held just once.
+    """
     freedoms, drives, motions = mobility(scene), len(scene.drives), len(scene.motions)
     given = drives + 2 * motions
     told = _count(drives, "drive") + (f" and {_count(motions, 'given motion')} (two degrees each)" if motions else "")
     what = f"mobility {freedoms} but {told}"
+    held = bracing(scene)
+    loose, twice = _listed(held.loose), _listed(held.overbraced)
+    if freedoms < given and not held.loose and (found := _in_its_pose(scene, given, told, faults)):
+        return found
     if freedoms < given:
         instead = "fewer drives, or fewer joints and slides" if freedoms > 0 else "a chain with fewer joints and slides"
         faults.add("drive", what, instead)
-        return
-    held = bracing(scene)
-    loose, twice = _listed(held.loose), _listed(held.overbraced)
-    if freedoms > given:
+    elif freedoms > given:
         faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
     elif not held.sound:
         what = f"{twice} {_are(held.overbraced)} overbraced while {loose} {_are(held.loose)} loose"
         faults.add("links", what, "joints, slides and drives that hold each link just once")
+    return scene
+
+
+def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene | None:
+    """The scene where rank at the pose says more than the count, or says why it is none; None where it does not."""
+    from graphplan.mechanism.special import special  # few scenes need it
+
+    found = special(scene)
+    links = _listed(found.links)
+    if found.freedoms < given:
+        return None
+    if found.freedoms > given:
+        what = f"{links} have mobility {found.freedoms} in this pose alone but {told}"
+        faults.add("links", what, "another pose, in which they have fewer degrees of freedom")
+    elif not found.moves:
+        what = f"{links} can shake in this pose but not move"
+        faults.add("links", what, "lengths with which they move, or fewer joints and slides")
+    return replace(scene, redundant=found.redundant, repeating=found.repeating)
 
 
 def check_balance(scene: Scene, faults: Faults) -> None:

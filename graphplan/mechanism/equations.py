@@ -7,13 +7,14 @@ coefficient needs coordinates, chance gives them: what holds for points in gener
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from decimal import Decimal
 from functools import cached_property
 from random import Random
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from graphplan.mechanism.model import FRAME, Drive, Scene, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import FRAME, Condition, Drive, Scene, SlidingDrive, TurningDrive
 
 PRIME = 2**61 - 1
 """Coefficients are residues of this prime: exact, of one size, and a chance zero all but impossible."""
@@ -24,7 +25,8 @@ Thing = tuple[str, str]
 Unknown = tuple[Thing, str]
 """A freedom of a thing: along x, along y, or its turning."""
 
-Terms = dict[Unknown, int]
+Terms = dict[Unknown, Any]
+"""Coefficients: whole numbers, that stand for residues, or decimals where the system is of a pose."""
 
 
 class Equation(NamedTuple):
@@ -32,18 +34,30 @@ class Equation(NamedTuple):
 
     terms: Terms
     links: tuple[str, ...]
+    condition: Condition
     drive: Drive | None = None
+
+
+class Pose(NamedTuple):
+    """Where the points are, in which direction each moving link's joints are held in the way x, and the directions of
+    the slides by their two links; in decimals."""
+
+    points: Mapping[str, tuple[Decimal, Decimal]]
+    axes: Mapping[str, tuple[Decimal, Decimal]]
+    guides: Mapping[tuple[str, str], tuple[Decimal, Decimal]]
 
 
 @dataclass(frozen=True)
 class System:
-    """All freedoms and all equations of a scene's moving links.
+    """All freedoms of a scene's moving links and all equations, the scene's redundant conditions left out.
 
-    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work.
+    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work. Without a
+    `pose` points and guides are in general position; in a pose a bar's joints are held across it (x) and along it (y).
     """
 
     scene: Scene
     balanced: bool = False
+    pose: Pose | None = None
 
     @cached_property
     def known(self) -> frozenset[str]:
@@ -60,15 +74,25 @@ class System:
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
         """All equations: of the revolute joints, of the slides, of the drives or the balances."""
-        return (*self._pins(), *self._slides(), *(self._balances() if self.balanced else self._drives()))
+        return (*self.pairs, *(self._balances() if self.balanced else self.drives))
 
     @cached_property
-    def _places(self) -> dict[str, tuple[int, int]]:
+    def pairs(self) -> tuple[Equation, ...]:
+        """The equations of the revolute joints and of the slides."""
+        dropped = frozenset(self.scene.redundant)
+        return tuple(e for e in (*self._pins(), *self._slides()) if e.condition not in dropped)
+
+    @cached_property
+    def _places(self) -> Mapping[str, tuple[Any, Any]]:
+        if self.pose:
+            return self.pose.points
         chance = Random(1939)
         return {p: (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for p in self.scene.points}
 
     @cached_property
-    def _guides(self) -> dict[tuple[str, str], tuple[int, int]]:
+    def _guides(self) -> Mapping[tuple[str, str], tuple[Any, Any]]:
+        if self.pose:
+            return self.pose.guides
         chance = Random(1966)
         return {(s.link, s.along): (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for s in self.scene.slides}
 
@@ -78,28 +102,43 @@ class System:
         for link in self.scene.moving:
             for point in self.scene.links[link]:
                 if point in joints or point in self.known:
-                    for way, terms in self._velocity(link, point).items():
-                        joint = {(("joint", point), way): PRIME - 1} if point in joints else {}
-                        yield Equation(terms | joint, (link,))
+                    ways = self.velocity(link, point)
+                    if point in joints:
+                        ways = {way: terms | {(("joint", point), way): -1} for way, terms in ways.items()}
+                    for way, terms in self._held(link, ways).items():
+                        yield Equation(terms, (link,), Condition(link, point, way))
+
+    def _held(self, link: str, ways: dict[str, Terms]) -> dict[str, Terms]:
+        """The two equations of a joint along x and y, or in the link's own axes."""
+        if not self.pose:
+            return ways
+        ax, ay = self.pose.axes[link]
+        return {"x": _sum((ax, ways["x"]), (ay, ways["y"])), "y": _sum((-ay, ways["x"]), (ax, ways["y"]))}
 
     def _slides(self) -> Iterator[Equation]:
         """The two links turn alike, and the sliding point does not leave the guide line."""
         for slide in self.scene.slides:
             pair = tuple(link for link in (slide.link, slide.along) if link != FRAME)
             x, y = self._guides[slide.link, slide.along]
-            yield Equation(self._turning(slide.link, slide.along), pair)
-            yield Equation(self._relative(slide.link, slide.along, slide.at, (-y, x)), pair)
+            turn, across = (Condition(slide.link, slide.along, way) for way in ("turn", "across"))
+            yield Equation(self._turning(slide.link, slide.along), pair, turn)
+            yield Equation(self._relative(slide.link, slide.along, slide.at, (-y, x)), pair, across)
+
+    @cached_property
+    def drives(self) -> tuple[Equation, ...]:
+        """Each drive prescribes a relative turning, or the sliding along a guide."""
+        return tuple(self._drives())
 
     def _drives(self) -> Iterator[Equation]:
-        """Each drive prescribes a relative turning, or the sliding along a guide."""
         at = {(slide.link, slide.along): slide.at for slide in self.scene.slides}
         for drive in self.scene.drives:
             one, other = ends(drive)
             pair = tuple(link for link in (one, other) if link != FRAME)
             if isinstance(drive, SlidingDrive):
-                yield Equation(self._relative(one, other, at[one, other], self._guides[one, other]), pair, drive)
+                terms = self._relative(one, other, at[one, other], self._guides[one, other])
+                yield Equation(terms, pair, Condition(one, other, "along"), drive)
             else:
-                yield Equation(self._turning(one, other), pair, drive)
+                yield Equation(self._turning(one, other), pair, Condition(one, other, "turn"), drive)
 
     def _balances(self) -> Iterator[Equation]:
         """A moment holds its link's turning, a force its point's motion along it."""
@@ -107,27 +146,33 @@ class System:
         for balance in self.scene.loads.balances if self.scene.loads else ():
             along = chance.randrange(1, PRIME), chance.randrange(1, PRIME)
             held = self._relative(balance.link, FRAME, balance.at, along) if balance.at else {}
-            yield Equation(held or self._turning(balance.link, FRAME), (balance.link,))
+            way = Condition(balance.link, FRAME, "along" if balance.at else "turn")
+            yield Equation(held or self._turning(balance.link, FRAME), (balance.link,), way)
 
-    def _velocity(self, link: str, point: str) -> dict[str, Terms]:
+    def velocity(self, link: str, point: str) -> dict[str, Terms]:
         """The velocity of a link's point, by components; the frame's has no terms."""
         if link == FRAME:
             return {"x": {}, "y": {}}
         body, (x, y) = ("link", link), self._places[point]
-        return {"x": {(body, "x"): 1, (body, "turn"): PRIME - y}, "y": {(body, "y"): 1, (body, "turn"): x}}
+        return {"x": {(body, "x"): 1, (body, "turn"): -y}, "y": {(body, "y"): 1, (body, "turn"): x}}
 
     def _turning(self, link: str, other: str) -> Terms:
-        signed = ((link, 1), (other, PRIME - 1))
+        signed = ((link, 1), (other, -1))
         return {(("link", name), "turn"): sign for name, sign in signed if name != FRAME}
 
-    def _relative(self, link: str, other: str, point: str, along: tuple[int, int]) -> Terms:
+    def _relative(self, link: str, other: str, point: str, along: tuple[Any, Any]) -> Terms:
         """The velocity of a point of one link relative to the other, its component along a direction."""
-        total: Terms = {}
-        for name, sign in ((link, 1), (other, -1)):
-            for factor, terms in zip(along, self._velocity(name, point).values(), strict=True):
-                for unknown, coefficient in terms.items():
-                    total[unknown] = (total.get(unknown, 0) + sign * factor * coefficient) % PRIME
-        return total
+        return _sum(*((sign * factor, terms) for name, sign in ((link, 1), (other, -1))
+                      for factor, terms in zip(along, self.velocity(name, point).values(), strict=True)))
+
+
+def _sum(*parts: tuple[Any, Terms]) -> Terms:
+    """The sum of weighted terms."""
+    total: Terms = {}
+    for weight, terms in parts:
+        for unknown, coefficient in terms.items():
+            total[unknown] = total.get(unknown, 0) + weight * coefficient
+    return total
 
 
 def ends(drive: Drive) -> tuple[str, str]:

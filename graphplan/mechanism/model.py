@@ -11,6 +11,7 @@ from collections import Counter
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from typing import NamedTuple
 
 Number = Fraction | float
 Pair = tuple[Number, Number]
@@ -83,6 +84,23 @@ class SlidingDrive:
 
 
 Drive = TurningDrive | SlidingDrive
+
+
+class Condition(NamedTuple):
+    """One condition of a kinematic pair: of `link` at the joint `on`, or of the slide of `link` along the link `on`.
+
+    A joint keeps its two links together in the `way` x and in the way y; a slide keeps the sliding link on the guide
+    (across) and from turning relative to it (turn).
+    """
+
+    link: str
+    on: str
+    way: str
+
+    @property
+    def pair(self) -> str:
+        """The pair's name in results, such as `3 at B` or `3 along 2`."""
+        return f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
 
 
 @dataclass(frozen=True)
@@ -230,6 +248,8 @@ class Scene:
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
     where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written.
+    `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
+    `repeating` all those that follow from others of them: which of them carry the forces nothing tells.
     """
 
     title: str
@@ -247,11 +267,29 @@ class Scene:
     loads: Loads | None = None
     sheet: Presentation = Presentation()
     text: str = field(default="", repr=False, compare=False)
+    redundant: tuple[Condition, ...] = ()
+    repeating: tuple[Condition, ...] = ()
 
     @property
     def moving(self) -> tuple[str, ...]:
         """The links that are not the frame, in the scene's order."""
         return tuple(link for link in self.links if link != FRAME)
+
+    @property
+    def redundant_pairs(self) -> tuple[str, ...]:
+        """The names of the pairs that are redundant, such as `4 at D`, or of which a condition is."""
+        return tuple(dict.fromkeys(condition.pair for condition in self.redundant))
+
+    @cached_property
+    def indeterminate_pairs(self) -> tuple[str, ...]:
+        """The names of the pairs whose reactions are statically indeterminate, each by the link that has the reaction.
+
+        The frame has the opposite of all other links' forces.
+        """
+        found = {condition.pair for condition in self.repeating}
+        joints = (f"{link} at {p}" for p in self.joints for link in self.links_of[p][1:]
+                  if not found.isdisjoint(f"{k} at {p}" for k in (self.links_of[p] if link == FRAME else (link,))))
+        return (*joints, *(slide.name for slide in self.slides if slide.name in found))
 
     @cached_property
     def links_of(self) -> dict[str, tuple[str, ...]]:

@@ -15,7 +15,7 @@ _DIGITS = 100
 _DECADES = 60
 """Numbers beyond 10^±60 are refused: their fourth powers would leave the range of a float."""
 
-_ROOT_BITS = 200
+ROOT_BITS = 200
 """Bits of an irrational square root: nearly four times a float's, so that one rounding at the end is all there is."""
 
 
@@ -43,20 +43,27 @@ def integer(value: int) -> Fraction | Unusable:
     return Fraction(value)
 
 
-def root(square: Fraction) -> tuple[Fraction, bool]:
-    """The square root, and whether it is exact; an irrational one is good to some 60 digits."""
+def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, bool]:
+    """The square root, and whether it is exact; an irrational one is good to so many bits."""
     product = square.numerator * square.denominator
     whole = isqrt(product)
     if whole * whole == product:
         return Fraction(whole, square.denominator), True
-    return Fraction(isqrt(product << 2 * _ROOT_BITS), square.denominator << _ROOT_BITS), False
+    return Fraction(isqrt(product << 2 * bits), square.denominator << bits), False
 
 
-def heading(degrees: Fraction) -> tuple[Fraction, Fraction, bool]:
+Circular = Callable[[Fraction], tuple[Fraction, Fraction]]
+
+
+def _to_a_float(degrees: Fraction) -> tuple[Fraction, Fraction]:
+    angle = radians(float(degrees))
+    return Fraction(cos(angle)), Fraction(sin(angle))
+
+
+def heading(degrees: Fraction, circular: Circular = _to_a_float) -> tuple[Fraction, Fraction, bool]:
     """Cosine and sine of an angle, and whether they are exact: so at the multiples of 90 degrees."""
     quarter, rest = divmod(degrees + 45, 90)
-    angle = radians(float(rest - 45))  # within an eighth of a turn, where both functions are at their best
-    c, s = Fraction(cos(angle)), Fraction(sin(angle))
+    c, s = circular(rest - 45)  # within an eighth of a turn, where both functions are at their best
     c, s = ((c, s), (-s, c), (-c, -s), (s, -c))[quarter % 4]
     return c, s, rest == 45
 

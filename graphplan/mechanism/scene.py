@@ -12,13 +12,14 @@ from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
+from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.faults import Faults, perhaps
 from graphplan.mechanism.items import Item, quoted
 from graphplan.mechanism.loads import TABLES as LOADS
 from graphplan.mechanism.loads import check_loads, read_loads, read_reactions
-from graphplan.mechanism.model import FRAME, Find, Placement, Presentation, Scene, Slide, Units
+from graphplan.mechanism.model import FRAME, Find, Pair, Placement, Presentation, Scene, Slide, Units
 from graphplan.mechanism.numerals import decimal
-from graphplan.mechanism.placements import needs, place, read_placement
+from graphplan.mechanism.placements import is_exact, needs, place, read_placement
 from graphplan.mechanism.sections import (
     Names,
     moving_links,
@@ -111,11 +112,6 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
     placements = _placements(points, table)
     placed = place(placements, table)
     names = Names(tuple(points), placed, read_links(items["links"], points))
-    names.irrational += [
-        f"points.{quoted(point)}: {placements[point].how} placement"
-        for point in points
-        if point in placed and isinstance(placed[point][0], float)
-    ]
     slides = read_slides(items["slides"], names)
     drives = read_drives(items["drive"], names, slides)
     motions = read_motions(items["motion"], names)
@@ -133,11 +129,26 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         motions=motions,
         find=_find(items.get("find"), names, slides),
         loads=read_loads(items, names, slides),
-        irrational=tuple(names.irrational),
         sheet=_presentation(items.get("sheet"), units),
     )
-    _check(scene, placed, faults)
-    return scene
+    rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in points
+               if point in placed and point in _counting(scene) and not is_exact(placed[point])]
+    return _checked(replace(scene, irrational=(*rounded, *names.irrational)), placed, faults)
+
+
+def _counting(scene: Scene) -> set[str]:
+    """The points on whose coordinates results depend: others place points, or are points of links that nothing uses.
+
+    Loads may be laid off from any point of a link.
+    """
+    loads = scene.loads
+    found = {*scene.joints, *scene.motions, *scene.find.velocity, *scene.find.acceleration}
+    for slide in scene.slides:
+        found |= {slide.at, *(slide.through or ())}
+    if loads is not None:
+        found |= {point for points in scene.links.values() for point in points}
+        found |= {point for balance in loads.balances for point in points_of(balance.written or "")}
+    return found
 
 
 def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
@@ -194,10 +205,10 @@ def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
     return Find(moving, moving, links=moving_links(names))
 
 
-def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | float]], faults: Faults) -> None:
-    """The checks of the whole, each where what it rests on has no faults of its own."""
+def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
+    """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
-        return
+        return scene
     guides = {point for slide in scene.slides for point in slide.through or ()}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
     if faults.none_in("points", "slides"):
@@ -207,7 +218,9 @@ def _check(scene: Scene, placed: dict[str, tuple[Fraction | float, Fraction | fl
     elif faults.none_in("links", "slides", "drive", "motion"):
         check_connections(scene, faults)
         if faults.none_in("links"):
-            check_mobility(scene, faults)
+            scene = check_mobility(scene, faults)
         if faults.none_in("links", "drive", *LOADS):
             check_loads(scene, faults)
     check_joints(scene, placed, faults)
+    return scene
+

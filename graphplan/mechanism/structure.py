@@ -11,7 +11,7 @@ Source: Jaanimets (1966), sections 1-9; Artobolevsky's classes.
 
 from __future__ import annotations
 
-from collections import defaultdict
+from collections import Counter, defaultdict
 from collections.abc import Iterable, Iterator, Mapping
 from itertools import pairwise
 from typing import NamedTuple
@@ -40,6 +40,8 @@ class Group(NamedTuple):
     def line(self) -> Said:
         """The group in words."""
         names, class_ = " ".join(self.links), roman(self.class_)
+        if self.kind == "follower":
+            return said("links that follow by special geometry: {0}", names)
         if self.class_ == 1:
             return said("class I: driving link {0}", names)
         if self.kind.startswith("dyad"):
@@ -102,7 +104,7 @@ def structure(scene: Scene) -> Structure:
     order = {link: i for i, link in enumerate(scene.moving)}
     teams = [tuple(sorted(team, key=order.__getitem__)) for team in found if team]
     surroundings = _Surroundings(scene, system.known, {link: i for i, team in enumerate(teams) for link in team})
-    return Structure(mobility(scene), tuple(_group(surroundings, team) for team in teams))
+    return Structure(mobility(scene) + len(scene.redundant), tuple(_group(surroundings, team) for team in teams))
 
 
 def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
@@ -112,15 +114,21 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     bodies = dict.fromkeys(body.values())
     outer = [bond for bond in bonds if len(bond.bodies) == 1]
     if len(bodies) == 1:
-        return Group(links, 1, len([bond for bond in outer if bond.kind != "T"]), "driving link")
-    if len(bodies) == 2:
-        (first, last), inner = sorted((bond.kind for bond in outer), reverse=True), _inner(bonds)
-        form = first + inner[0].kind + last
+        held = len([bond for bond in outer if bond.kind != "T"])
+        return Group(links, 1, held, "driving link") if around.driven(links) else Group(links, 0, held, "follower")
+    form = _form(outer, _inner(bonds))
+    if len(bodies) == 2 and form in _MODIFICATIONS:
         return Group(links, 2, 2, f"dyad {form} (modification {_MODIFICATIONS.index(form) + 1})")
     sides = _sides(bonds)
     real = len(bodies) + sum(bond.kind == "T" for bond in bonds)
     triad = (real, sides, len(outer)) == (4, 3, 3)
     return Group(links, sides, len(outer), "triad" if triad else f"class {roman(sides)} group")
+
+
+def _form(outer: list[_Bond], inner: list[_Bond]) -> str:
+    """The form of a dyad: outer, inner and outer pair; anything else where special geometry has made one redundant."""
+    first, *last = sorted((bond.kind for bond in outer), reverse=True)
+    return "".join([first, *(bond.kind for bond in inner), *last])
 
 
 def _inner(bonds: Iterable[_Bond]) -> list[_Bond]:
@@ -165,10 +173,19 @@ class _Surroundings:
         for drive in scene.drives:
             for link in ends(drive):
                 self.drives[link].append(drive)
+        dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
+        self.lost = {pair for pair, conditions in dropped.items() if conditions > 1}
         self.first = {
-            point: min((stage[link] for link in links if link != FRAME), default=-1)
+            point: min((stage[link] for link in links if link != FRAME and (link, point) not in self.lost), default=-1)
             for point, links in scene.links_of.items()
         }
+
+    def driven(self, links: tuple[str, ...]) -> bool:
+        """Whether a drive prescribes how these links move, or a given motion."""
+        drives = (drive for link in links for drive in self.drives[link])
+        led = any(point in self.scene.motions for link in links for point in self.scene.links[link])
+        return led or any(end == FRAME or self.stage[end] <= self.stage[links[0]] for drive in drives
+                          for end in set(ends(drive)) - set(links))
 
     def welds(self, links: tuple[str, ...]) -> Iterator[tuple[str, str]]:
         """The links of a group that a drive at their common pair makes one body."""
@@ -184,13 +201,15 @@ class _Surroundings:
         """The pairs of a group: its inner ones, and the outer ones with what moves already."""
         now = self.stage[links[0]]
         for point in dict.fromkeys(point for link in links for point in self.scene.links[link]):
-            bodies = tuple(dict.fromkeys(body[link] for link in self.scene.links_of[point] if link in body))
+            kept = [link for link in self.scene.links_of[point] if link in body and (link, point) not in self.lost]
+            bodies = tuple(dict.fromkeys(body[link] for link in kept))
             if point in self.known or self.first[point] < now:
                 yield from (_Bond("R", (one,)) for one in bodies)
             elif len(bodies) > 1:
                 yield _Bond("R", bodies)
         slides = dict.fromkeys(slide for link in links for slide in self.slides[link])
-        yield from self._between("P", [(slide.link, slide.along) for slide in slides], body, now)
+        guided = [(slide.link, slide.along) for slide in slides]
+        yield from self._between("P", [pair for pair in guided if pair not in self.lost], body, now)
         turned = dict.fromkeys(drive for link in links for drive in self.drives[link])
         free = [ends(drive) for drive in turned if not isinstance(drive, SlidingDrive)]
         yield from self._between("T", free, body, now)

@@ -14,7 +14,7 @@ from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import Construction
 from graphplan.methods.moves import Move, Pole, Trial
 from graphplan.methods.network import Network
-from graphplan.methods.panels import link_named
+from graphplan.methods.panels import link_named, redundancies
 from graphplan.methods.plan import Plan
 from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
@@ -66,7 +66,7 @@ class Draughtsman:
         self.readings.sort(key=lambda reading: ORDER.get(reading.kind, len(ORDER)))
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
-                            tuple(_ways(self.moves)))
+                            tuple(_ways(self.moves)), notes=[*redundancies(self.scene)])
 
     @property
     def _accelerated(self) -> bool:

@@ -201,7 +201,9 @@ class Facts:
         return [place for place in self.places[body] if place in self.drawn and self.net.spot(place[0]) != spot]
 
     def _emit(self, body: str, X: Place, rank: int) -> None:
-        """Tell a place what the body knows of it."""
+        """Tell a place what the body knows of it, unless others have told the same: special geometry repeats it."""
+        if (body, X) in self.net.repeating:
+            return
         figure = self._figure(body, X) if rank == 2 else None
         if figure:
             self._tell_end(body, X, [figure])
@@ -308,6 +310,8 @@ class Facts:
     def _through_slide(self, slide: Slide) -> None:
         """A known end in one link's plane gives the other link one locus, once."""
         for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
+            if known in self.net.passive or slide.name in self.net.unguided:
+                continue
             if slide.name not in self.passed and (point := self._seen(slide, known, new)):
                 target = self.net.place(point, new)
                 self.passed.add(slide.name)

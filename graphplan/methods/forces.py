@@ -28,6 +28,7 @@ Way = tuple[str, int]
 class Plans:
     """The groups of a scene in the order of force transfer, and the moves of each, planned once for every way.
 
+    Groups with statically indeterminate forces, and those that have forces from them, are left out.
     A way is a preference of moves, and where a trial begins, counted from the first choice; `options` tells how many
     choices there are.
     """
@@ -37,9 +38,13 @@ class Plans:
         self.options = 1
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove]] = {}
         done: list[str] = []
+        untold: set[str] = set()
         for links in groups(scene):
-            self.groups.append(Group(scene, links, done))
-            done += links
+            if _indeterminate(scene, links, untold):
+                untold.update(links)
+            else:
+                self.groups.append(Group(scene, links, done))
+                done += links
 
     def moves(self, group: Group, way: Way) -> list[StaticMove]:
         """The moves of a group."""
@@ -48,6 +53,14 @@ class Plans:
             self._moves[group.links, way] = equilibrium.plan()
             self.options = max(self.options, equilibrium.options)
         return self._moves[group.links, way]
+
+
+def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool:
+    """Whether some force on these links is statically indeterminate, or comes from links that have such."""
+    ends = {end for c in scene.repeating for end in ((c.link,) if c.way in ("x", "y") else (c.link, c.on))}
+    near = {other for link in links for point in scene.links[link] for other in scene.links_of[point]}
+    near |= {end for s in scene.slides if {s.link, s.along} & set(links) for end in (s.link, s.along)}
+    return bool(scene.repeating) and not (ends.isdisjoint(links) and untold.isdisjoint(near))
 
 
 def reactions(board: Board, pose: Pose, loading: Loading, plans: Plans, way: Way,
@@ -80,27 +93,27 @@ def pair_name(point: str, link: str) -> str:
 def rubbed(loading: Loading, forces: Forces) -> Iterator[Result]:
     """The balances with friction, by kind and name."""
     for name, balance in loading.loads.named_balances.items():
-        if balance.at:
+        if balance in forces.balances:
             yield RUBBED, name, forces.balances[balance]
-        else:
+        elif balance in forces.moments:
             pair = forces.moments[balance]
             yield RUBBED_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:
-    """What is read of the force plans: kind, name and marks of everything that is asked for."""
+    """What is read of the force plans: kind, name and marks of everything that is asked for and told."""
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
-        if asked is None or point in asked:
+        if (asked is None or point in asked) and _told(scene, forces, point, link):
             yield REACTION, pair_name(point, link), reaction_on(scene, forces, board, point, link)
     for slide in scene.slides:
-        if asked is None or slide.name in asked:
+        if (asked is None or slide.name in asked) and slide in forces.slides:
             yield SLIDE_REACTION, slide.name, forces.slides[slide]
             yield SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
     for name, balance in loading.loads.named_balances.items():
-        if balance.at:
+        if balance in forces.balances:
             yield BALANCE, name, forces.balances[balance]
-        else:
+        elif balance in forces.moments:
             pair = forces.moments[balance]
             yield BALANCE_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 
@@ -169,6 +182,12 @@ def reaction_on(scene: Scene, forces: Forces, board: Board, point: str, link: st
     for tail, head in spans[1:]:
         mark = board.transfer(tail, head, mark)
     return first, mark
+
+
+def _told(scene: Scene, forces: Forces, point: str, link: str) -> bool:
+    """Whether the force on a link at a joint is drawn, or those on all others there."""
+    others = [other for other in scene.links_of[point] if other != link]
+    return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
 
 
 def _moment(loading: Loading, slide: Slide, forces: Forces) -> tuple[Mark, ...]:

@@ -66,7 +66,7 @@ class Loaded(Draughtsman):
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
         if self.style.polygons:
             self._polygons(velocity, loading)
-        if self.style.lever:
+        if self.style.lever or self.scene.repeating:
             self._note(*levers(self.pose, velocity, loading))
             if not self.style.polygons:
                 self._note(*freed_reactions(self.pose, loading))

@@ -11,8 +11,10 @@ Links, points, slides and drives are taken in an order of their own, so that the
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import NamedTuple
 
+from graphplan.mechanism.equations import ends
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
 from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 
@@ -188,6 +190,32 @@ class Network:
     def has(self, link: str, place: Place) -> bool:
         """Whether a place belongs to a link."""
         return place[1] == link or (not place[1] and place[0] in self.links[link])
+
+    @cached_property
+    def repeating(self) -> frozenset[tuple[str, Place]]:
+        """The places that have nothing new to hear from a body: its pair there is redundant, or the body passive."""
+        lost = {(c.link, c.on) for c in self.scene.redundant if c.way in ("x", "y")}
+        idle = {(link, p) for link in self.passive for p in self.links[link] if len(self.scene.links_of[p]) > 1}
+        return frozenset((self.body[link], (point, "")) for link, point in lost | idle)
+
+    @cached_property
+    def unguided(self) -> frozenset[str]:
+        """The slides that say nothing new of where their links move."""
+        return frozenset(c.pair for c in self.scene.redundant if c.way == "across")
+
+    @cached_property
+    def passive(self) -> frozenset[str]:
+        """The links that pass nothing on: their pairs and drives, but for what is redundant, only say how they move."""
+        redundant = [(c.link,) if c.way in ("x", "y") else (c.link, c.on) for c in self.scene.redundant]
+        slides, drives = [(s.link, s.along) for s in self.scene.slides], [ends(drive) for drive in self.scene.drives]
+
+        def stated(link: str) -> int:
+            joints = sum(len(self.scene.links_of[p]) > 1 or p in self.scene.motions for p in self.links[link])
+            return 2 * joints + sum(n * (link in pair) for n, pairs in ((2, slides), (1, drives), (-1, redundant))
+                                    for pair in pairs)
+
+        touched = {link for pair in redundant for link in pair} - {FRAME}
+        return frozenset(link for link in touched if stated(link) <= 3)
 
     def places_of(self, body: str) -> list[Place]:
         """The places of the body's own points, joints first."""

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
+from collections.abc import Collection, Iterator, Sequence
 
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.phrases import Said, arranged, joined, phrase, said
 
 MECHANISM, LEVER, FRICTION, FORCE_PLAN = "mechanism", "lever", " with friction", "force plan "
@@ -111,6 +111,21 @@ def acting(name: str) -> Said:
     """The link and the joint of a reaction by its name in results, such as `2 at B`."""
     link, _, point = name.rpartition(" at ")
     return joined((_bare(link), said("at {0}", point)), " ")
+
+
+def redundancies(scene: Scene) -> Iterator[Said]:
+    """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
+    for pair in scene.redundant_pairs:
+        yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
+                   _named(pair))
+    if scene.loads and scene.indeterminate_pairs:
+        yield said("statically indeterminate, so not drawn: reactions {0}",
+                   joined(map(_named, scene.indeterminate_pairs)))
+
+
+def _named(pair: str) -> Said:
+    """A pair by its name in results."""
+    return sliding(pair) if " along " in pair else acting(pair)
 
 
 def _bare(link: str) -> str:

@@ -1,6 +1,6 @@
 """The one linear system for the rates of every moving link, as sparse rows over the scene's own numbers.
 
-Three unknowns a link: the velocity (x, y) of its first point and its angular velocity. Coordinates enter as
+Three unknowns a link: the velocity (x, y) of its base, a point of it, and its angular velocity. Coordinates enter as
 differences only, so the rows do not depend on where the origin is. Velocities and accelerations share the rows and
 differ in the right-hand side. Transposed, with the forces that hold the facts as unknowns, they are the equilibrium
 of every link. Nothing is solved here, and nothing tests a number: the same rows can be filled with arrays of poses.
@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
+from graphplan.mechanism.placements import is_exact
 from graphplan.solver.facts import Fact, Rate, Side
 from graphplan.solver.plane import less
 
@@ -50,10 +51,17 @@ class Equations:
         return row
 
     def arm(self, link: str, point: str | None) -> Pair:
-        """The vector from the link's first point to `point`; nothing for the frame, which does not move."""
+        """The vector from the link's base to `point`; nothing for the frame, which does not move."""
         if point is None or link == FRAME:
             return 0, 0
-        return less(self.scene.points[point], self.scene.points[self.scene.links[link][0]])
+        return less(self.scene.points[point], self.scene.points[self.bases[link]])
+
+    @cached_property
+    def bases(self) -> dict[str, str]:
+        """The point of each moving link from which its arms are measured: the first one that is not rounded."""
+        places = self.scene.points
+        return {link: next((p for p in self.scene.links[link] if is_exact(places[p])), self.scene.links[link][0])
+                for link in self.scene.moving}
 
     @cached_property
     def reach(self) -> float:

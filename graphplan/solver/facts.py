@@ -21,19 +21,19 @@ Y: Pair = (0, 1)
 
 
 class Rate(NamedTuple):
-    """Of one link: the velocity (x, y) of its first point and its turning; or, once more derived, their rates."""
+    """Of one link: the velocity (x, y) of its base and its turning; or, once more derived, their rates."""
 
     x: Number
     y: Number
     turn: Number
 
     def at(self, arm: Pair) -> Pair:
-        """The part linear in the rates of the motion of the link's point at `arm` from its first point."""
+        """The part linear in the rates of the motion of the link's point at `arm` from its base."""
         return plus((self.x, self.y), times(self.turn, turned(arm)))
 
 
 class Side(NamedTuple):
-    """One link as a fact sees it: the arm from the link's first point to the fact's point, and the link's rates."""
+    """One link as a fact sees it: the arm from the link's base to the fact's point, and the link's rates."""
 
     arm: Pair
     rate: Rate

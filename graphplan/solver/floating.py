@@ -85,6 +85,20 @@ def for_forces(equations: Equations) -> Floating:
     return Floating(matrix.T, columns, rows)
 
 
+def independent(equations: Equations) -> list[int]:
+    """As many facts as there are unknowns, none following from others: those that come first."""
+    matrix = equilibrated(dense(equations.rows, equations.width), equations.reach)[0]
+    kept: list[int] = []
+    known = np.zeros((0, equations.width))
+    for i, row in enumerate(matrix):
+        rest = row - known.T @ (known @ row)
+        rest -= known.T @ (known @ rest)  # once more, for orthogonality to the last digit
+        if np.linalg.norm(rest) > STANDS_STILL * np.linalg.norm(row):
+            kept.append(i)
+            known = np.vstack([known, rest / np.linalg.norm(rest)])
+    return kept
+
+
 def dense(rows: Sequence[Mapping[int, Number]], width: int) -> Array:
     """The rows as a matrix of floats."""
     matrix = np.zeros((len(rows), width))

@@ -37,7 +37,7 @@ def carried(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]
 
 
 def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
-    """Of each moving link: its forces (x, y) added up and, in force * length, the moments about its first point."""
+    """Of each moving link: its forces (x, y) added up and, in force * length, the moments about its base."""
     sums: list[Number] = [0] * equations.width
     for load in loads:
         k = equations.columns[load.on]

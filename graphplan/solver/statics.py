@@ -6,7 +6,7 @@ balances in the place of the drives, are the system for the forces when they are
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -28,6 +28,7 @@ class Reactions:
     `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
     `slides`: by name, the force on the sliding link from its guide, at the point `at`, and the moment about it.
     `balances`: a moment or a force for each balance of the scene. `rates`: the motion that all this keeps up.
+    Pairs that special geometry leaves statically indeterminate are left out.
     """
 
     joints: dict[tuple[str, str], Pair]
@@ -57,10 +58,27 @@ def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
     if exact:
         require_fractions(equations.scene, right)
     linear = for_forces(equations, exact)
-    values = linear.solve(right)
-    if values is None or linear.free:
+    values, free = linear.solve(right), linear.free
+    if values is None or (free and not equations.scene.redundant) or free & balanced(equations):
         raise not_held(equations, exact)
-    return read(equations, values, rates)
+    return read(equations, without(values, free), rates)
+
+
+def without(values: Iterable[Number], free: Container[int]) -> list[Number | None]:
+    """The unknowns, None in the place of those that are free."""
+    return [None if i in free else value for i, value in enumerate(values)]
+
+
+def repeating(equations: Equations) -> frozenset[int]:
+    """The unknowns of the pairs that the scene knows to be statically indeterminate."""
+    names, facts = set(equations.scene.indeterminate_pairs), pairs(equations.scene)
+    return frozenset(i for i, fact in enumerate(facts)
+                     if not names.isdisjoint((f"{fact.link} at {fact.at}", f"{fact.link} along {fact.on}")))
+
+
+def balanced(equations: Equations) -> frozenset[int]:
+    """The unknowns that are balances."""
+    return frozenset(range(len(pairs(equations.scene)), len(equations.facts)))
 
 
 def not_held(equations: Equations, exact: bool) -> SingularPose:
@@ -75,13 +93,20 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     return SingularPose(why, moved_by(equations, play))
 
 
-def read(equations: Equations, values: Sequence[Number], rates: Rates) -> Reactions:
-    """What the unknowns are: two for each pair, in the order of the facts, then one for each balance."""
+def read(equations: Equations, values: Sequence[Number | None], rates: Rates) -> Reactions:
+    """What the unknowns are: two for each pair, in the order of the facts, then one for each balance.
+
+    A pair with an unknown that equilibrium cannot tell, None, is left out.
+    """
     scene, unknown = equations.scene, iter(values)
+    joints = {(p, k): (next(unknown), next(unknown)) for p in scene.joints for k in scene.links_of[p][1:]}
+    slides = [(s, next(unknown), next(unknown)) for s in scene.slides]
+    balances = zip(asked(scene).balances, unknown, strict=True)
     return Reactions(
-        joints={(p, k): (next(unknown), next(unknown)) for p in scene.joints for k in scene.links_of[p][1:]},
-        slides={s.name: sliding(scene, s, next(unknown), next(unknown)) for s in scene.slides},
-        balances=tuple(balancing(scene, balance, next(unknown)) for balance in asked(scene).balances),
+        joints={name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None},
+        slides={s.name: sliding(scene, s, turn, across) for s, turn, across in slides
+                if turn is not None and across is not None},
+        balances=tuple(balancing(scene, balance, value) for balance, value in balances if value is not None),
         rates=rates,
         equations=equations,
     )

@@ -98,7 +98,7 @@ def test_points_may_be_placed_from_later_ones() -> None:
     )
     scene = parse(text, "later")
     assert math.hypot(*scene.points["N"]) == pytest.approx(30, rel=1e-12)
-    assert scene.irrational[0] == "points.N: compass placement"
+    assert scene.irrational[0] == "points.A: polar placement"
 
 
 def test_rounded_once() -> None:

@@ -282,7 +282,7 @@ class Facts:
         lines: list[Move] = []
         if like:
             given = [locus for locus in loci if locus and self.net.spot(locus[0][0]) != spot]
-            ways: Iterator[tuple[Move, Two]] = ((Slip(body, A, X, like), self._normal(A)) for A in given)
+            ways: Iterator[tuple[Slip | Carry, Two]] = ((Slip(body, A, X, like), self._normal(A)) for A in given)
         else:
             apart = combinations(self._loci(body, X), 2)
             ways = ((Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)

@@ -105,9 +105,9 @@ class Planner(Facts):
         for body in loose:
             slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
             loci = list(self._loci(body))
-            if slides and len(loci) == 2 and not self._ends(body) and self._count(body) == 2:
-                if not parallel(self._normal(loci[0]), self._normal(loci[1])):
-                    yield body, loci[0], loci[1]
+            crossing = len(loci) == 2 and not parallel(*map(self._normal, loci))
+            if slides and crossing and not self._ends(body) and self._count(body) == 2:
+                yield body, loci[0], loci[1]
 
     def _auxiliary_spot(self, one: Locus, two: Locus) -> Two:
         """Where the auxiliary point of two loci lies: each line through its place runs as the locus does."""
@@ -135,9 +135,9 @@ class Planner(Facts):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
-            if len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair):
-                if self._pole_spot(found):
-                    yield pair, found
+            fit = len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair)
+            if fit and self._pole_spot(found):
+                yield pair, found
 
     def _pole_spot(self, bars: list[Bar]) -> Two | None:
         """Where the relative pole lies, if the bars are not parallel."""

@@ -306,6 +306,16 @@ class PolarAcceleration(Normal):
     def home(self, place: Place) -> Mark:
         return self.pole
 
+    def far_from(self, place: Place) -> Mark:
+        """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
+        point, link = place
+        for name in [link] if link else self.net.links_of[point]:
+            K = self.anchors[name].point if self._moving(name) else None
+            side = self._side(name, K) if K else None
+            if K and side:
+                return self.board.transfer(self.pose.points[K], self.pose.points[side], self.figure(name, side))
+        return super().far_from(place)
+
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         """Every link begins at the pole, but for two that a drive ties together."""
         return super()._anchored(link, anchor) if self._tied(link, anchor.link) else self.pole

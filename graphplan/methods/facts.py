@@ -209,11 +209,13 @@ class Facts:
             self._tell_end(body, X, [figure])
         elif not self.told.get((body, X)):  # known wholly, maybe, but no end is drawn yet to begin a figure at
             whole = self._settle(body, X) or self._beside(body, X)
-            if whole:
-                line = Swing(body, whole.K, X)  # a locus that others may ask for; pruned if nobody does
-                self._tell_locus(body, X, [line, whole], self._swung(whole.K, X), marked=True)
-            else:
-                self._tell_line(body, X)
+            line = self._line(body, X, self._locus_of(X, body) if whole else None)
+            if line and whole:  # the locus is for others, who may ask for it; pruned if nobody does
+                self._tell_locus(body, X, [line[0], whole], line[1], marked=True)
+            elif line:
+                self._tell_locus(body, X, [line[0]], line[1])
+            elif crossing := self._auxiliary(body, X):
+                self._tell_end(body, X, [crossing])
 
     def _tell_end(self, body: str, X: Place, moves: list[Move]) -> None:
         self.moves += moves
@@ -229,23 +231,29 @@ class Facts:
         """The normal of the locus that a body gives X about K."""
         return quarter(less(self._spot(X), self._spot(K)))
 
-    def _tell_line(self, body: str, X: Place) -> None:
-        """One fact for X: from an end that the body knows, from two loci, or from a locus and the turning."""
+    def _line(self, body: str, X: Place, own: Locus | None) -> tuple[Move, Two] | None:
+        """One fact for X, and its normal: from an end, from a locus and the turning, or from two loci of the body.
+
+        Where X has an own locus by which the body is known, a line that is parallel to it is no news.
+        """
         here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
-        known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
         if here:
-            self._tell_locus(body, X, [Slip(body, here, X, "")], self._normal(here))
-        elif known:
-            K = max(known, key=lambda place: self._heard(place, body))
-            self._tell_locus(body, X, [Swing(body, K, X)], self._swung(K, X))
-        elif loci and like:
-            self._tell_locus(body, X, [Slip(body, loci[0], X, like)], self._normal(loci[0]))
-        elif len(loci) > 1:
-            normal = self._carried(loci[0], loci[1], X)
-            if any(normal):
-                self._tell_locus(body, X, [Carry(body, loci[0], loci[1], X)], normal)
-            elif _cross(self._normal(loci[0]), self._normal(loci[1])):  # X is the auxiliary point itself
-                self._tell_end(body, X, [Auxiliary(body, loci[0], loci[1], X)])
+            return Slip(body, here, X, ""), self._normal(here)
+        known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
+        K = max(known, key=lambda place: self._heard(place, body), default=None)
+        if K and not (own and parallel(self._normal(own), self._swung(K, X))):
+            return Swing(body, K, X), self._swung(K, X)
+        if loci and like:
+            return Slip(body, loci[0], X, like), self._normal(loci[0])
+        if len(loci) > 1 and any(normal := self._carried(loci[0], loci[1], X)):
+            return Carry(body, loci[0], loci[1], X), normal
+        return None
+
+    def _auxiliary(self, body: str, X: Place) -> Auxiliary | None:
+        """The end of X where it is itself the auxiliary point of two loci."""
+        loci = list(self._loci(body, X))[:2]
+        crossing = len(loci) == 2 and _cross(self._normal(loci[0]), self._normal(loci[1]))
+        return Auxiliary(body, *loci, X) if crossing and not any(self._carried(*loci, X)) else None
 
     def _settle(self, body: str, X: Place) -> Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""

@@ -86,6 +86,10 @@ class Plan:
         """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""
         raise NotImplementedError
 
+    def far_from(self, place: Place) -> Mark:
+        """A mark away from the home of a place, to take the size of a trial from."""
+        return self.pose.far_from(place)
+
     def pole_shift(self, move: Pole) -> Vector | None:
         """The vector from the relative pole's end in the first body to its end in the second, if there is any."""
         return None
@@ -355,7 +359,7 @@ class Plan:
         for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
             self._back_to(before)
             self.prime = outer + prime
-            start = self.board.pick(locus, self.home(place), self.pose.far_from(place), ratio=ratio)
+            start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
             self._know(place, self.board.named(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]

@@ -75,7 +75,8 @@ class Planner(Facts):
             if not loose and not self.open:
                 return self.moves
             if not self._break(loose):
-                raise Refused(f"links {', '.join(loose)}", "no construction known here reaches them",
+                stuck = loose or [body for trial in self.open for body in self._at(trial.at[0])]
+                raise Refused(f"links {', '.join(stuck)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
 
     # ---- rings ----------------------------------------------------------------------------------------------

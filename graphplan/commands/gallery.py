@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
 
-from graphplan.commands.choices import write
 from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import write
 from graphplan.errors import Refused
 
 HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked

@@ -8,6 +8,7 @@ import sys
 import tomllib
 from collections import Counter
 from dataclasses import replace
+from errno import EBADF
 from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
@@ -61,6 +62,8 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
 
 def _bytes(source: str) -> bytes:
     if source == "-":
+        if sys.stdin is None:
+            raise OSError(EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
     for entry in _packaged():
         if entry.name == f"{source}.toml" and not os.path.exists(source):

@@ -54,6 +54,8 @@ def run(options: argparse.Namespace) -> int:
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
+    if options.strips is not None and not options.plot:
+        raise Refused(f"--strips {options.strips}", "nothing is plotted that could be divided", "--plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     apart(options.output, options.plot)

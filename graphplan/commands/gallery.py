@@ -25,7 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    if not options.check and not options.folder.is_dir():
+    if not options.folder.is_dir():
         raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
     stale = 0
     written = set()

@@ -32,10 +32,9 @@ STRANGE = ("é", "λ", "𝔸", "\u202e", "\u0000", "\x1b[31m", "\ufeff", "٣", "
 
 
 def scenes() -> list[str]:
-    """The texts that are spoilt: the packaged scenes, and those of the folder that GRAPHPLAN_FUZZ_SCENES names."""
-    folder = os.environ.get("GRAPHPLAN_FUZZ_SCENES")
-    more = sorted(Path(folder).glob("*.toml")) if folder else []
-    return [*(load(name).text for name in packaged()), *(path.read_text(encoding="utf-8") for path in more)]
+    """The texts that are spoilt: the packaged scenes, and those that once failed."""
+    failed = sorted((Path(__file__).parent.parent / "faults").glob("[0-9]*.toml"))
+    return [*(load(name).text for name in packaged()), *(path.read_text(encoding="utf-8") for path in failed)]
 
 
 def times(usual: int) -> int:

@@ -161,15 +161,15 @@ class Ran(NamedTuple):
 
     def complaints(self) -> Iterator[str]:
         """What no command may do, whatever its words and its scene."""
-        told, refused = self.err.splitlines(), self.status in (2, 3)
+        told, failed = self.err.splitlines(), self.status in (2, 3)
         if self.status not in (0, 1, 2, 3):
             yield f"exit status {self.status}"
-        if refused and (self.out or not told):
-            yield "a refusal with output, or without a word"
+        if failed and not told:
+            yield "no word of what is wrong"
         if not all(line.isprintable() for line in told):
             yield f"told {self.err[:300]!r}"
-        if refused:
-            yield from (f"told {line[:300]!r}" for line in told if not re.search(r": .*(; |Do: )", line))
+        if failed and not self.out:  # of what is printed all the same, such as poses, some are told to be wrong
+            yield from (f"told {line[:300]!r}" for line in told if ": " not in line or not re.search("; |Do: ", line))
         if self.seconds > SECONDS:
             yield f"{self.seconds:.1f} seconds"
 

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from functools import partial
 
-from graphplan.errors import Key
+from graphplan.errors import Key as Key
 from graphplan.errors import by_name as by_name
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
 

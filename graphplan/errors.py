@@ -6,7 +6,23 @@ that the command line gives for it (0 done, 1 disagreement, 2 bad input, 3 singu
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
+
+
+def printable(text: str) -> str:
+    """The text on one line, its line breaks and other unprintable characters written as Python writes them."""
+    return "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text)
+
+
+Key = tuple[tuple[int, int, str], ...]
+
+
+def by_name(name: str) -> Key:
+    """The key by which names are ordered: numbers in them by size, so that 10 comes after 9."""
+    parts = re.findall(r"\d+|\D+", name)
+    return tuple((0, len(part.lstrip("0")), part.lstrip("0") + part) if part.isdecimal() else (1, 0, part)
+                 for part in parts)
 
 
 @dataclass(frozen=True)
@@ -61,8 +77,9 @@ class SingularPose(GraphplanError):
     status = 3
 
     def __init__(self, why: str, links: tuple[str, ...] = (), lines_that_miss: str = ""):
-        self.why, self.links, self.lines_that_miss = why, tuple(links), lines_that_miss
-        named = f" of links {', '.join(links)}" if links else ""
+        self.why, self.lines_that_miss = why, lines_that_miss
+        self.links = tuple(sorted(links, key=by_name))
+        named = f" of links {', '.join(self.links)}" if links else ""
         missed = f": {lines_that_miss}" if lines_that_miss else ""
         super().__init__(f"singular pose{named}{missed}; {why}")
 

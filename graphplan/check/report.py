@@ -9,7 +9,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.measures import difference, extent, size
-from graphplan.errors import ConstructionError, Refused, SingularPose
+from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
@@ -124,7 +124,8 @@ def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "
     construction reaches what is asked.
     """
     if exact and scene.irrational:
-        raise Refused(f"{scene.name}: {', '.join(scene.irrational)}", "fractions cannot hold this", "leave out --exact")
+        irrational = ", ".join(sorted(scene.irrational, key=by_name))
+        raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
     if exact and scene.loads is not None:  # the size of a reaction is a root
         scene = replace(scene, loads=replace(scene.loads, frictions=()))
     try:

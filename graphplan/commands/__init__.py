@@ -11,6 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from graphplan import __version__
+from graphplan.commands.output import flush, hush
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout",
@@ -37,6 +38,8 @@ def main(argv: Sequence[str] | None = None) -> int:
     """Run one subcommand; its exit status. Without arguments it is the whole process, whose words are its own."""
     if argv is not None:
         return _run(list(argv))
+    if sys.stderr is None:  # it is closed
+        sys.stderr = open(os.devnull, "w")  # noqa: SIM115
     gc.set_threshold(GARBAGE)
     status = _run(sys.argv[1:])
     gc.freeze()  # the process ends here: nothing is looked through once more
@@ -48,18 +51,24 @@ def _run(arguments: Sequence[str]) -> int:
         parser(SUBCOMMANDS).print_help(sys.stderr)
         return 2
     try:
-        options = parser(_called(arguments[0])).parse_args(arguments)
-        status = int(options.run(options))
-        sys.stdout.flush()
-        return status
+        try:
+            options = parser(_called(arguments[0])).parse_args(arguments)
+            return int(options.run(options))
+        finally:
+            flush()
     except GraphplanError as fault:
         from graphplan.commands.messages import error
 
         for line in fault.lines:
             error(line)
         return fault.status
+    except MemoryError as fault:
+        from graphplan.commands.messages import error
+
+        error(f"graphplan {arguments[0]}: there is not enough memory ({fault or 'for so much'}); ask for less")
+        return 2
     except BrokenPipeError:
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        hush()
         return 0
     except KeyboardInterrupt:
         return 130
@@ -80,11 +89,10 @@ class Parser(argparse.ArgumentParser):
     """A parser whose errors look like all others."""
 
     def error(self, message: str) -> NoReturn:
-        """Tell the usage and what is wrong with it, and end."""
+        """Tell what is wrong with the words, and end."""
         from graphplan.commands.messages import error
 
-        self.print_usage(sys.stderr)
-        error(f"{self.prog}: error: {message}")
+        error(f"{self.prog}: {message}; {self.prog} --help tells what there is")
         raise SystemExit(2)
 
 

@@ -14,7 +14,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import write
+from graphplan.commands.output import write
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -34,10 +34,10 @@ def run(options: argparse.Namespace) -> int:
 
     scenes = [load(name) for name in packaged()]
     if options.json:
-        write(json.dumps([_data(scene) for scene in scenes], indent=1, ensure_ascii=False) + "\n", None)
+        write(json.dumps([_data(scene) for scene in scenes], indent=1, ensure_ascii=False) + "\n")
         return 0
-    width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-    write("\n".join([*fitted([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n", None)
+    width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
+    write("\n".join([*fitted([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n")
     return 0
 
 

@@ -20,8 +20,9 @@ from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_pencil, write
+from graphplan.commands.choices import add_pencil
 from graphplan.commands.messages import Messages
+from graphplan.commands.output import write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:

@@ -14,8 +14,9 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, write
+from graphplan.commands.choices import add_choices
 from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import write
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report
@@ -40,9 +41,9 @@ def run(options: argparse.Namespace) -> int:
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
     if options.json:
-        write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n", None)
+        write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n")
     else:
-        write("\n".join(_lines(found, groups, notes)) + "\n", None)
+        write("\n".join(_lines(found, groups, notes)) + "\n")
     if found.complaint:
         (Messages(options.quiet).remark if found.agrees else error)(found.complaint)
     return 0 if found.agrees else 1

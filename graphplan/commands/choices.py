@@ -1,14 +1,10 @@
-"""Options that several subcommands share, and the output file that is written whole or not at all."""
+"""Options that several subcommands share."""
 
 from __future__ import annotations
 
 import argparse
-import os
-import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
-
-from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -79,36 +75,3 @@ def chosen(options: argparse.Namespace, scene: Scene, *, strict: bool = False,
     found = preferred(scene, options.prefer, pencil(options.pencil), method=options.method, plan=options.plan,
                       strict=strict, inertia=options.inertia, paper=paper)
     return found.method, found.told
-
-
-def write(content: str | bytes, path: str | None) -> None:
-    """Text or bytes to a file, or text to standard output; a file appears whole, or stays as it was."""
-    if isinstance(content, str) and path in (None, "-"):
-        sys.stdout.write(content)
-        return
-    assert path is not None
-    data = content.encode() if isinstance(content, str) else content
-    import tempfile
-
-    temporary = ""
-    try:
-        folder = os.path.dirname(os.path.abspath(path))
-        if os.path.isdir(path):
-            raise IsADirectoryError(21, "this is a directory")
-        with tempfile.NamedTemporaryFile("wb", dir=folder, prefix=".graphplan-", delete=False) as file:
-            temporary = file.name
-            file.write(data)
-        os.chmod(temporary, 0o666 & ~_umask())
-        os.replace(temporary, path)
-    except OSError as error:
-        why = f"cannot be written ({error.strerror})"
-        raise Refused(f"{path}: output", why, "name a file in a folder that can be written to") from None
-    finally:  # not there any more where all went well; there also where the user interrupts
-        if temporary and os.path.exists(temporary):
-            os.unlink(temporary)
-
-
-def _umask() -> int:
-    mask = os.umask(0)
-    os.umask(mask)
-    return mask

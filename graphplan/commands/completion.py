@@ -14,7 +14,7 @@ import argparse
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import write
+from graphplan.commands.output import write
 
 if TYPE_CHECKING:
     from graphplan.commands.shells import Argument, Command
@@ -31,7 +31,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.commands.shells import SHELLS
     from graphplan.mechanism.scene import packaged
 
-    write(SHELLS[options.shell]([*_commands(parser(SUBCOMMANDS))], packaged()), None)
+    write(SHELLS[options.shell]([*_commands(parser(SUBCOMMANDS))], packaged()))
     return 0
 
 

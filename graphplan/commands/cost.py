@@ -12,10 +12,12 @@ import argparse
 import json
 from collections.abc import Iterator
 
-from graphplan.commands.choices import add_pencil, write
+from graphplan.commands.choices import add_pencil
 from graphplan.commands.messages import Messages
+from graphplan.commands.output import write
 
 PLANS = "orthogonal", "polar"
+HAND = 4096  # bytes for what one hand draws, as measured
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -29,6 +31,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.cycle.memory import afford
     from graphplan.drafting.comparison import Comparison, legend
     from graphplan.drafting.pencil import pencil
     from graphplan.drafting.preference import forms
@@ -37,6 +40,7 @@ def run(options: argparse.Namespace) -> int:
 
     if options.hands and options.hands < 2:
         raise Refused(f"--hands {options.hands}", "one hand does not scatter", "some thousands")
+    afford("--hands", options.hands, "hands", HAND)
     scene, hand, messages = load(options.scene), pencil(options.pencil), Messages(options.quiet)
     found = []
     for plan, strict in _kinds():
@@ -49,11 +53,11 @@ def run(options: argparse.Namespace) -> int:
         raise refusals[0]
     if options.json:
         data = {"title": scene.title, "model": hand.model, "forms": [row for one in found for row in one.data()]}
-        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
+        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     else:
         tables = [line for one in found for line in one.lines()]
         lines = [scene.title, f"Pencil, standard deviations: {hand.told}.", *tables, *legend(options.hands)]
-        write("\n".join(lines) + "\n", None)
+        write("\n".join(lines) + "\n")
     return 0
 
 

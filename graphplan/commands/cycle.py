@@ -17,13 +17,15 @@ import argparse
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_language, write
+from graphplan.commands.choices import add_choices, add_language
 from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import apart, kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
 
+ENDINGS, PLOT_ENDINGS = (".csv", ".npz"), (".svg",)
 NOTHING_REACHED = 3
 
 
@@ -50,11 +52,14 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.cycle import cycle
     from graphplan.mechanism.scene import load
 
-    scene = load(options.scene)
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
-    if options.output and not options.output.endswith((".csv", ".npz")):
-        raise Refused(f"{options.output}: output", "it is no table that is known here", "a name in .csv or .npz")
+    if options.strips is not None and not options.plot:
+        raise Refused(f"--strips {options.strips}", "nothing is plotted that could be divided", "--plot FILE.svg")
+    ending = kind(options.output, ENDINGS, "table")
+    kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
+    apart(options.output, options.plot)
+    scene = load(options.scene)
     span = None if options.start is None else (options.start, options.end)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
@@ -62,7 +67,8 @@ def run(options: argparse.Namespace) -> int:
     found = cycle(asking(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
                   inertia=options.inertia, workers=workers, machine=options.compiled,
                   progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
-    _table(found, options.output, bool(options.plot))
+    if options.output or not options.plot:
+        write(_table(found, ending), options.output)
     if options.plot:
         from graphplan.backends.plots import diagrams
         from graphplan.cycle.diagrams import diagram
@@ -76,14 +82,12 @@ def run(options: argparse.Namespace) -> int:
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 
 
-def _table(found: Cycle, path: str | None, plotted: bool) -> None:
-    """The table, where it is asked for, or where nothing else is."""
+def _table(found: Cycle, ending: str) -> str | bytes:
+    """The table of all poses as a file of this kind."""
     from graphplan.backends import columns
 
-    if path is None and plotted:
-        return
     parts = found.scene, found.turn.travel, found.asked, found.results, found.faults
-    write(columns.archive(*parts) if path and path.endswith(".npz") else columns.text(*parts), path)
+    return columns.archive(*parts) if ending == ".npz" else columns.text(*parts)
 
 
 def _say(found: Cycle, messages: Messages) -> None:

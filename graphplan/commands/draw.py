@@ -16,10 +16,10 @@ examples:
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented
+from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
     from graphplan.sheet.display import Sheet
 
-SUFFIXES = (".svg", ".pdf", ".png", ".dxf")
+ENDINGS = (".svg", ".pdf", ".png", ".dxf")
 DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
 
 
@@ -55,13 +55,13 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.sheet.layout import layout
     from graphplan.words.tongue import tongue
 
-    suffix, dpi = _suffix(options.output), _dots(options.dpi, options.output)
+    ending, dpi = asked(options)
     scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
     method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)
     if options.strip:
-        write(_pages(_strip(found.drawing, options), suffix, dpi), options.output)
+        write(_pages(_strip(found.drawing, options), ending, dpi), options.output)
         return 0
     say = tongue(scene.sheet.language or "en")
     composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
@@ -70,7 +70,7 @@ def run(options: argparse.Namespace) -> int:
 
         composition = with_numbers(composition)
     sheet = _shown(layout(found.drawing, composition=composition), found.drawing.drawn, options)
-    write(_drawn(sheet, suffix, dpi), options.output)
+    write(_drawn(sheet, ending, dpi), options.output)
     return 0
 
 
@@ -91,39 +91,32 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     return selected(sheet, last, first if options.steps else 0)
 
 
-def _suffix(output: str | None) -> str:
-    """What kind of file is asked for; SVG where its name does not say."""
-    suffix = Path(output or "").suffix.lower() or ".svg"
-    if suffix not in SUFFIXES:
-        raise Refused(f"{output}: output", f"no sheet is drawn as {suffix}", f"a name in {', '.join(SUFFIXES)}")
-    return suffix
-
-
-def _dots(dpi: int | None, output: str | None) -> int:
-    """How many dots per inch a picture has."""
+def asked(options: argparse.Namespace) -> tuple[str, int]:
+    """What kind of file is asked for, and how many dots per inch a picture has."""
+    ending, dpi = kind(options.output, ENDINGS, "sheet"), options.dpi
     if dpi is None:
-        return DOTS
-    if _suffix(output) != ".png":
+        return ending, DOTS
+    if ending != ".png":
         raise Refused(f"--dpi {dpi}", "only a .png has dots", "leave it out, or -o SHEET.png")
     if not COARSEST <= dpi <= FINEST:
         raise Refused(f"--dpi {dpi}", "nobody could read or keep that", f"{COARSEST} to {FINEST} dots per inch")
-    return dpi
+    return ending, dpi
 
 
-def _pages(sheets: list[Sheet], suffix: str, dpi: int) -> str | bytes:
+def _pages(sheets: list[Sheet], ending: str, dpi: int) -> str | bytes:
     """Sheets as one file of this kind: only a PDF has pages."""
-    if suffix == ".pdf":
+    if ending == ".pdf":
         from graphplan.backends.ink import pdf
 
         return pdf(sheets)
     if len(sheets) > 1:
         raise Refused("--strip", f"it has {len(sheets)} pages", "-o STRIP.pdf, or a larger --paper")
-    return _drawn(sheets[0], suffix, dpi)
+    return _drawn(sheets[0], ending, dpi)
 
 
-def _drawn(sheet: Sheet, suffix: str, dpi: int) -> str | bytes:
+def _drawn(sheet: Sheet, ending: str, dpi: int) -> str | bytes:
     """The sheet as a file of this kind."""
-    match suffix:
+    match ending:
         case ".pdf":
             from graphplan.backends.ink import pdf
 

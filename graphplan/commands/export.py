@@ -13,7 +13,8 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented
+from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -90,14 +91,14 @@ def run(options: argparse.Namespace) -> int:
 def format_of(output: str, named: str | None) -> str:
     """The format of a file: the one named, else the first of its suffix."""
     if named:
+        kind(output, (FORMATS[named].suffix,), named)
         return named
-    suffix = Path(output).suffix.lower()
-    found = next((name for name, format in FORMATS.items() if format.suffix == suffix), None)
-    if found is None:
-        there = ", ".join(dict.fromkeys(format.suffix for format in FORMATS.values()))
-        raise Refused(f"{output}: output", f"{suffix or 'a name without a suffix'} is no format that graphplan writes",
-                      f"a name in {there}, or --format {'|'.join(FORMATS)}")
-    return found
+    endings = tuple(dict.fromkeys(format.suffix for format in FORMATS.values()))
+    if not Path(output).suffix:
+        raise Refused(f"{output}: output", "a name without a suffix is no format",
+                      f"a name in {', '.join(endings)}, or --format {'|'.join(FORMATS)}")
+    suffix = kind(output, endings, "construction")
+    return next(name for name, format in FORMATS.items() if format.suffix == suffix)
 
 
 def _more(name: str, library: str | None) -> Mapping[str, str]:

@@ -12,8 +12,8 @@ from collections.abc import Iterable, Iterator
 from html import escape
 from pathlib import Path
 
-from graphplan.commands.choices import write
 from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import write
 from graphplan.errors import Refused
 
 HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked
@@ -25,7 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    if not options.check and not options.folder.is_dir():
+    if not options.folder.is_dir():
         raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
     stale = 0
     written = set()

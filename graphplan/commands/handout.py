@@ -13,10 +13,10 @@ examples:
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented, write
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented
+from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     from graphplan.sheet.round import Round
 
 PARTS, POSITIONS = ("task", "guided", "solution"), 36
+ENDINGS = (".pdf", ".html")
+SHOWN = 2**18  # bytes for a pose that is drawn, as measured
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -63,10 +65,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _suffix(options: argparse.Namespace) -> str:
     """What kind of file is asked for, with options that it has a use for."""
-    suffix = Path(options.output).suffix.lower()
-    if suffix not in (".pdf", ".html"):
-        raise Refused(f"{options.output}: output", f"no handout is written as {suffix or 'a file without a suffix'}",
-                      "a name in .pdf or .html")
+    suffix = kind(options.output, ENDINGS, "handout")
     if suffix == ".html" and options.only:
         raise Refused(f"--only {options.only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
     if suffix == ".pdf" and options.positions is not None:
@@ -76,9 +75,12 @@ def _suffix(options: argparse.Namespace) -> str:
 
 def _positions(options: argparse.Namespace) -> int:
     """How many poses are shown."""
+    from graphplan.cycle.memory import afford
+
     positions = POSITIONS if options.positions is None else int(options.positions)
     if positions < 0:
         raise Refused(f"--positions {positions}", "there are no fewer than none", "0 or more")
+    afford("--positions", positions, "drawn positions", SHOWN)
     return positions
 
 

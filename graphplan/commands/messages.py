@@ -8,7 +8,10 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import suppress
 from dataclasses import dataclass
+
+from graphplan.errors import printable
 
 RED, PLAIN = "\x1b[31m", "\x1b[0m"
 WIDTH = 60  # of the line of progress, which is written over and over
@@ -22,8 +25,14 @@ def error(line: str) -> None:
 
 def _print(line: str, before: str = "", after: str = "") -> None:
     """A line, which covers progress that may stand there."""
-    covering = f"{line:<{WIDTH}}" if sys.stderr.isatty() else line
-    print(f"{before}{covering}{after}", file=sys.stderr, flush=True)
+    told = printable(line)
+    covering = f"{told:<{WIDTH}}" if sys.stderr.isatty() else told
+    _tell(f"{before}{covering}{after}\n")
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # nobody can be told that nobody can be told
+        print(text, end="", file=sys.stderr, flush=True)
 
 
 @dataclass(frozen=True)
@@ -40,4 +49,4 @@ class Messages:
     def progress(self, told: str) -> None:
         """Tell whoever waits how far it is, over what was told before; nothing when it is done."""
         if not self.quiet and sys.stderr.isatty():
-            print(f"\r{told:<{WIDTH}}\r", end="", file=sys.stderr, flush=True)
+            _tell(f"\r{told:<{WIDTH}}\r")

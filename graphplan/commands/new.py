@@ -12,10 +12,11 @@ from __future__ import annotations
 
 import argparse
 
-from graphplan.commands.choices import write
 from graphplan.commands.messages import Messages
+from graphplan.commands.output import STANDARD, kind, write
 from graphplan.commands.starts import STARTS
-from graphplan.errors import Refused
+
+ENDINGS = (".toml",)
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -25,17 +26,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     text = STARTS[options.kind].text
-    if options.file == "-":
-        write(text, None)
-        return 0
-    try:
-        with open(options.file, "x", encoding="utf-8") as file:
-            file.write(text)
-    except FileExistsError:
-        raise Refused(f"{options.file}: new", "it is there already", "another name, or remove it first") from None
-    except (OSError, ValueError) as error:  # ValueError: a path that no file system has
-        why = f"it cannot be written ({getattr(error, 'strerror', None) or error})"
-        raise Refused(f"{options.file}: new", why, "name a file in a folder that can be written to") from None
-    told = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
-    Messages(options.quiet).remark(told)
+    kind(options.file, ENDINGS, "scene", "new")
+    write(text, options.file, new=True)
+    if options.file != STANDARD:
+        told = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
+        Messages(options.quiet).remark(told)
     return 0

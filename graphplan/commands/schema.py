@@ -15,7 +15,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from graphplan.commands.choices import write
+from graphplan.commands.output import write
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -29,5 +29,5 @@ def run(options: argparse.Namespace) -> int:
 
     schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps,
                "verify": result_schemas.verify}
-    write(json.dumps(schemas[options.of](), indent=2, ensure_ascii=False) + "\n", None)
+    write(json.dumps(schemas[options.of](), indent=2, ensure_ascii=False) + "\n")
     return 0

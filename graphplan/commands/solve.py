@@ -14,7 +14,8 @@ import json
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_preference, chosen
+from graphplan.commands.output import write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
@@ -71,5 +72,5 @@ def _certified(options: argparse.Namespace, scene: Scene, how: dict[str, str]) -
 
 def _printed(table: dict[str, Any], agrees: bool) -> int:
     """The results on standard output, and the exit status."""
-    write(json.dumps(table, indent=2, ensure_ascii=False) + "\n", None)
+    write(json.dumps(table, indent=2, ensure_ascii=False) + "\n")
     return 0 if agrees else 1

@@ -12,7 +12,8 @@ from __future__ import annotations
 import argparse
 import json
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, write
+from graphplan.commands.choices import add_choices, add_language, add_preference, chosen
+from graphplan.commands.output import write
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -39,7 +40,7 @@ def run(options: argparse.Namespace) -> int:
     on_sheet, lines = drafted(found.drawing, hand, check=found.check), structure(scene).lines()
     if options.json:
         data = text.steps(found.drawing, lines, say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
-        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n", None)
+        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")
     else:
-        write(text.protocol(found.drawing, lines, on_sheet.lines(), say), None)
+        write(text.protocol(found.drawing, lines, on_sheet.lines(), say))
     return 0

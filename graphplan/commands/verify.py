@@ -30,8 +30,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_pencil, add_sheet, presented, write
+from graphplan.commands.choices import add_choices, add_pencil, add_sheet, presented
 from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import STANDARD, kind, write
 from graphplan.errors import GraphplanError, Refused
 
 if TYPE_CHECKING:
@@ -43,7 +44,7 @@ if TYPE_CHECKING:
     from graphplan.verify.classroom import Classroom, Marked
     from graphplan.verify.score import Weights
 
-SUFFIXES, CLASS_SUFFIXES = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
+ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -66,17 +67,17 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.verify.score import weights
 
     path, hand, weighed = Path(options.drawing), pencil(options.pencil), weights(options.weights)
-    _check(options.report, path, options.scene)
+    ending = _reported(options.report, path, options.scene)
     desk = Desk(*_composed(options, hand), hand, weighed, options)
     if os.path.isdir(path):
-        return _class(desk, path, options)
+        return _class(desk, path, ending)
     messages = Messages(options.quiet)
     messages.progress(printable(path.name))
     one = desk.marked(path)
     messages.progress("")
     if options.report:
-        write(_report(one, Path(options.report).suffix.lower()), options.report)
-    write(_record(one) if options.json else desk.said(_lines(one)), None)
+        write(_report(one, ending), options.report)
+    write(_record(one) if options.json else desk.said(_lines(one)))
     return 0
 
 
@@ -138,17 +139,15 @@ def _composed(options: argparse.Namespace, hand: Pencil) -> tuple[Construction, 
     return found.drawing, drafted(found.drawing, hand, check=found.check, tongue=say).composition
 
 
-def _check(output: str | None, path: Path, scene: str) -> None:
-    """Refuse a report that could not be written, or would be written over what it is of, before anything is judged."""
-    suffixes = CLASS_SUFFIXES if os.path.isdir(path) else SUFFIXES
-    suffix = Path(output or "").suffix.lower()
-    if output and suffix not in suffixes:
-        what = "of a folder is" if suffix in SUFFIXES else "is"
-        raise Refused(f"--report {output}", f"no report {what} written as {suffix or 'a file without a suffix'}",
-                      f"a name in {', '.join(suffixes)}")
+def _reported(output: str | None, path: Path, scene: str) -> str:
+    """What kind of report is asked for; one that would be written over what it is of is refused before it is judged."""
+    if output == STANDARD:
+        raise Refused("--report -", "standard output has the verdict", "name a file, or --json alone")
     for kept, what in ((path, "drawing"), (scene, "scene")):
         if output and _same(output, kept):
             raise Refused(f"--report {output}", f"the {what} itself would be overwritten", "another name")
+    folder = os.path.isdir(path)
+    return kind(output, CLASS_ENDINGS if folder else ENDINGS, f"report{' of a folder' * folder}", "--report")
 
 
 def _same(one: str, other: str | Path) -> bool:
@@ -186,14 +185,14 @@ def _record(one: Marked) -> str:
     return json.dumps(record(one.judgement, one.score), indent=1, ensure_ascii=False) + "\n"
 
 
-def _report(one: Marked, suffix: str) -> str | bytes:
+def _report(one: Marked, ending: str) -> str | bytes:
     """The report as a file of this kind."""
-    if suffix == ".json":
+    if ending == ".json":
         return _record(one)
     from graphplan.verify.overlay import overlay
 
     sheets = overlay(one.judgement, one.score)
-    match suffix:
+    match ending:
         case ".pdf":
             from graphplan.backends.ink import pdf
 
@@ -210,14 +209,14 @@ def _report(one: Marked, suffix: str) -> str | bytes:
 # ---- a class -------------------------------------------------------------------------------------------------------
 
 
-def _class(desk: Desk, folder: Path, options: argparse.Namespace) -> int:
+def _class(desk: Desk, folder: Path, ending: str) -> int:
     """Judge every file of a folder; one that cannot be judged is told, and the others go on."""
     from graphplan.verify.classroom import lines
 
-    found = _judged(desk, folder, options)
+    found, options = _judged(desk, folder, desk.options), desk.options
     if options.report:
-        write(_class_report(desk, found, Path(options.report).suffix.lower()), options.report)
-    write(_data(found) if options.json else desk.said(lines(found)), None)
+        write(_class_report(desk, found, ending), options.report)
+    write(_data(found) if options.json else desk.said(lines(found)))
     return 0 if found.marked else 2
 
 
@@ -264,9 +263,9 @@ def _data(found: Classroom) -> str:
     return json.dumps(found.data, indent=1, ensure_ascii=False) + "\n"
 
 
-def _class_report(desk: Desk, found: Classroom, suffix: str) -> str:
+def _class_report(desk: Desk, found: Classroom, ending: str) -> str:
     """The report of a class as a file of this kind."""
-    if suffix == ".json":
+    if ending == ".json":
         return _data(found)
     from graphplan.backends.class_list import class_list
 

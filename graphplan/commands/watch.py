@@ -32,6 +32,7 @@ def run(options: argparse.Namespace) -> int:
     if not path.is_file():
         raise Refused(f"{path}: watch", "there is no such file", f"graphplan new {path} makes one")
     options.output = options.output or str(path.with_suffix(".svg"))
+    draw.asked(options)  # what no save would mend is told at once
     for _ in _saved(path):
         try:
             draw.run(options)

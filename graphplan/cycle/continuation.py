@@ -19,8 +19,9 @@ import numpy as np
 
 from graphplan.cycle.closure import Closure, given
 from graphplan.cycle.linkage import Array, Linkage
+from graphplan.cycle.memory import afford
 from graphplan.cycle.newton import SETTLED, distance, settle
-from graphplan.cycle.travel import TURN
+from graphplan.cycle.travel import TURN, travel_unit
 from graphplan.mechanism.model import SlidingDrive
 
 Progress = Callable[[float], None]
@@ -34,6 +35,9 @@ _LONGEST = 1 / 48
 
 _BEGINNING = np.array([1 / 8, 1 / 4, 1 / 2])
 """Where the first step is divided: the tangent in one knot does not lead so far as the cubic through two."""
+
+_KNOT = 1024
+"""Bytes for each link in a step, as measured on long travels."""
 
 _FINEST = 2.0**-36
 """The finest step, of the longest. Near a limit a pose changes with its root, so half of these digits stand there."""
@@ -131,6 +135,9 @@ class Continuation:
             for drive, pace in zip(linkage.scene.drives, linkage.paces, strict=True) if pace
         )
         self.finest = _FINEST * self.longest
+        if self.longest:
+            unit, name = travel_unit(linkage.scene)
+            afford("the cycle", (upper - lower) / unit, name, _KNOT * len(linkage.links) * unit / self.longest)
 
     def path(self, closed: bool) -> Path:
         """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""

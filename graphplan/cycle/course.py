@@ -50,7 +50,7 @@ class Course:
     def _stopped(self, limit: Limit) -> str:
         """What is to be said of a pose at a limit."""
         lost = "the drive does not say how they move on" if limit.change else "they have no velocities"
-        return f"{_links(limit.part)} are in a {limit.kind}: {lost}"
+        return f"{_links(limit.part)} {'are' if len(limit.part) > 1 else 'is'} in a {limit.kind}: {lost}"
 
     def _beyond(self, i: int, reason: str | None) -> str:
         """What is to be said of a pose beyond a limit: the nearer one, if there are two."""

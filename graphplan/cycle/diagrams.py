@@ -16,6 +16,7 @@ from graphplan.cycle.diagram_scales import DiagramScales, diagram_scales, sizes
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 
+NARROWEST = 300  # strips of half a millimetre: no ray can be drawn in a narrower one
 MOST, FEWEST = 24, 8  # strips of a division: more rays cannot be told apart, fewer show no curve
 ROUNDING = 2.0**-40  # errors below this part of the largest ordinate have no order
 
@@ -66,9 +67,9 @@ def diagram(curve: Curve, strips: int | None = None) -> Diagram:
 def _divided(curve: Curve, strips: int | None) -> Places:
     """The places that divide the abscissa: evenly if some whole number of strips does, else as nearly as can be."""
     positions = len(curve.time) - 1
-    if strips is not None and not 2 <= strips <= positions:
+    if strips is not None and not 2 <= strips <= min(positions, NARROWEST):
         raise Refused(f"{strips} strips", f"{curve.name} is known at {positions + 1} positions",
-                      f"from 2 to {positions} strips")
+                      f"from 2 to {min(positions, NARROWEST)} strips")
     even = (count for count in (MOST, MOST // 2, *range(MOST - 1, FEWEST - 1, -1)) if positions % count == 0)
     count = strips or (positions if positions <= MOST else next(even, MOST))
     return _evenly(positions, count)

@@ -7,11 +7,13 @@ import math
 import numpy as np
 
 from graphplan.cycle.linkage import Array
+from graphplan.cycle.memory import afford
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Drive, Scene, SlidingDrive
 from graphplan.phrases import said
 
 TURN = 2 * math.pi
+POSE = 2048  # bytes for a pose with its results, as measured on mechanisms of four to ten links
 
 
 def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> Array:
@@ -25,6 +27,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
         raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
     if positions < 1:
         raise Refused("the cycle", f"{positions} positions are none", "at least 1")
+    afford("the cycle", positions, "positions", POSE)
     sliding = isinstance(scene.drives[0], SlidingDrive)
     if span is None:
         if sliding:
@@ -52,11 +55,17 @@ def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
                for drive, pace in zip(scene.drives, paces, strict=True))
 
 
+def travel_unit(scene: Scene) -> tuple[float, str]:
+    """The unit in which the first drive's travel is told, and its name: a degree, or the scene's length."""
+    if isinstance(scene.drives[0], SlidingDrive):
+        return 1.0, scene.units.length
+    return math.radians(1.0), "degrees"
+
+
 def told(scene: Scene, travel: float, digits: int = 6) -> str:
     """A travel in words: degrees, or the scene's lengths."""
-    if isinstance(scene.drives[0], SlidingDrive):
-        return f"{travel:.{digits}g} {scene.units.length}"
-    return f"{math.degrees(travel):.{digits}g} degrees"
+    unit, name = travel_unit(scene)
+    return f"{travel / unit:.{digits}g} {name}"
 
 
 def _rate(drive: Drive) -> float:

@@ -47,6 +47,7 @@ class Pencil:
         return said("points ±{0} mm, edges ±{1} mm, set squares ±{2}°, openings ±{3} mm", *map(digits, sizes))
 
 
+SHEET = 1000.0  # mm: no hand is so far off on any sheet
 UNITS = {"point": "mm", "edge": "mm", "angle": "degrees", "opening": "mm"}
 
 
@@ -57,9 +58,9 @@ def pencil(text: str) -> Pencil:
 
 
 def _size(name: str, text: str) -> float:
-    """A standard deviation: a number of millimetres or degrees, at most those of a right angle's half."""
-    size, most = decimal(text), 45.0 if name == "angle" else math.inf
+    """A standard deviation: a number of millimetres or degrees, below those of a sheet or of a right angle's half."""
+    size, most = decimal(text), 45.0 if name == "angle" else SHEET
     if not 0 <= size < most:
-        right = f"a standard deviation in {UNITS[name]}, from 0" + (" to below 45" if name == "angle" else "")
+        right = f"a standard deviation in {UNITS[name]}, from 0 to below {most:g}"
         raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)
     return size

@@ -12,6 +12,7 @@ from heapq import heapify, heappop, heappush
 from random import Random
 from typing import NamedTuple, TypeVar
 
+from graphplan.errors import by_name
 from graphplan.mechanism.equations import PRIME, System, Unknown
 from graphplan.mechanism.model import Scene
 
@@ -37,7 +38,7 @@ def bracing(scene: Scene, balanced: bool = False) -> Bracing:
     loose = {name for (_, name), _ in freedom(system.unknowns, rows)}
     repeated = freedom(range(len(rows)), _transposed(system.unknowns, rows))
     overbraced = {link for i in repeated for link in system.equations[i].links}
-    return Bracing(*(tuple(link for link in scene.moving if link in found) for found in (loose, overbraced)))
+    return Bracing(*(tuple(sorted(found.intersection(scene.moving), key=by_name)) for found in (loose, overbraced)))
 
 
 def freedom(unknowns: Iterable[K], equations: Sequence[Mapping[K, int]]) -> set[K]:

@@ -15,6 +15,8 @@ from graphplan.mechanism.bracing import Bracing, bracing
 from graphplan.mechanism.faults import Faults
 from graphplan.mechanism.items import quoted
 from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.mechanism.order import ordered_links
+from graphplan.mechanism.pivots import framed, missing_pivots
 from graphplan.mechanism.placements import exactly, is_exact
 from graphplan.mechanism.structure import mobility
 
@@ -33,7 +35,7 @@ def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> No
     """The joints of a moving link lie apart."""
     joints = set(scene.joints) & placed.keys()
     for link in scene.moving:
-        for a, b in combinations([point for point in scene.links[link] if point in joints], 2):
+        for a, b in combinations([point for point in ordered_links(scene)[link] if point in joints], 2):
             if _coincide(placed[a], placed[b]):
                 instead = "joints that lie apart, or one name for both"
                 faults.add(f"links.{quoted(link)}", f"the joints {a} and {b} coincide", instead)
@@ -95,6 +97,11 @@ def check_mobility(scene: Scene, faults: Faults) -> Scene:
     if freedoms < given:
         instead = "fewer drives, or fewer joints and slides" if freedoms > 0 else "a chain with fewer joints and slides"
         faults.add("drive", what, instead)
+    elif freedoms > given and (ways := missing_pivots(scene, freedoms - given)):
+        points = ", or ".join(" and ".join(way) for way in ways)
+        on_none = f"{points} {'is' if len(ways[0]) == 1 else 'are'} on no other link"
+        instead = " or ".join([*(framed(scene, way) for way in ways), f"{freedoms - given} more [[drive]]"])
+        faults.add("links.frame", f"{what}, and {on_none}", instead)
     elif freedoms > given:
         faults.add("drive", what, f"{freedoms - given} more [[drive]], since {loose} can still move")
     elif not held.sound:

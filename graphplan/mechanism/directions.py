@@ -36,6 +36,9 @@ def read_direction(item: Item, points: Collection[str]) -> Direction | None:
             return None
         return components
     if isinstance(item.value, str):
+        if not {*item.value.split()} <= {*points} and (told := item.slip()):
+            item.fault(*told)
+            return None
         names = item.points(points)
         if names is not None and len(names) != 2:
             item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "O A"')

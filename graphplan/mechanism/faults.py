@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from graphplan.errors import Fault
+from graphplan.errors import Fault, by_name, printable
 
 _LONGEST = 300
 """Characters of one part of a fault line: a name may be a novel, an error line may not."""
@@ -34,7 +34,7 @@ class Faults:
     def unknown(self, where: str, kind: str, name: str, known: Iterable[str]) -> None:
         """Note that there is no such `kind` (point, link, ...), with the names that were probably meant."""
         anything = f"a {kind} that the scene has"
-        instead = perhaps(name, known, kind) if len(self) < _GUESSES else anything
+        instead = perhaps(name, sorted(known, key=by_name), kind) if len(self) < _GUESSES else anything
         self.add(where, f"there is no {kind} {name}", instead)
 
     def none_in(self, *tables: str) -> bool:
@@ -58,5 +58,4 @@ def perhaps(name: str, known: Iterable[str], kind: str) -> str:
 
 def one_line(text: str) -> str:
     """The text without line breaks and other unprintables, and not too long: a fault is one line."""
-    plain = "".join(c if c.isprintable() else c.encode("unicode_escape").decode("ascii") for c in text[:_LONGEST])
-    return plain + "..." if len(text) > _LONGEST else plain
+    return printable(text[:_LONGEST]) + "..." * (len(text) > _LONGEST)

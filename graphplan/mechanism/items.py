@@ -35,9 +35,19 @@ class Item:
             return value
         if isinstance(value, Unusable):
             self.fault(f"{value.text} is no usable number", "a finite number between 1e-60 and 1e60 in size")
+        elif told := self.slip():
+            self.fault(*told)
         else:
             self.fault(f"{described(value)} where a number is wanted", "a number such as 12.5")
         return None
+
+    def slip(self) -> tuple[str, str] | None:
+        """What is wrong with a text that was meant as a number, and what to write; None where it is none."""
+        if not isinstance(self.value, str):
+            return None
+        from graphplan.mechanism.slips import slip  # few scenes have faults
+
+        return slip(self.value, self.where.rpartition(".")[2])
 
     def positive(self) -> Fraction | None:
         """A number above zero: a distance."""

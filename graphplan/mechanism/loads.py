@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sized
 from fractions import Fraction
 
+from graphplan.errors import by_name
 from graphplan.mechanism.checks import check_balance
 from graphplan.mechanism.faults import Faults
 from graphplan.mechanism.items import Item, described
@@ -67,7 +68,7 @@ def _on_link(item: Item, point: str, link: str, names: Names) -> bool:
     """Whether a point is one of a link's; a fault where it is not."""
     own = names.links.get(link, ())
     if own and point not in own:
-        item.fault(f"{point} is no point of link {link}", "one of " + ", ".join(own))
+        item.fault(f"{point} is no point of link {link}", "one of " + ", ".join(sorted(own, key=by_name)))
     return point in own
 
 
@@ -170,7 +171,7 @@ def _is_slide(item: Item, pair: tuple[str, str], slides: tuple[Slide, ...]) -> b
     if not found and item.faults.none_in("slides", "links"):
         known = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides]
         meant = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides if (slide.along, slide.link) == pair]
-        instead = "perhaps " + meant[0] if meant else ", ".join(known) or "a joint and its radius"
+        instead = "perhaps " + meant[0] if meant else ", ".join(sorted(known, key=by_name)) or "a joint and its radius"
         item.fault(f"no slide of link {pair[0]} along link {pair[1]}", instead)
     return found
 

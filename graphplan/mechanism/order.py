@@ -6,18 +6,11 @@ links before this one, joints with links after it, and the others, each by name;
 
 from __future__ import annotations
 
-import re
 from functools import partial
 
+from graphplan.errors import Key as Key
+from graphplan.errors import by_name as by_name
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
-
-Key = tuple[tuple[int, int, str], ...]
-
-
-def by_name(name: str) -> Key:
-    """The key by which names are ordered: numbers in them by size, so that 10 comes after 9."""
-    parts = re.findall(r"\d+|\D+", name)
-    return tuple((0, int(part), part) if part.isdecimal() else (1, 0, part) for part in parts)
 
 
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:

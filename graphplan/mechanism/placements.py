@@ -10,6 +10,7 @@ from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
+from graphplan.errors import by_name
 from graphplan.mechanism.arcs import RULES
 from graphplan.mechanism.directions import Misfit, points_of, read_direction
 from graphplan.mechanism.items import Item, Vector, described, quoted
@@ -169,7 +170,7 @@ def _in_order(placements: Mapping[str, Placement], table: Item) -> list[str]:
         try:
             return list(TopologicalSorter(waiting).static_order())
         except CycleError as error:
-            ring = [name for name in placements if name in error.args[1]]
+            ring = sorted({*error.args[1]}, key=by_name)
             where = f"{table.where}.{quoted(ring[0])}"
             told = f"points {', '.join(ring)} are placed from each other" if ring[1:] else "it is placed from itself"
             table.faults.add(where, told, "coordinates for one of them")

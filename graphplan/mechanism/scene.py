@@ -8,6 +8,7 @@ import sys
 import tomllib
 from collections import Counter
 from dataclasses import replace
+from errno import EBADF
 from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
@@ -61,6 +62,8 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
 
 def _bytes(source: str) -> bytes:
     if source == "-":
+        if sys.stdin is None:
+            raise OSError(EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
     for entry in _packaged():
         if entry.name == f"{source}.toml" and not os.path.exists(source):
@@ -85,6 +88,10 @@ def parse(text: str, name: str) -> Scene:
     faults = Faults()
     scene = _read(_toml(text, name), name, faults)
     if len(faults):
+        from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
+
+        for slip in slips_in_vectors(text):
+            faults.add(*slip)
         raise SceneError(name, faults.found)
     return replace(scene, text=text)
 
@@ -97,10 +104,15 @@ def _toml(text: str, name: str) -> dict[str, object]:
         return tomllib.loads(text, parse_float=decimal)
     except RecursionError:
         fault = Fault("file", "tables or lists are nested too deeply", "a scene as the manual shows it")
-    except ValueError as error:  # a numeral that Python refuses to read has no place of its own
+    except ValueError as error:
+        from graphplan.mechanism.slips import slip_in_line  # few scenes have faults
+
+        # a numeral that Python refuses to read has no place of its own
         told = re.fullmatch(r"(.*) \(at (.*)\)", str(error), re.DOTALL)
         what, where = (told[1], told[2].replace("end of document", "end of file")) if told else (str(error), "file")
-        fault = Fault(where, f"this is no TOML: {what}", "text that follows toml.io")
+        line = re.match(r"line (\d+)", where)
+        slip = slip_in_line(text.splitlines()[int(line[1]) - 1]) if line else None
+        fault = Fault(where, *(slip or (f"this is no TOML: {what}", "text that follows toml.io")))
     raise SceneError(name, (fault,))
 
 

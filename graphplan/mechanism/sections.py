@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from fractions import Fraction
 from math import pi
 
+from graphplan.errors import by_name
 from graphplan.mechanism.directions import Misfit, points_of, read_direction, vector
 from graphplan.mechanism.items import Item, Vector, described
 from graphplan.mechanism.model import (
@@ -101,7 +102,8 @@ def _read_slide(row: Item, names: Names) -> Slide | None:
         return None
     if at not in names.links[link]:
         if names.links[link]:
-            fields["at"].fault(f"{at} is no point of the sliding link {link}", "one of " + ", ".join(names.links[link]))
+            own = ", ".join(sorted(names.links[link], key=by_name))
+            fields["at"].fault(f"{at} is no point of the sliding link {link}", f"one of {own}")
         return None
     return Slide(link, along, at, *guide)
 
@@ -198,7 +200,7 @@ def _read_sliding(row: Item, names: Names, guides: dict[tuple[str, str], Slide])
     if slide is None and not row.faults.none_in("slides", "links"):
         return None  # the slide may be among those that have faults
     if slide is None:
-        known = [f'slide = ["{link}", "{along}"]' for link, along in guides]
+        known = [f'slide = ["{link}", "{along}"]' for link, along in sorted(guides)]
         meant = [f'slide = ["{link}", "{along}"]' for link, along in guides if (along, link) == pair]
         instead = "perhaps " + meant[0] if meant else "one of " + ", ".join(known) if known else "[[slides]] with it"
         fields["slide"].fault(f"no slide of link {pair[0]} along link {pair[1]}", instead)

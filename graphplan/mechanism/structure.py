@@ -21,6 +21,7 @@ from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.contours import loop_lengths
 from graphplan.mechanism.equations import System, ends
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
+from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.transfer import stages
 from graphplan.phrases import Said, phrase, said
 
@@ -101,7 +102,7 @@ def structure(scene: Scene) -> Structure:
         raise SceneError(scene.name, (fault,))
     system = System(scene)
     found = [[name for sort, name in stage if sort == "link"] for stage in stages(system)]
-    order = {link: i for i, link in enumerate(scene.moving)}
+    order = {link: i for i, link in enumerate(ordered_links(scene))}
     teams = [tuple(sorted(team, key=order.__getitem__)) for team in found if team]
     surroundings = _Surroundings(scene, system.known, {link: i for i, team in enumerate(teams) for link in team})
     return Structure(mobility(scene) + len(scene.redundant), tuple(_group(surroundings, team) for team in teams))

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import chain
 from typing import Protocol
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, by_name
 from graphplan.mechanism.model import Number, Scene
 from graphplan.solver.elimination import Elimination, transpose
 from graphplan.solver.equations import Equations
@@ -61,5 +61,6 @@ def numbers(equations: Equations) -> Iterable[Number]:
 def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
     """Fails with `Refused` where the scene is irrational, or a number in use is rounded."""
     if scene.irrational or any(isinstance(number, float) for number in used):
-        why = "; ".join(scene.irrational) or "a coordinate, a drive, a given motion or a load is not a fraction"
+        known = sorted(scene.irrational, key=by_name)
+        why = "; ".join(known) or "a coordinate, a drive, a given motion or a load is not a fraction"
         raise Refused("exact numbers", why, "ask for floats, without --exact")

@@ -197,7 +197,7 @@ def test_the_suffix_says_what_is_drawn(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(("name", "more", "said"), [
-    ("sheet.jpg", [], "no sheet is drawn as .jpg; a name in .svg, .pdf, .png, .dxf"),
+    ("sheet.jpg", [], "no sheet is written as .jpg; a name in .svg, .pdf, .png, .dxf"),
     ("sheet.svg", ["--dpi", "300"], "only a .png has dots"),
     ("sheet.png", ["--dpi", "5000"], "20 to 600 dots per inch"),
     ("sheet.dxf", [], "ezdxf is not installed; pip install 'graphplan[dxf]'"),

@@ -141,7 +141,11 @@ FAULTS = {
     ("--positions", "5", "--plot", "x.svg", "--of", "9"): "no such thing",
     ("--positions", "5", "--plot", "x.svg", *["--of", "3"] * 5): "at most 4",
     ("--positions", "5", "-o", "missing/table.csv"): "cannot be written",
-    ("--positions", "5", "-o", "table.ods"): ".csv or .npz",
+    ("--positions", "5", "-o", "table.ods"): ".csv, .npz",
+    ("--positions", "5", "--plot", "x.gif"): "no plot is written as .gif; a name in .svg",
+    ("--positions", "5", "-o", "x", "--plot", "x"): "two results go to one place",
+    ("--positions", "4", "--from", "1e18", "--to", "2e18"): "EiB",
+    ("--positions", "1000000000"): "1.86 TiB",
 }
 
 

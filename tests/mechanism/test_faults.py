@@ -216,7 +216,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(PRESS, ('2 = "A M B"', '2 = "A"\n4 = "M B"')),
-        "drive: mobility 4 but 1 drive; 3 more [[drive]], since links 2 4 3 can still move",
+        "drive: mobility 4 but 1 drive; 3 more [[drive]], since links 2 3 4 can still move",
     ),
     (
         changed(OPEN, ("[motion.L]\nvelocity = [0, 1]", "")),
@@ -258,7 +258,7 @@ FAULTS: list[tuple[str, str]] = [
         changed(OPEN, ("[0, 1]", "1")),
         "motion.L.velocity: the number 1 where two numbers are wanted; two numbers such as [10, 5]",
     ),
-    (PRESS + '[find]\nvelocity = ["C"]', "find.velocity: there is no point C; one of O, A, B, M"),
+    (PRESS + '[find]\nvelocity = ["C"]', "find.velocity: there is no point C; one of A, B, M, O"),
     (
         PRESS + '[find]\nvelocity = "A"',
         'find.velocity: the string "A" where a list of points is wanted; a list such as ["A", "C"], or "all"',
@@ -312,14 +312,14 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ("mass = 2.5", 'mass = "2.5 kg"')),
-        'masses.2.mass: the string "2.5 kg" where a number is wanted; a number such as 12.5',
+        'masses.2.mass: "2.5 kg" has a unit in it; 2.5, with mass = "kg" in [units]',
     ),
     (
         changed(LOADED, ("inertia = 0.01", "inertia = inf")),
         "masses.2.inertia: inf is no usable number; a finite number between 1e-60 and 1e60 in size",
     ),
-    (changed(LOADED, ('centre = "M"', 'centre = "S"')), "masses.2.centre: there is no point S; one of O, A, B, M"),
-    (changed(LOADED, ('centre = "M"', 'centre = "O"')), "masses.2.centre: O is no point of link 2; one of A, M, B"),
+    (changed(LOADED, ('centre = "M"', 'centre = "S"')), "masses.2.centre: there is no point S; one of A, B, M, O"),
+    (changed(LOADED, ('centre = "M"', 'centre = "O"')), "masses.2.centre: O is no point of link 2; one of A, B, M"),
     (
         changed(LOADED, ('centre = "M"', "centre = [45, 20]")),
         'masses.2.centre: a list of 2 where the name of a point is wanted; a name in quotes, such as "3"',
@@ -337,8 +337,8 @@ FAULTS: list[tuple[str, str]] = [
     (changed(LOADED, ("value = [-150", "vale = [-150")), "forces.1.vale: unknown key; perhaps value"),
     (changed(LOADED, ('on = "3"', 'on = "5"')), "forces.1.on: there is no link 5; one of 1, 2, 3, frame"),
     (changed(LOADED, ('on = "3"', 'on = "frame"')), "forces.1.on: a load on the frame moves nothing; a moving link"),
-    (changed(LOADED, ('at = "B"\nvalue', 'at = "C"\nvalue')), "forces.1.at: there is no point C; one of O, A, B, M"),
-    (changed(LOADED, ('on = "3"', 'on = "1"')), "forces.1.at: B is no point of link 1; one of O, A"),
+    (changed(LOADED, ('at = "B"\nvalue', 'at = "C"\nvalue')), "forces.1.at: there is no point C; one of A, B, M, O"),
+    (changed(LOADED, ('on = "3"', 'on = "1"')), "forces.1.at: B is no point of link 1; one of A, O"),
     (
         changed(LOADED, ("[-150, 0.5]", "-150")),
         "forces.1.value: the number -150 where two numbers are wanted; two numbers such as [10, 5]",
@@ -377,7 +377,7 @@ FAULTS: list[tuple[str, str]] = [
         balanced('at = "A"\non = "1"'),
         "balance: direction is missing; the force's direction: a vector, an angle in degrees, or two points",
     ),
-    (balanced('at = "B"\non = "1"\ndirection = [0, 1]'), "balance.at: B is no point of link 1; one of O, A"),
+    (balanced('at = "B"\non = "1"\ndirection = [0, 1]'), "balance.at: B is no point of link 1; one of A, O"),
     (
         balanced('at = "A"\non = "1"\ndirection = [0, 0]'),
         "balance.direction: the direction is zero; a vector that is not [0, 0]",
@@ -452,7 +452,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ('at = "A"\nradius', 'at = "C"\nradius')),
-        "friction.1.at: there is no point C; one of O, A, B, M",
+        "friction.1.at: there is no point C; one of A, B, M, O",
     ),
     (
         changed(LOADED, ('at = "A"\nradius', 'at = "M"\nradius')),
@@ -489,7 +489,7 @@ FAULTS: list[tuple[str, str]] = [
     ),
     (
         changed(LOADED, ('reactions = ["A"', 'reactions = ["M"')),
-        "find.reactions: there is no joint or slide M; one of O, A, B, 3 along frame",
+        "find.reactions: there is no joint or slide M; one of 3 along frame, A, B, O",
     ),
     (
         changed(LOADED, ('reactions = ["A"', "reactions = [3")),

@@ -1,0 +1,152 @@
+"""Output: where a command writes what it gives. All commands write here.
+
+A regular file appears in one step, whole or not at all, also behind a symbolic link. A device or a pipe is written
+through and stays what it is. `-` is standard output.
+"""
+
+from __future__ import annotations
+
+import os
+import stat
+import sys
+from collections.abc import Sequence
+from contextlib import suppress
+from errno import EACCES, EBADF, EEXIST, EISDIR
+from io import StringIO
+
+from graphplan.errors import Refused
+
+STANDARD = "-"
+
+
+def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
+    """The ending of an output, of those that a command knows, in lower case; the first where its name has none.
+
+    Fails with `Refused` where the ending is another one, or nothing can be written there: before any work is done.
+    """
+    if path is None or path == STANDARD:
+        return endings[0]
+    try:
+        _place(path)
+    except (OSError, ValueError) as error:
+        raise _unwritable(path, error) from None
+    ending = os.path.splitext(path)[1].lower()
+    if ending and ending not in endings:
+        raise Refused(f"{option} {path}", f"no {what} is written as {ending}", f"a name in {', '.join(endings)}")
+    return ending or endings[0]
+
+
+def apart(*paths: str | None) -> None:
+    """Refuse one name for two results, of which one would replace the other."""
+    named = [path if path == STANDARD else os.path.realpath(path) for path in paths if path]
+    if twice := next((name for name in named if named.count(name) > 1), ""):
+        raise Refused(f"{twice}: output", "two results go to one place", "a name for each")
+
+
+def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = False) -> None:
+    """Write text (as UTF-8) or bytes to a file or to standard output; a `new` file replaces none that is there."""
+    try:
+        data = content.encode() if isinstance(content, str) else content
+        if path is None or path == STANDARD:
+            _print(data)
+        else:
+            _write(data, path, new)
+    except (OSError, ValueError) as error:
+        if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
+            raise  # whoever read standard output has had enough, which is no fault
+        raise _unwritable(path, error) from None
+
+
+def flush() -> None:
+    """Let go what others, such as argparse, have printed; fails as `write` does."""
+    if sys.stdout is not None:
+        write(b"")
+
+
+def hush() -> None:
+    """Let what standard output could not take be forgotten, so that nothing tries once more when the process ends."""
+    with suppress(OSError):  # held in memory, it has no descriptor
+        if sys.stdout is not None:
+            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _print(data: bytes) -> None:
+    if sys.stdout is None:
+        raise OSError(EBADF, "it is closed")
+    sys.stdout.flush()
+    if isinstance(sys.stdout, StringIO):
+        sys.stdout.write(data.decode())
+    else:
+        sys.stdout.buffer.write(data)
+        sys.stdout.buffer.flush()
+
+
+def _write(data: bytes, path: str, new: bool) -> None:
+    target, status = _place(path)
+    if status and stat.S_ISREG(status.st_mode) and _is_standard(status):
+        _print(data)
+    elif status and not stat.S_ISREG(status.st_mode):
+        with open(path, "wb") as file:
+            file.write(data)
+    elif new:
+        _create(data, target)
+    else:
+        _replace(data, target, status)
+
+
+def _place(path: str) -> tuple[str, os.stat_result | None]:
+    """The file that a name leads to, and what it is; None where there is none yet."""
+    try:
+        status = os.stat(path)
+    except FileNotFoundError:
+        status = None
+    target = os.path.realpath(path)
+    if status and stat.S_ISDIR(status.st_mode):
+        raise OSError(EISDIR, "this is a directory")
+    if status is None or stat.S_ISREG(status.st_mode):
+        os.stat(os.path.dirname(target))
+        if not all(os.access(needed, os.W_OK) for needed in (os.path.dirname(target), *([target] if status else []))):
+            raise OSError(EACCES, os.strerror(EACCES))
+    return target, status
+
+
+def _is_standard(status: os.stat_result) -> bool:
+    """Whether a file is standard output by another name, such as /dev/stdout: it goes on where that stands."""
+    with suppress(OSError):
+        return sys.stdout is not None and os.path.samestat(status, os.fstat(1))
+    return False
+
+
+def _replace(data: bytes, target: str, status: os.stat_result | None) -> None:
+    """Write beside the file, then put it in its place: two that write at once do not mix."""
+    temporary = os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}")
+    try:
+        with open(temporary, "xb") as file:
+            file.write(data)
+        if status:
+            os.chmod(temporary, stat.S_IMODE(status.st_mode))
+        os.replace(temporary, target)
+    finally:  # not there any more where all went well; there also where the user interrupts
+        with suppress(OSError):
+            os.unlink(temporary)
+
+
+def _create(data: bytes, target: str) -> None:
+    with open(target, "xb") as file:
+        try:
+            file.write(data)
+            file.flush()
+        except BaseException:
+            os.unlink(target)
+            raise
+
+
+def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
+    """What is told of an output that cannot be written."""
+    why = getattr(error, "strerror", None) or str(error)
+    if path in (None, STANDARD):
+        hush()
+        return Refused("standard output", f"cannot be written ({why})", "an open one with room, or a file")
+    if getattr(error, "errno", None) == EEXIST:
+        return Refused(f"{path}: output", "it is there already", "another name, or remove it first")
+    return Refused(f"{path}: output", f"cannot be written ({why})", "name a file in a folder that can be written to")

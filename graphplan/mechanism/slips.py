@@ -1,0 +1,69 @@
+"""Slips of the pen in numbers: a decimal comma, or a unit beside the number, with what to write instead.
+
+Read only where a number is wanted and none is found, in a string or in text that is no TOML.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+
+NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
+DEGREES, TURNS, RADIANS = ("°", "deg", "degree", "degrees"), ("rpm", "min-1", "1/min"), ("rad",)
+ATOMS = (*METRES, *NEWTONS, *KILOGRAMS, *DEGREES, *TURNS, *RADIANS, "s", "Nm")
+UNIT = "(?:{0})(?:[²2]|\\^2)?(?:\\s*[/*·]\\s*(?:{0})(?:[²2]|\\^2)?)*".format(
+    "|".join(sorted(map(re.escape, ATOMS), key=len, reverse=True)))
+WRITTEN = re.compile(rf"\s*(?P<number>{NUMBER})\s*(?P<unit>{UNIT})?\s*")
+IN_TEXT = re.compile(rf"(?:=\s*(?P<comma>[-+]?\d+,\d+)|[=\[,]\s*(?P<beside>{NUMBER}\s*(?:{UNIT})))\s*(?=[,\]}}#]|$)")
+VECTOR = re.compile(rf"\[\s*({NUMBER}),\s+({NUMBER})\s*\]")
+TEXTS = re.compile(r"\"[^\"]*\"|'[^']*'|#.*")
+TABLES = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}
+
+
+def slip(text: str, key: str = "") -> tuple[str, str] | None:
+    """What is wrong with a text that should be a number, and what to write for this key; None where neither is."""
+    written = WRITTEN.fullmatch(text)
+    if written is None:
+        return None
+    number, unit = written["number"].replace(",", "."), written["unit"]
+    wrong = [*(["a decimal comma"] if "," in written["number"] else []), *(["a unit in it"] if unit else [])]
+    if not wrong:
+        return None
+    what = f'"{text.strip()}" has {" and ".join(wrong)}'
+    return what, _instead(number, unit, key) if unit else number
+
+
+def slip_in_line(line: str) -> tuple[str, str] | None:
+    """The same of the first such number in a line of a scene, which is no TOML."""
+    bare = TEXTS.sub(lambda text: " " * len(text[0]) if text[0][0] == "#" else "_" * len(text[0]), line)
+    found = IN_TEXT.search(bare)
+    if found is None:
+        return None
+    key = re.search(r"([\w-]+)\s*$", bare[: found.start()])
+    return slip(found["comma"] or found["beside"], key[1] if key else "")
+
+
+def slips_in_vectors(text: str) -> Iterator[tuple[str, str, str]]:
+    """The place of each vector such as [12,5, 30], which TOML reads as three numbers, what is wrong, what is right."""
+    for count, line in enumerate(text.splitlines(), 1):
+        for vector in VECTOR.finditer(line):
+            if "," in vector[1] + vector[2]:
+                right = f"[{vector[1].replace(',', '.')}, {vector[2].replace(',', '.')}]"
+                yield f"line {count}", f"{vector[0]} has a decimal comma", right
+
+
+def _instead(number: str, unit: str, key: str) -> str:
+    """The number alone, and how the scene says its unit."""
+    if unit in DEGREES:
+        return f"{number}, as angles are in degrees"
+    if unit in RADIANS:
+        return "the angle in degrees"
+    if unit in TURNS and key != "rpm":
+        return f"rpm = {number} in the place of omega"
+    for quantity, table in TABLES.items():
+        found = next((name for name in table if re.match(rf"{name}(?![A-Za-z])", unit)), "")
+        if found and key != "gravity":
+            return f'{number}, with {quantity} = "{found}" in [units]'
+    return f"{number} alone"

@@ -251,9 +251,10 @@ class Facts:
 
     def _auxiliary(self, body: str, X: Place) -> Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""
-        loci = list(self._loci(body, X))[:2]
-        crossing = len(loci) == 2 and _cross(self._normal(loci[0]), self._normal(loci[1]))
-        return Auxiliary(body, *loci, X) if crossing and not any(self._carried(*loci, X)) else None
+        match list(self._loci(body, X)):
+            case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried(A, B, X)):
+                return Auxiliary(body, A, B, X)
+        return None
 
     def _settle(self, body: str, X: Place) -> Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""

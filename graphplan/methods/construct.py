@@ -10,6 +10,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, SlidingDrive
+from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import Construction
 from graphplan.methods.moves import Move, Pole, Trial
@@ -97,7 +98,8 @@ class Draughtsman:
         return rates and getattr(rates, kind)
 
     def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
-        for name in names:
+        asked = set(names)
+        for name in (point for point in ordered_points(self.scene) if point in asked):
             place = (self.net.name(name), "")
             if place not in plan.ends:
                 why = said("no construction known here reaches it")
@@ -109,7 +111,8 @@ class Draughtsman:
     def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
         links, sought = self.scene.find.links, {*map(self.net.name, asked)}
-        for link in self.scene.moving if links is None else links:
+        asked_for = self.scene.moving if links is None else links
+        for link in sorted(asked_for, key=by_name):
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]
@@ -150,7 +153,7 @@ class Draughtsman:
         drives = [drive for drive in self.scene.drives if isinstance(drive, SlidingDrive)]
         rates = {SLIDE_VELOCITY: {(drive.link, drive.along): drive.speed for drive in drives},
                  SLIDE_ACCELERATION: {(drive.link, drive.along): drive.acceleration for drive in drives}}
-        for slide in self.scene.slides:
+        for slide in self.net.all_slides:
             if slide.at in asked if names is None else slide.name in names:
                 begin = plan.end_in(slide.along, slide.at)
                 end = plan.end_in(slide.link, slide.at)

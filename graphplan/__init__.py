@@ -15,17 +15,17 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan import solver as analytic
-    from graphplan.errors import ConstructionError, GraphplanError, Refused, SceneError, SingularPose
+    from graphplan.check.trusted import construct
+    from graphplan.errors import ConstructionError, Disagreement, GraphplanError, Refused, SceneError, SingularPose
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.scene import load, parse
-    from graphplan.methods.construct import construct
     from graphplan.methods.construction import Construction
 
 __version__ = "0.1.0"
 
 __all__ = [
-    "Construction", "ConstructionError", "GraphplanError", "Refused", "Scene", "SceneError", "SingularPose",
-    "analytic", "construct", "cycle", "load", "parse", "sheet",
+    "Construction", "ConstructionError", "Disagreement", "GraphplanError", "Refused", "Scene", "SceneError",
+    "SingularPose", "analytic", "construct", "cycle", "load", "parse", "sheet",
 ]
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
@@ -33,12 +33,13 @@ MODULES = {"analytic": "graphplan.solver", "cycle": "graphplan.cycle", "sheet": 
 HOMES = {
     "Construction": "graphplan.methods.construction",
     "ConstructionError": "graphplan.errors",
+    "Disagreement": "graphplan.errors",
     "GraphplanError": "graphplan.errors",
     "Refused": "graphplan.errors",
     "Scene": "graphplan.mechanism.model",
     "SceneError": "graphplan.errors",
     "SingularPose": "graphplan.errors",
-    "construct": "graphplan.methods.construct",
+    "construct": "graphplan.check.trusted",
     "load": "graphplan.mechanism.scene",
     "parse": "graphplan.mechanism.scene",
 }

@@ -84,6 +84,17 @@ class SingularPose(GraphplanError):
         super().__init__(f"singular pose{named}{missed}; {why}")
 
 
+class Disagreement(GraphplanError):
+    """A construction and the analytic solver that differ, whatever way is taken: in what, and by how much."""
+
+    status = 1
+
+    def __init__(self, name: str, what: str, drawn: str, solved: str, gap: float):
+        self.name, self.what, self.drawn, self.solved, self.gap = name, what, drawn, solved, gap
+        super().__init__(f"{name}: the construction and the analytic solver disagree; the {what} is {drawn} as drawn, "
+                         f"{solved} as solved, {gap:.2g} of its size apart")
+
+
 class Undrawable(Exception):
     """Raised by a kernel rule, which does not know its step: a declared failure code and the reason."""
 

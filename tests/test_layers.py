@@ -42,7 +42,7 @@ OUTSIDE = {
     "pypdfium2": {"handed"},
     "numba": {"kernel/tape/compiled.py"},
     "distributed": {"methods/crew.py"},
-    "flint": {"kernel/numbers/enclosures.py", "check"},
+    "flint": {"kernel/numbers/enclosures.py"},
 }
 # Where the kernel reckons beyond Python alone.
 NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),

@@ -12,22 +12,28 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
+from itertools import islice
 from typing import TYPE_CHECKING, Any
 
+from graphplan.check.arithmetics import enclosures
+from graphplan.check.bench import WAYS
 from graphplan.check.decimals import OPEN, SPARE, decimal, upwards
 from graphplan.check.enclosed import enclosed
 from graphplan.check.measures import difference
-from graphplan.check.opinion import enclosed_rates, enclosed_reactions
+from graphplan.check.opinion import bounded_rates, bounded_reactions
 from graphplan.check.printed import data
-from graphplan.check.report import KINDS, RATES, Report, report
+from graphplan.check.report import KINDS, RATES, Report
+from graphplan.check.trusted import trusted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
-from graphplan.methods.construct import construct
+from graphplan.methods.construct import constructions
 from graphplan.methods.tempo import extent
+from graphplan.solver import Rates, solve
 
 if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
     from graphplan.solver.statics import Reactions
 
 MOST = 10_000  # digits
@@ -38,7 +44,7 @@ ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many di
 class Certified(Report):
     """A construction with its numbers between proven bounds; `bits` is the precision at which `digits` were had.
 
-    `results` are enclosures by kind and name, `check` and `bounds` are upper bounds by velocity, acceleration, force.
+    `results` are enclosures by kind and name, `check` and `errors` are upper bounds by velocity, acceleration, force.
     `rubbed` is the second opinion on one round of friction, where some is drawn.
     """
 
@@ -64,7 +70,7 @@ class Certified(Report):
         return all(gap.overlaps(Enclosure(0)) for kind in self._parts for gap in self._gaps(kind))
 
     @cached_property
-    def bounds(self) -> dict[str, Fraction]:
+    def errors(self) -> dict[str, Fraction]:
         """The most that a number of each kind may be off, before its last digit is rounded."""
         return {kind: max((value.error for part in parts for value in self._weighed(part, self.results[part])),
                           default=Fraction(0)) for kind, parts in self._parts.items()}
@@ -73,7 +79,7 @@ class Certified(Report):
     def data(self) -> dict[str, Any]:
         """What `graphplan solve --digits` prints; fails with `Undecided` where there are too few digits yet."""
         check = {kind: upwards(_most(gap)) for kind, gap in self.check.items()}
-        bounds = {kind: upwards(error) for kind, error in self.bounds.items()}
+        bounds = {kind: upwards(error) for kind, error in self.errors.items()}
         table: dict[str, Any] = self._texts(data(self) | {"check": check})
         return table | {"digits": self.digits, "bounds": bounds}
 
@@ -163,31 +169,68 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "",
                 doubt = undecided
             except ConstructionError as certain:
                 raise _named(scene, certain, "", method=method, plan=plan, inertia=inertia) from None
+        if bits == least and _certainly_singular(scene):
+            raise _named(scene, doubt, "", method=method, plan=plan, inertia=inertia)
         bits *= 2
     far = f", as far as {bits // 2} bits can tell"
     raise _named(scene, doubt.__cause__ or doubt, far, method=method, plan=plan, inertia=inertia)
 
 
-def _attempt(scene: Scene, digits: int, bits: int, **how: Any) -> Certified:
-    """Both opinions at one precision; fails with `Undecided` where that is too low."""
-    known, domain = enclosed(scene), Enclosures()
+def _certainly_singular(scene: Scene) -> bool:
+    """Whether fractions tell that the pose is singular."""
     try:
-        drawing = construct(known, **how)
-        results = drawing.read(domain)
+        if not scene.irrational:
+            solve(scene, exact=True)
+    except SingularPose:
+        return True
+    return False
+
+
+def _attempt(scene: Scene, digits: int, bits: int, **how: Any) -> Certified:
+    """Both opinions at one precision, by the first way on which they agree; `Undecided` where that is too low."""
+    by = enclosures()
+    try:
+        known = enclosed(scene, by)
+    except Undecided:
+        raise Undecided("whether the arcs of its points meet cannot be told") from None
+    rates = bounded_rates(known, by)
+    forces = bounded_reactions(known, rates, by) if known.loads is not None else None
+    wrong: Certified | None = None
+    stuck: ConstructionError | None = None
+    try:
+        for drawing in islice(constructions(known, **how), WAYS):
+            try:
+                found = _beside(drawing, rates, forces, digits, bits)
+            except ConstructionError as error:
+                stuck = stuck or error
+                continue
+            if found.agrees:
+                return found
+            wrong = wrong or found
     except Refused as refused:
-        raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
+        if wrong is None and stuck is None:
+            raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
+    if wrong is None:
+        assert stuck is not None
+        raise stuck
+    return wrong
+
+
+def _beside(drawing: Construction, rates: Rates, smooth: Reactions | None, digits: int, bits: int) -> Certified:
+    """One construction beside the solver."""
+    domain = Enclosures()
+    try:
+        results = drawing.read(domain)
     except ConstructionError as error:
         if domain.undecided:
             raise Undecided(error.why) from error
         raise
-    rates = enclosed_rates(known)
-    if known.loads is None:
+    if smooth is None:
         return Certified(drawing, rates, results, False, digits=digits, bits=bits)
     from graphplan.check.held import Held
     from graphplan.check.rubbed import rubbed
 
-    smooth = enclosed_reactions(known, rates)
-    forces = Held(known, results, smooth, smooth.balances, rounds=False)
+    forces = Held(drawing.scene, results, smooth, (), rounds=False)
     rough = rubbed(smooth) if forces.rubbed else None
     return Certified(drawing, rates, results, False, forces, digits=digits, bits=bits, rubbed=rough)
 
@@ -198,7 +241,7 @@ def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> Graphpla
     Where they see nothing singular, it is the step of the construction that is named, or what could not be decided.
     """
     try:
-        report(scene, **how)
+        trusted(scene, **how, refuse=False)
     except SingularPose as singular:
         return SingularPose(f"{singular.why}{far}", singular.links, singular.lines_that_miss)
     if isinstance(fault, ConstructionError):

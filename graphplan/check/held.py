@@ -3,18 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.check.measures import difference, extent, size
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.units import metre
 from graphplan.methods.forces import pair_name, pairs
 from graphplan.solver.efficiency import efficiency
 from graphplan.solver.friction import Frictional, with_friction
-from graphplan.solver.statics import Reactions, reactions
-from graphplan.solver.virtual_power import power
+from graphplan.solver.rates import Rates
+from graphplan.solver.statics import Reactions
 
 RUBBED = ("balance with friction", "balance moment with friction")
 MOMENTS = ("slide moment", "balance moment", "lever moment")
@@ -72,27 +71,6 @@ class Held:
         reach = moment * metre(self.scene.units) / (x * x + y * y)
         return y * reach, -x * reach
 
-    @property
-    def _metres(self) -> Any:
-        """The mechanism's extent in metres: a moment counts as the force that it is at that arm."""
-        return extent(self.scene) / metre(self.scene.units)
-
-    @cached_property
-    def gap(self) -> Any:
-        """The largest difference of forces and moments beside the largest force; lever and power balance among them."""
-        gaps, sizes = [], []
-        for kind, truth in self.truth.items():
-            if kind in ("slide arm", *RUBBED):
-                continue
-            arm = self._metres if kind in MOMENTS else 1
-            sizes += [size(value) / arm for value in truth.values()]
-            ours = self.results.get(kind, {})
-            gaps += [size(difference(ours[name], truth[name])) / arm for name in ours]
-        for value, other in zip(self.power, self.reactions.balances, strict=True):
-            gaps.append(size(difference(value, other)) / (1 if isinstance(value, tuple) else self._metres))
-        largest = max(sizes, default=0)
-        return max(gaps, default=0) / largest if largest else max(gaps, default=0)
-
     @cached_property
     def standing(self) -> Frictional:
         """What the forces with friction come to, when round follows round."""
@@ -119,10 +97,24 @@ class Held:
         return delivered
 
 
-def held(scene: Scene, exact: bool, read: Callable[[], dict[str, dict[str, Any]]]) -> Held:
-    """The second and the third opinion on the forces of a scene with loads; then `read` gives the construction's.
+def force_truth(scene: Scene, results: dict[str, dict[str, Any]], found: Reactions) -> dict[str, dict[str, Any]]:
+    """What the solver says of the forces without friction that a construction gives, and of the power balance."""
+    return Held(scene, results, found, (), rounds=False).truth | powers(found.balances)
 
-    Fails with `SingularPose`, which names the links, where nothing can hold the motion in this pose.
-    """
-    opinions = reactions(scene, exact), power(scene, exact)
-    return Held(scene, read(), *opinions)
+
+def powers(balances: tuple[Any, ...]) -> dict[str, dict[str, Any]]:
+    """Balances in their order as readings of the power balance."""
+    found: dict[str, dict[str, Any]] = {"power balance": {}, "power balance moment": {}}
+    for number, value in enumerate(balances, 1):
+        found["power balance" if isinstance(value, tuple) else "power balance moment"][str(number)] = value
+    return found
+
+
+def plain_reactions(found: Reactions, rates: Rates, plain: Callable[[Any], Any]) -> Reactions:
+    """The reactions in plain numbers, with rates in such."""
+    def simple(value: Any) -> Any:
+        return tuple(map(simple, value)) if isinstance(value, tuple) else plain(value)
+
+    joints = {pair: simple(force) for pair, force in found.joints.items()}
+    slides = {slide: simple(both) for slide, both in found.slides.items()}
+    return replace(found, joints=joints, slides=slides, balances=simple(found.balances), rates=rates)

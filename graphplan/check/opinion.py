@@ -1,4 +1,4 @@
-"""The second opinion between proven bounds: the solver's own equations, solved in enclosures.
+"""The second opinion between proven bounds: the solver's own equations, in numbers that know how far they may be off.
 
 A scene whose links are held just once has square systems, for the rates and for the forces. Where special geometry
 makes facts redundant, as many are kept as there are unknowns; that the others hold, too, is checked.
@@ -6,16 +6,17 @@ makes facts redundant, as many are kept as there are unknowns; that the others h
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from flint import arb_mat
-
-from graphplan.kernel.numbers.enclosures import Enclosure, Undecided, ball
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.check.arithmetics import Arithmetic
+from graphplan.check.compared import KINDS
+from graphplan.mechanism.model import Scene
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations
-from graphplan.solver.facts import facts, supports
+from graphplan.solver.facts import Along, facts, supports
 from graphplan.solver.plane import dot
 from graphplan.solver.rates import Rates, motion
 
@@ -24,16 +25,16 @@ if TYPE_CHECKING:
     from graphplan.solver.statics import Reactions
 
 
-def enclosed_rates(scene: Scene) -> Rates:
-    """The rates of a scene in enclosures; `Undecided` where the pose is singular as far as the bits tell."""
-    equations = Equations(scene, facts(scene, _length))
-    zero: Any = Enclosure(0)
+def bounded_rates(scene: Scene, by: Arithmetic) -> Rates:
+    """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
+    equations = Equations(scene, facts(scene, lambda slide: by.root(dot(slide.direction, slide.direction))))
     kept = _independent(equations)
-    return motion(equations, lambda right: _consistent(equations.rows, right, kept), zero)
+    solve = by.solve([equations.rows[i] for i in kept], [1.0, 1.0, equations.reach] * len(equations.columns))
+    return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))
 
 
-def enclosed_reactions(scene: Scene, motion: Rates, besides: tuple[Load, ...] = ()) -> Reactions:
-    """The reactions and balances in enclosures, of a scene with loads, of its rates, and with other loads `besides`."""
+def bounded_reactions(scene: Scene, motion: Rates, by: Arithmetic, besides: tuple[Load, ...] = ()) -> Reactions:
+    """The reactions and balances of a scene with loads, from its rates, and with other loads `besides`."""
     from graphplan.solver.loads import acting, resultants  # what forces need is imported where there are loads
     from graphplan.solver.statics import read as read_forces
     from graphplan.solver.statics import repeating, without
@@ -41,14 +42,16 @@ def enclosed_reactions(scene: Scene, motion: Rates, besides: tuple[Load, ...] = 
     equations = Equations(scene, supports(scene))
     right = [-value for value in resultants(equations, (*acting(scene, motion), *besides))]
     kept = _independent(equations)
-    values = dict(zip(kept, _solved(transpose([equations.rows[i] for i in kept], equations.width), right), strict=True))
+    held = [equations.facts[i] for i in kept]
+    scales = [_length(fact.direction) if isinstance(fact, Along) else 1 / equations.reach for fact in held]
+    solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
+    values = dict(zip(kept, solve(right), strict=True))
     told = without([values.get(i, 0) for i in range(len(equations.facts))], repeating(equations))
     return read_forces(equations, told, motion)
 
 
-def _length(slide: Slide) -> Any:
-    """The length of a direction, which is a root."""
-    return Enclosure(dot(slide.direction, slide.direction)).root
+def _length(direction: Any) -> float:
+    return math.hypot(*map(float, direction))
 
 
 def _independent(equations: Equations) -> list[int]:
@@ -60,22 +63,27 @@ def _independent(equations: Equations) -> list[int]:
     return independent(equations)
 
 
-def _consistent(rows: Sequence[Mapping[int, Any]], right: Sequence[Any], kept: Sequence[int]) -> list[Any]:
-    """The solution of the rows that are kept; `Undecided` where it certainly does not meet the others."""
-    values = _solved([rows[i] for i in kept], [right[i] for i in kept])
-    for i in set(range(len(rows))).difference(kept):
-        left = sum((Enclosure(value) * values[j] for j, value in rows[i].items()), Enclosure(0))
-        if not left.overlaps(Enclosure(right[i])):
-            raise Undecided("the redundant facts contradict the others")
+def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],
+                solve: Callable[[Sequence[Any]], list[Any]], by: Arithmetic) -> list[Any]:
+    """The solution of the rows that are kept; fails where it certainly does not meet the others."""
+    values = solve([right[i] for i in kept])
+    for i in set(range(len(equations.rows))).difference(kept):
+        left = sum((by.lift(value) * values[j] for j, value in equations.rows[i].items()), by.lift(0))
+        if not left.overlaps(by.lift(right[i])):
+            raise by.doubt("the redundant facts contradict the others")
     return values
 
 
-def _solved(rows: Sequence[Mapping[int, Any]], right: Sequence[Any]) -> list[Any]:
-    """The one solution of a square system."""
-    size = len(rows)
-    matrix = arb_mat(size, size, [ball(row.get(column, 0)) for row in rows for column in range(size)])
-    try:
-        solution = matrix.solve(arb_mat(size, 1, [ball(value) for value in right]))
-    except ZeroDivisionError:
-        raise Undecided("whether the equations have one solution cannot be told") from None
-    return [Enclosure(solution[row, 0]) for row in range(size)]
+def by_part(rates: Rates) -> dict[str, Any]:
+    """The solver's rates, by the kinds of readings."""
+    return {part: getattr(rates, part.replace(" ", "_")) for parts in KINDS.values() for part in parts}
+
+
+def plain_rates(rates: Rates, plain: Callable[[Any], Any]) -> Rates:
+    """The rates in plain numbers."""
+    def simple(value: Any) -> Any:
+        return tuple(map(plain, value)) if isinstance(value, tuple) else plain(value)
+
+    named: dict[str, Any] = {part.replace(" ", "_"): {name: simple(value) for name, value in values.items()}
+                             for part, values in by_part(rates).items()}
+    return replace(rates, **named)

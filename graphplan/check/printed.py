@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
+from graphplan.check.compared import Compared
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Scene, Slide
@@ -15,8 +16,8 @@ if TYPE_CHECKING:
     from graphplan.check.held import Held
 
 
-def data(found: Report) -> dict[str, Any]:
-    """What `graphplan solve` prints."""
+def data(found: Report, each: bool = False) -> dict[str, Any]:
+    """What `graphplan solve` prints, with the bound of each number where that is asked for."""
     scene = found.scene
     return {
         "title": scene.title,
@@ -27,18 +28,36 @@ def data(found: Report) -> dict[str, Any]:
                                acceleration="slide acceleration"),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
-        **_protocol(found),
+        **_protocol(found, each),
     }
 
 
-def _protocol(found: Report) -> dict[str, Any]:
+def _protocol(found: Report, each: bool) -> dict[str, Any]:
     """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
-    check = {kind: _number(value) if value else 0 for kind, value in found.check.items()}
+    bounds = _plain(found.bounds) | ({"each": _each(found)} if each else {})
+    proof = {"check": _plain(found.check), "bounds": bounds, "arithmetic": found.arithmetic}
+    if found.fault is not None:
+        why = f"analytic solver alone, as nothing can be drawn in this pose: {found.fault.why}"
+        return {"method": {kind: [why] for kind in found.bounds}, **proof, "check": {}}
     try:
         steps = len(found.drawing.drawn) - found.drawing.drawn.givens
     except ConstructionError:
-        return {"check": check}
-    return {"method": found.drawing.method, "check": check, "steps": steps}
+        return proof
+    return {"method": found.drawing.method, **proof, "steps": steps}
+
+
+def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
+    return {kind: _number(value) if value else 0 for kind, value in values.items()}
+
+
+def _each(found: Report) -> dict[str, Any]:
+    """The bounds of all printed numbers, by kind and name; those of a vector's components as a list."""
+    def bounds(value: Any, vector: tuple[Compared, ...]) -> Any:
+        told = list(_plain(dict(enumerate(number.beside("bound") for number in vector))).values())
+        return told if isinstance(value, tuple) else told[0]
+
+    return {part: {name: bounds(value, found.numbers[part][name]) for name, value in named.items()}
+            for part, named in found.results.items() if part in found.numbers}
 
 
 def _forces(found: Report) -> dict[str, Any]:

@@ -1,48 +1,41 @@
-"""The construction beside the analytic solver: what both say, and by how much they differ."""
+"""The construction beside the analytic solver: what both say, by how much they differ, and what is proven of it."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.measures import difference, extent, size
-from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.check.compared import KINDS, RATES, Compared, Numbers, kind_of
+from graphplan.errors import ConstructionError, Disagreement
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
-from graphplan.methods.ways import growth, growth_of_rates
-from graphplan.solver import Rates, solve
+from graphplan.solver import Rates
 
 if TYPE_CHECKING:
     from graphplan.check.held import Held
 
-EPSILON = 2.0**-52
-LOST = 1e-6  # a form that loses more digits than these gives no numbers
-SAFETY = 100  # roundings of the mechanism's own condition that a difference may have
-
-# What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.
-KINDS = {
-    "velocity": ("velocity", "omega", "slide velocity"),
-    "acceleration": ("acceleration", "alpha", "slide acceleration"),
-}
-RATES = ("omega", "alpha")
+__all__ = ["KINDS", "RATES", "Report", "report"]
 
 
 @dataclass(frozen=True)
 class Report:
-    """A construction with its numbers, exact or in floats, and the second opinion on them; `held` is that on forces."""
+    """A construction with its numbers and the second opinion on them; `held` is that on forces.
+
+    `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
+    the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
+    says why nothing can be drawn, where the numbers are the solver's alone.
+    """
 
     drawing: Construction
     rates: Rates
     results: dict[str, dict[str, Any]]
     exact: bool
     held: Held | None = None
+    arithmetic: str = "floats"
+    numbers: Numbers = field(default_factory=dict, repr=False)
+    fault: ConstructionError | None = None
 
     @property
     def scene(self) -> Scene:
@@ -50,19 +43,21 @@ class Report:
 
     @cached_property
     def check(self) -> dict[str, Any]:
-        """For velocities and accelerations the largest difference beside the largest value of its kind.
+        """For each kind the largest difference of a number from the solver's, beside what cancels in the number."""
+        return self._largest("gap")
 
-        A link's rates count with what they make at the mechanism's extent.
-        """
-        found = {}
-        for kind, parts in KINDS.items():
-            gaps = [self._gap(part) for part in parts if part in self.results]
-            truth = [self.truth(part).values() for part in parts if part not in RATES]
-            largest = max((size(value) for values in truth for value in values), default=0)
-            if gaps:
-                found[kind] = max(gaps) / largest if largest else max(gaps)
-        if self.held is not None:
-            found["force"] = self.held.gap
+    @cached_property
+    def bounds(self) -> dict[str, Any]:
+        """For each kind how far any number is off at most, beside what cancels in it."""
+        return self._largest("bound")
+
+    def _largest(self, part: str) -> dict[str, Any]:
+        found: dict[str, Any] = {}
+        for kind in (*KINDS, "force"):
+            values = [number.beside(part) for reading, named in self.numbers.items() if kind_of(reading) == kind
+                      for vector in named.values() for number in vector]
+            if values or (kind == "force" and self.held is not None):
+                found[kind] = max(values, default=0)
         return found
 
     def truth(self, part: str) -> Mapping[str, Any]:
@@ -72,94 +67,55 @@ class Report:
         truth: Mapping[str, Any] = getattr(self.rates, part.replace(" ", "_"))
         return truth
 
-    def _gap(self, part: str) -> Any:
-        """The largest difference in one kind of reading."""
-        ours, truth = self.results[part], self.truth(part)
-        gap = max(size(difference(ours[name], truth[name])) for name in ours)
-        return gap * extent(self.scene) if part in RATES else gap
-
-    @property
-    def tolerance(self) -> float:
-        """What rounding may make of the mechanism's own condition; nothing where the numbers are exact."""
-        return 0.0 if self.exact else max(1e-12, SAFETY * EPSILON * self.condition)
-
     @property
     def condition(self) -> float:
         """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
         return max(self.rates.condition, self.held.reactions.condition if self.held else 1.0)
 
     @property
+    def proven(self) -> bool:
+        """Whether nine digits of each number are proven, and the difference from the solver is rounding."""
+        return all(number.holds and not number.apart for _, _, number in self._all)
+
+    @property
+    def wrong(self) -> bool:
+        """Whether the construction and the solver are proven to differ."""
+        return any(number.apart for _, _, number in self._all)
+
+    @property
     def agrees(self) -> bool:
-        """Whether the differences are within the tolerance, or within what this form lets rounding grow to."""
-        return not self.complaint or (self._grown and self._worst <= LOST)
+        """Whether the numbers of construction and solver are the same, as far as can be told."""
+        return not self.wrong and all(number.gap <= LOST * number.size or number.holds for _, _, number in self._all)
+
+    @property
+    def _all(self) -> list[tuple[str, str, Compared]]:
+        """Every number with its kind and name."""
+        return [(part, name, number) for part, named in self.numbers.items() for name, vector in named.items()
+                for number in vector]
+
+    @property
+    def disagreement(self) -> Disagreement:
+        """The error that names the number in which the two differ most, and by how much."""
+        part, name, number = max(self._all, key=lambda one: (one[2].apart, one[2].beside("gap")))
+        return Disagreement(self.scene.name, f"{part} of {name}", told(number.value), told(number.truth),
+                            float(number.beside("gap")))
 
     @property
     def complaint(self) -> str:
         """What is wrong with the numbers, if anything: one line."""
-        if self._worst <= self.tolerance:
-            return ""
-        if not self._grown:
-            return "the construction and the analytic solver disagree"
-        digits = max(0, int(-math.log10(self._worst)))
-        return (f"rounding grows large in this form here: {digits} digits of the construction hold; "
-                "let the form be chosen, without --method or --plan")
-
-    @property
-    def _worst(self) -> Any:
-        return max(self.check.values(), default=0)
-
-    @cached_property
-    def _grown(self) -> bool:
-        """Whether this form lets rounding grow to such differences."""
-        return not self.exact and bool(self._worst <= SAFETY * EPSILON * max(
-            growth(self.drawing.program), growth_of_rates(self.drawing)))
+        return "" if self.agrees else str(self.disagreement)
 
 
-def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "",
-           strict: bool = False, inertia: str = "couple") -> Report:
-    """Construct, read, solve and compare.
-
-    Friction, which depends on the sizes of reactions, is left out of exact numbers. Fails with `SingularPose`, which
-    names the links and the lines that should meet; with `Refused` where --exact meets an irrational scene, or where no
-    construction reaches what is asked.
-    """
-    if exact and scene.irrational:
-        irrational = ", ".join(sorted(scene.irrational, key=by_name))
-        raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
-    if exact and scene.loads is not None:  # the size of a reaction is a root
-        scene = replace(scene, loads=replace(scene.loads, frictions=()))
-    try:
-        drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
-    except Refused as refused:
-        solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
-        raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
-    domain: Domain = Fractions() if exact else Floats()
-    try:
-        rates = solve(scene, exact)
-    except SingularPose as singular:
-        raise SingularPose(singular.why, singular.links, _miss(drawing, domain)) from None
-    if scene.loads is None:
-        return Report(drawing, rates, drawing.read(domain), exact)
-    from graphplan.check.held import held
-
-    forces = held(scene, exact, lambda: drawing.read(domain))  # the solver is asked first: it names the links
-    return Report(drawing, rates, forces.results, exact, forces)
+LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
 
 
-def _miss(drawing: Construction, domain: Domain) -> str:
-    """The lines that should meet and do not: where the construction stops, or where its lines cross flattest."""
-    try:
-        drawing.read(domain)
-    except ConstructionError as error:
-        return f"{error.drawing}: {error.why}"
-    flattest = min((step for step in drawing.program.steps if step.op.name == "meet"),
-                   key=lambda step: _sine(drawing, step.args), default=None)
-    if flattest is None:
-        return ""
-    one, two = (drawing.program.described(arg) for arg in flattest.args)
-    return f"{drawing.program.text(flattest.index)}, where {one} should meet {two}: the two lines are all but parallel"
+def told(value: Any) -> str:
+    """A number as an error line has it."""
+    return f"{float(value):.10g}"
 
 
-def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
-    (a, b, _), (c, d, _) = (drawing.truth[line] for line in lines)
-    return float(abs(a * d - b * c) / ((a * a + b * b) * (c * c + d * d)) ** 0.5)
+def report(scene: Scene, **how: Any) -> Report:
+    """Construct, read, solve and compare: see :func:`graphplan.check.trusted.trusted`."""
+    from graphplan.check.trusted import trusted
+
+    return trusted(scene, **how)

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import Any
 
-from graphplan.check.opinion import enclosed_reactions
+from graphplan.check.arithmetics import enclosures
+from graphplan.check.opinion import bounded_reactions
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures
 from graphplan.mechanism.model import FRAME, Force, Moment, Pair
 from graphplan.mechanism.units import metre
@@ -17,7 +18,7 @@ from graphplan.solver.statics import Reactions
 def rubbed(smooth: Reactions) -> Reactions:
     """The reactions and balances in enclosures, with the friction of these reactions as loads."""
     loads = tuple(load for load in _rubs(smooth) if load.on != FRAME)
-    return enclosed_reactions(smooth.equations.scene, smooth.rates, loads)
+    return bounded_reactions(smooth.equations.scene, smooth.rates, enclosures(), loads)
 
 
 def _rubs(smooth: Reactions) -> Iterator[Load]:

@@ -15,7 +15,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices
-from graphplan.commands.messages import Messages, error
+from graphplan.commands.messages import error
 from graphplan.commands.output import write
 
 if TYPE_CHECKING:
@@ -37,49 +37,70 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.methods.panels import redundancies
 
     scene = load(options.scene)
-    found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia)
+    found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia,
+                   refuse=False)
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
     if options.json:
         write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n")
     else:
         write("\n".join(_lines(found, groups, notes)) + "\n")
-    if found.complaint:
-        (Messages(options.quiet).remark if found.agrees else error)(found.complaint)
+    if not found.agrees:
+        error(found.complaint)
     return 0 if found.agrees else 1
 
 
 def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[str]:
     """Both opinions as a table, and what there is to say of them."""
-    lines = [found.scene.title, *groups, "", f"{'':<24}{'construction':>32}{'analytic solver':>32}"]
+    lines = [found.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
     for part, ours in found.results.items():
         truth = found.truth(part)
-        lines += [f"{part + ' ' + name:<24}{_text(ours[name]):>32}{_text(truth[name]):>32}" for name in ours]
-    powers = found.held.named(found.held.power) if found.held else {}
-    lines += [f"{f'power balance {name}':<24}{_text(value):>32}" for name, value in powers.items()]
+        lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]), *_apart(found, part, name))
+                  for name in ours]
+    powers = found.held.named(found.held.power) if found.held and found.held.power else {}
+    lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
     for kind, difference in found.check.items():
-        lines.append(f"largest difference in {kind}: {float(difference):.2g} of the largest value")
+        proof = "" if found.exact else f"; no number is further off than {float(found.bounds[kind]):.2g} of it"
+        lines.append(f"largest difference in {kind}: {float(difference):.2g} of the number's own size{proof}")
     lines += notes
     if found.held and found.held.efficiency is not None:
         lines.append(f"instantaneous efficiency: {found.held.efficiency:.4g} as drawn, "
                      f"{found.held.standing.efficiency:.4g} in further rounds")
     if not found.exact:
-        lines.append(f"condition of the mechanism: {found.condition:.3g}; allowed: {found.tolerance:.2g}")
+        lines.append(f"arithmetic: {found.arithmetic}; condition of the mechanism: {found.condition:.3g}")
     return lines
 
 
 def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[str, Any]:
     """The same as data: of every result what the construction and the solver say."""
-    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(found.truth(part)[name])}
+    results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(found.truth(part)[name]),
+                             **dict(zip(("difference", "size"), map(float, _sizes(found, part, name)), strict=False))}
                       for name in ours} for part, ours in found.results.items()}
     held = {"power balance": _plain(tuple(found.held.power))} if found.held else {}
     if found.held and found.held.efficiency is not None:
         held["efficiency"] = {"drawn": _plain(found.held.efficiency), "stands": found.held.standing.efficiency}
-    condition = {} if found.exact else {"condition": found.condition, "allowed": found.tolerance}
+    condition = {} if found.exact else {"condition": found.condition}
     return {"title": found.scene.title, "structure": list(groups), "results": results, **held,
             "check": {kind: float(difference) for kind, difference in found.check.items()},
+            "bounds": {kind: float(bound) for kind, bound in found.bounds.items()}, "arithmetic": found.arithmetic,
             "notes": list(notes), **condition, "agrees": found.agrees}
+
+
+def _row(name: str, *cells: str) -> str:
+    """A line of the table: two opinions, how far they are apart, and beside what that counts."""
+    widths = (30, 30, 12, 12)
+    return f"{name:<24}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=False))
+
+
+def _apart(found: Report, part: str, name: str) -> list[str]:
+    return [f"{float(number):.2g}" for number in _sizes(found, part, name)]
+
+
+def _sizes(found: Report, part: str, name: str) -> tuple[Any, ...]:
+    """The largest difference of a quantity's numbers, and its own size; nothing where it is not compared."""
+    numbers = found.numbers.get(part, {}).get(name, ())
+    return (max(number.gap for number in numbers), numbers[0].size) if numbers else ()
 
 
 def _text(value: Any) -> str:

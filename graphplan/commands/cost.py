@@ -31,11 +31,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.check.trusted import construct
     from graphplan.cycle.memory import afford
     from graphplan.drafting.comparison import Comparison, legend
     from graphplan.drafting.pencil import pencil
     from graphplan.drafting.preference import forms
-    from graphplan.errors import Refused
+    from graphplan.errors import Disagreement, Refused
     from graphplan.mechanism.scene import load
 
     if options.hands and options.hands < 2:
@@ -45,12 +46,13 @@ def run(options: argparse.Namespace) -> int:
     found = []
     for plan, strict in _kinds():
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
-        drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper)
+        drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
         found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))
     messages.progress("")
     refusals = [form.refusal for one in found for form in one.forms]
-    if refusals[0] is not None and all(refusals):
-        raise refusals[0]
+    for refusal in refusals:
+        if isinstance(refusal, Disagreement) or (refusal is not None and all(refusals)):
+            raise refusal
     if options.json:
         data = {"title": scene.title, "model": hand.model, "forms": [row for one in found for row in one.data()]}
         write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")

@@ -67,6 +67,10 @@ def run(options: argparse.Namespace) -> int:
     found = cycle(asking(scene, wanted), options.positions, span, method=options.method, plan=options.plan,
                   inertia=options.inertia, workers=workers, machine=options.compiled,
                   progress=lambda what, done, of: messages.progress(f"{what}: {done} of {of}" if done < of else ""))
+    if found.wrong:
+        for k in found.wrong:
+            error(f"pose {k}: the construction and the analytic solver disagree")
+        return 1
     if options.output or not options.plot:
         write(_table(found, ending), options.output)
     if options.plot:
@@ -77,8 +81,6 @@ def run(options: argparse.Namespace) -> int:
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
         write(diagrams(drawn, scene.title, tongue(options.language or scene.sheet.language or "en")), options.plot)
     _say(found, messages)
-    if found.wrong:
-        return 1
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 
 
@@ -96,8 +98,6 @@ def _say(found: Cycle, messages: Messages) -> None:
     tell = error if len(found.faults) == len(found.turn.travel) else messages.remark
     for line in (*_told(found.faults), *_told(otherwise)):
         tell(line)
-    for k in found.wrong:
-        error(f"pose {k}: the construction and the analytic solver disagree")
     checked = ", ".join(f"{kind} {gap:.2g}" for kind, gap in found.check.items())
     count = len(found.turn.travel)
     messages.remark(f"{count - len(found.faults)} of {count} poses; "

@@ -110,10 +110,12 @@ def _round(drawing: Construction, composition: Composition, positions: int) -> R
 
     if not positions:
         return standing(drawing, composition)
+    from graphplan.check.poses import checked
     from graphplan.cycle import follow
 
     try:
         turn = follow(drawing.scene, positions)
     except Refused as refused:
         return standing(drawing, composition, refused.why)
-    return turning(drawing, composition, [degrees(travel) for travel in turn.travel], turn.points, turn.guides)
+    points = checked(drawing, turn.points, turn.guides)
+    return turning(drawing, composition, [degrees(travel) for travel in turn.travel], points, turn.guides)

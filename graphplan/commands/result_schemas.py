@@ -46,6 +46,14 @@ def _by_kind(entry: Fragment) -> Fragment:
     return table({"velocity": entry, "acceleration": entry, "force": entry}, required=())
 
 
+def _bounds() -> Fragment:
+    """The bounds by kind, with --bounds those of each number besides."""
+    entry = {"anyOf": [FROM_0, DECIMAL]}
+    each = _by_name(_by_name({"anyOf": [FROM_0, listed(FROM_0)]}))
+    return table({"velocity": entry, "acceleration": entry, "force": entry, "each": told("with --bounds", each)},
+                 required=())
+
+
 def _whole(title: str, keys: dict[str, Fragment], optional: Collection[str]) -> Fragment:
     """A schema with its draft and title."""
     required = [key for key in keys if key not in optional]
@@ -104,14 +112,16 @@ def solve() -> Fragment:
         "indeterminate": told("the pairs whose reactions equilibrium does not tell, such as 4 at D", TEXTS),
         "friction": told("the balance with friction", _friction()),
         "method": told("how it is drawn", _by_kind(TEXTS)),
-        "check": told("the largest difference from the analytic solver beside the largest value of its kind",
+        "check": told("the largest difference from the analytic solver, beside what cancels in the number",
                       _by_kind(_value())),
         "steps": told("how many steps the drawing takes", COUNT),
         "digits": told("how many digits are proven, with --digits", COUNT),
-        "bounds": told("the most that a number of each kind may be off, with --digits", _by_kind(DECIMAL)),
+        "bounds": told("proven: the most that a number of each kind may be off, beside itself and what cancels in it; "
+                       "with --digits in units", _bounds()),
+        "arithmetic": told("in which this is proven: floats, enclosures of so many digits, or fractions", TEXT),
         "pencil": told("how far off each result is drawn, with --pencil", _pencil()),
     }, optional=("redundant", "balance", "reactions", "indeterminate", "friction", "method", "steps", "digits",
-                 "bounds", "pencil"))
+                 "pencil"))
 
 
 # --- steps ---------------------------------------------------------------------------------------------------------

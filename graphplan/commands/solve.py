@@ -4,6 +4,7 @@ examples:
   graphplan solve alt-eight-link
   graphplan solve scene.toml --exact
   graphplan solve kinytskyi --digits 30
+  graphplan solve scene.toml --bounds
   graphplan solve - --method trial < scene.toml
 """
 
@@ -27,6 +28,8 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--exact", action="store_true", help='fractions, every number a string "p/q"')
     command.add_argument("--digits", type=int, metavar="N",
                          help="N proven digits of every number, as decimal strings, and the bounds that prove them")
+    command.add_argument("--bounds", action="store_true",
+                         help="a proven bound for every number, relative to itself and to what cancels in it")
     add_choices(command)
     add_preference(command)
 
@@ -40,12 +43,8 @@ def run(options: argparse.Namespace) -> int:
     how = {"method": chosen(options, scene)[0], "plan": options.plan, "inertia": options.inertia}
     if options.digits is not None:
         return _certified(options, scene, how)
-    found = report(scene, exact=options.exact, **how)
-    if found.complaint:
-        from graphplan.commands.messages import Messages, error
-
-        (Messages(options.quiet).remark if found.agrees else error)(found.complaint)
-    return _printed(data(found) | _errors(options, found), found.agrees)
+    found = report(scene, exact=options.exact, alone=not options.pencil, **how)
+    return _printed(data(found, each=options.bounds) | _errors(options, found), True)
 
 
 def _errors(options: argparse.Namespace, found: Report) -> dict[str, Any]:

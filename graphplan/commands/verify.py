@@ -93,6 +93,7 @@ class Desk:
 
     def marked(self, path: Path) -> Marked:
         """A drawing judged; fails with `Refused` where it cannot be."""
+        from graphplan.check.trusted import construct
         from graphplan.handed.files import read
         from graphplan.handed.traces import Frame
         from graphplan.sheet.handout import code
@@ -106,7 +107,7 @@ class Desk:
         handed = read(path, list(self.composition.views), frames, self._printed, code(self.composition), size)
         task = self.drawing, self.composition, handed, self.pencil
         found = (judge(*task) if self.options.method
-                 else judge_by_any(*task, self.options.plan, self.options.inertia))
+                 else judge_by_any(*task, self.options.plan, self.options.inertia, construct))
         judgement = replace(found, name=printable(path.name))
         return Marked(judgement, score(judgement, self.weights))
 

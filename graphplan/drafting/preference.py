@@ -10,10 +10,13 @@ from graphplan.drafting.pencil import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import FAILURES
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import METHODS, construct
+from graphplan.methods.construct import METHODS
+from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.paper import sheet_size
+
+Constructing = Callable[..., Construction]
 
 FORMS = ("", *METHODS)  # first the one that the pose chooses
 NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": phrase("trial"), "poles": phrase("poles")}
@@ -66,7 +69,7 @@ class Preference:
 
 
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
-          paper: str | None = None) -> list[Form]:
+          paper: str | None = None, construct: Constructing = unchecked) -> list[Form]:
     """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
     found: list[Form] = []
     for method in FORMS:
@@ -88,7 +91,8 @@ def _same(one: Construction, other: Construction) -> bool:
 
 
 def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
-              strict: bool = False, inertia: str = "couple", paper: str | None = None) -> Preference:
+              strict: bool = False, inertia: str = "couple", paper: str | None = None,
+              construct: Constructing = unchecked) -> Preference:
     """The form that is quickest, most accurate or, by the product of both beside the best of each, balanced.
 
     Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
@@ -97,7 +101,8 @@ def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", pl
         raise Refused(f"--prefer {prefer}", "nothing is weighed so", f"one of {', '.join(WEIGHED)}")
     if method:
         raise Refused(f"--prefer {prefer}", f"--method {method} names the form already", "leave out one of the two")
-    found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper))
+    found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
+                                construct=construct))
     if found[0].refusal is not None and all(form.refusal for form in found):
         raise found[0].refusal
     return weighed(found, prefer)

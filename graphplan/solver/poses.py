@@ -6,19 +6,20 @@ makes conditions redundant they are solved by singular values.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import Drive, Number, Scene, Slide, SlidingDrive
+from graphplan.mechanism.model import Drive, Scene, Slide, SlidingDrive
 from graphplan.solver import rates, statics
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, Row
-from graphplan.solver.facts import facts, supports
+from graphplan.solver.facts import Along, facts, supports
 from graphplan.solver.loads import acting, resultants
 from graphplan.solver.plane import dot
+from graphplan.solver.sized import Sized, sized
 
 _ROUNDING = 2.0**-44
 """Below this part of the largest a singular value counts as zero."""
@@ -50,19 +51,30 @@ def _in_floats(drive: Drive) -> Drive:
     return replace(drive, omega=float(drive.omega), alpha=float(drive.alpha))
 
 
-def solve(scene: Scene, n: int) -> rates.Rates:
-    """The rates of a scene in n poses, as arrays of shape (n,); nan where a system has no solution."""
+def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
+    """The rates of a scene in n poses, as arrays of shape (n,); nan where a system has no solution.
+
+    With `sizes` they are arrays that know the size of what cancels in them.
+    """
     equations = Equations(scene, facts(scene, _length))
-    zero: Any = np.zeros(n)
-    return rates.motion(equations, lambda right: _solved(equations.rows, right, n, equations.width), zero)
+    zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
+    scales = [1.0, 1.0, _reach(equations)] * len(equations.columns)
+    return rates.motion(equations, lambda right: _solved(equations.rows, right, n, scales, sizes), zero)
 
 
-def reactions(scene: Scene, motion: rates.Rates, n: int) -> statics.Reactions:
-    """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays."""
+def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
+    """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
     equations = Equations(scene, supports(scene))
     right = [-value for value in resultants(equations, acting(scene, motion))]
-    values = _solved(transpose(equations.rows, equations.width), right, n, len(equations.facts))
+    scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
+    values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes)
     return statics.read(equations, statics.without(values, statics.repeating(equations)), motion)
+
+
+def _reach(equations: Equations) -> float:
+    """The longest coordinate of an arm in any pose, or 1 where every arm vanishes."""
+    arms = (equations.arm(link, fact.at) for fact in equations.facts for link in (fact.link, fact.on))
+    return max((float(np.max(np.abs(np.asarray(part, float)))) for arm in arms for part in arm), default=0.0) or 1.0
 
 
 def _length(slide: Slide) -> Any:
@@ -71,20 +83,32 @@ def _length(slide: Slide) -> Any:
     return np.sqrt(square)
 
 
-def _solved(rows: Sequence[Row], right: Sequence[Number], n: int, width: int) -> Sequence[Any]:
-    """The unknowns, each over all poses."""
-    size = len(rows)
-    matrix, sides = np.zeros((n, size, width)), np.empty((n, size, 1))
+def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool) -> Sequence[Any]:
+    """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
+    matrix, sides = np.zeros((n, len(rows), len(scales))), np.empty((n, len(rows), 1))
+    terms = np.empty_like(sides)
     for i, (row, side) in enumerate(zip(rows, right, strict=True)):
-        sides[:, i, 0] = side
+        sides[:, i, 0], terms[:, i, 0] = (sized(side).value, sized(side).size) if sizes else (side, 0)
         for j, value in row.items():
             matrix[:, i, j] = value
-    if size != width:
-        return list(_shortest(matrix, sides)[:, :, 0].T)
-    try:
-        return list(np.linalg.solve(matrix, sides)[:, :, 0].T)
-    except np.linalg.LinAlgError:
-        return list(np.array([_alone(*pose) for pose in zip(matrix, sides, strict=True)])[:, :, 0].T)
+    if not sizes:
+        solve = np.linalg.solve if len(rows) == len(scales) else _shortest
+        return list(_everywhere(solve, matrix, sides)[:, :, 0].T)
+    return _with_sizes(matrix, sides, terms, np.reshape(scales, (-1, 1)))
+
+
+def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any) -> list[Sized]:
+    """The unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left."""
+    square = matrix.shape[1] == matrix.shape[2]
+    inverse = (_everywhere(np.linalg.inv, matrix) if square
+               else _shortest(matrix, np.broadcast_to(np.eye(matrix.shape[1]), (*matrix.shape[:2], matrix.shape[1]))))
+    values = inverse @ sides
+    values += inverse @ (sides - matrix @ values)  # wins the last digits back
+    left = np.abs(values)
+    terms = np.abs(inverse) @ (np.abs(matrix) @ left + terms)
+    whole, most = (np.max(part * scales, axis=1, keepdims=True, initial=0.0) for part in (terms, left))
+    own = np.maximum(left, terms * most / np.where(whole > 0, whole, 1.0))
+    return [Sized(value, size) for value, size in zip(values[:, :, 0].T, own[:, :, 0].T, strict=True)]
 
 
 def _shortest(matrix: Any, sides: Any) -> Any:
@@ -104,12 +128,20 @@ def _lengths(matrix: Any, axis: int) -> Any:
     return np.where(lengths > 0, lengths, 1.0)
 
 
-def _alone(matrix: Any, side: Any) -> Any:
-    """The solution in one pose, nan where there is none."""
+def _everywhere(solve: Callable[..., Any], *systems: Any) -> Any:
+    """What LAPACK gives in every pose, nan where it gives nothing."""
     try:
-        return np.linalg.solve(matrix, side)
+        return solve(*systems)
     except np.linalg.LinAlgError:
-        return np.full_like(side, np.nan)
+        return np.array([_alone(solve, *pose) for pose in zip(*systems, strict=True)])
+
+
+def _alone(solve: Callable[..., Any], *system: Any) -> Any:
+    """The same in one pose."""
+    try:
+        return solve(*system)
+    except np.linalg.LinAlgError:
+        return np.full_like(system[-1], np.nan)
 
 
 def _pair(z: Any) -> Any:

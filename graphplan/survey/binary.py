@@ -46,11 +46,12 @@ def truth(scene: Scene) -> Rates:
     except Refused:
         if find_spec("flint") is None:
             raise
-    from graphplan.check.opinion import enclosed_rates
+    from graphplan.check.arithmetics import enclosures
+    from graphplan.check.opinion import bounded_rates
     from graphplan.kernel.numbers.enclosures import precision
 
     with precision(BITS):
-        rates = enclosed_rates(scene)
+        rates = bounded_rates(scene, enclosures())
         return replace(rates, velocity=_middles(rates.velocity), acceleration=_middles(rates.acceleration))
 
 

@@ -5,9 +5,10 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphplan.drafting.pencil import Pencil
-from graphplan.drafting.preference import forms
+from graphplan.drafting.preference import Constructing, forms
 from graphplan.errors import Refused
 from graphplan.handed.traces import Handed
+from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.sheet.composition import Composition
 from graphplan.verify.judge import judge
@@ -18,14 +19,14 @@ WRONGED = 3  # a wrong step speaks against a construction as much as so many tha
 
 
 def judge_by_any(drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
-                 plan: str = "", inertia: str = "couple") -> Judgement:
+                 plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
     """What is said of a drawing by the construction of its task, or by another that it follows better.
 
     Others are tried only where something is amiss: in the other forms of loci and rings, and unless `plan` names one,
     on the other plans. Fails as :func:`judge` does.
     """
     best = judge(drawing, composition, handed, pencil)
-    for other, sheet in _others(drawing, pencil, plan, inertia) if _amiss(best) else ():
+    for other, sheet in _others(drawing, pencil, plan, inertia, construct) if _amiss(best) else ():
         try:
             found = judge(other, sheet, handed, pencil)
         except Refused:
@@ -34,11 +35,12 @@ def judge_by_any(drawing: Construction, composition: Composition, handed: Handed
     return best
 
 
-def _others(drawing: Construction, pencil: Pencil, plan: str, inertia: str
+def _others(drawing: Construction, pencil: Pencil, plan: str, inertia: str, construct: Constructing
             ) -> Iterator[tuple[Construction, Composition]]:
     """All other constructions of a scene, on their sheets."""
     for style in (plan,) if plan else STYLES:
-        for form in forms(drawing.scene, pencil, plan=style, strict=drawing.strict, inertia=inertia):
+        for form in forms(drawing.scene, pencil, plan=style, strict=drawing.strict, inertia=inertia,
+                          construct=construct):
             if form.drafted and form.drafted.drawing.drawn.steps != drawing.drawn.steps:
                 yield form.drafted.drawing, form.drafted.composition
 

@@ -13,11 +13,11 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check import cycle as checked
 from graphplan.check.curves import asking, curves, quantities
 from graphplan.check.cycle import cycle
 from graphplan.commands import main
 from graphplan.mechanism.scene import packaged
+from graphplan.methods.construction import Construction
 
 TURNING = [name for name in packaged() if gp.load(name).drives and not gp.load(name).motions
            and name not in ("plough-lift", "ozols-5-3")]
@@ -191,19 +191,22 @@ def test_where_one_way_fails_another_serves(monkeypatch: pytest.MonkeyPatch) -> 
     assert found.results["velocity"]["E"] == pytest.approx(sound.results["velocity"]["E"], nan_ok=True)
 
 
-def test_what_no_form_gives_right_is_wrong(monkeypatch: pytest.MonkeyPatch, run: Any) -> None:
-    """Where the construction and the solver disagree and no form agrees, the poses are told, with exit status 1."""
-    real = checked.poses.solve
+def test_what_no_form_gives_right_is_wrong(monkeypatch: pytest.MonkeyPatch, run: Any, tmp_path: Path) -> None:
+    """Where construction and solver disagree and no form agrees, the poses are told, the status is 1, nothing written.
+    """
+    real = Construction.evaluate
 
-    def other(scene: Any, n: int) -> Any:
-        rates = real(scene, n)
-        rates.velocity["B"] = rates.velocity["B"][0] + 1, rates.velocity["B"][1]
-        return rates
+    def other(self: Construction, *where: Any, **how: Any) -> Any:
+        found = real(self, *where, **how)
+        found.results["velocity"]["B"] += 1e-6
+        return found
 
-    monkeypatch.setattr(checked.poses, "solve", other)
-    status, _, err = run("four-bar", "--positions", "3")
-    assert status == 1
+    monkeypatch.setattr(Construction, "evaluate", other)
+    file = tmp_path / "table.csv"
+    status, out, err = run("four-bar", "--positions", "3", "-o", str(file))
+    assert (status, out) == (1, "")
     assert err.count("disagree") == 3
+    assert not file.exists()
 
 
 def test_the_plot_speaks_the_language(run: Any, tmp_path: Path) -> None:

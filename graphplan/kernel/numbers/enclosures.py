@@ -7,12 +7,12 @@ cannot decide is not guessed: it is undecided, until the same is reckoned with m
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from fractions import Fraction
 from typing import Any
 
-from flint import arb, ctx, fmpq
+from flint import arb, arb_mat, ctx, fmpq
 
 from graphplan.errors import Undrawable
 
@@ -149,6 +149,21 @@ def heading(degrees: Fraction) -> tuple[Enclosure, Enclosure]:
 def pi() -> Enclosure:
     """The ratio of a circle's circumference to its diameter."""
     return Enclosure(arb.pi())
+
+
+def solve(rows: Sequence[Mapping[int, Any]]) -> Callable[[Sequence[Any]], list[Enclosure]]:
+    """What gives the one solution of a square system for a right-hand side; `Undecided` where there may be none."""
+    size = len(rows)
+    matrix = arb_mat(size, size, [ball(row.get(column, 0)) for row in rows for column in range(size)])
+
+    def solved(right: Sequence[Any]) -> list[Enclosure]:
+        try:
+            solution = matrix.solve(arb_mat(size, 1, [ball(value) for value in right]))
+        except ZeroDivisionError:
+            raise Undecided("whether the equations have one solution cannot be told") from None
+        return [Enclosure(solution[row, 0]) for row in range(size)]
+
+    return solved
 
 
 def _exactly(point: arb) -> Fraction:

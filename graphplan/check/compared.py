@@ -1,0 +1,182 @@
+"""One number of a construction beside the solver's: how far the two are apart, what is proven, what cancels in it.
+
+A number counts beside the largest of the terms that it is made of, a vector as a whole. Where these terms vanish, too,
+it counts beside what is next to nothing of all that moves, or of what is drawn as large as the mechanism.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from fractions import Fraction
+from typing import Any, NamedTuple
+
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import metre
+from graphplan.methods.construction import Construction
+from graphplan.methods.tempo import extent
+from graphplan.solver.bounded import UP, Bounded
+
+# What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.
+KINDS = {
+    "velocity": ("velocity", "omega", "slide velocity"),
+    "acceleration": ("acceleration", "alpha", "slide acceleration"),
+}
+RATES = ("omega", "alpha")
+SLIDING = ("slide velocity", "slide acceleration")
+ARM = "slide arm"
+FORCE = "force"
+
+NOTHING = 2.0**-64  # of the largest of a kind
+DIGITS = 1e-9  # of a number: what its bound may be at most
+CLOSE = 1e-12  # of a number: differences up to this are rounding in any construction
+ZERO = 1e-250  # a bound that proves a zero
+
+Results = Mapping[str, Mapping[str, Any]]
+
+
+class Compared(NamedTuple):
+    """A printed number and the `truth` that the solver says; `gap` is their difference, `bound` how far the number may
+    be off, `size` what both count beside. `apart` says that the two are proven to differ, `close` that they differ by
+    no more than rounding."""
+
+    value: Any
+    truth: Any
+    gap: Any
+    bound: Any
+    size: Any
+    apart: bool = False
+    close: bool = True
+
+    @property
+    def holds(self) -> bool:
+        """Whether nine digits are proven, and the difference is rounding."""
+        return self.close and bool(self.bound <= DIGITS * self.size)
+
+    def beside(self, part: str) -> Any:
+        """The gap or the bound beside the number's size."""
+        number = getattr(self, part)
+        return number / self.size if number else 0
+
+
+Numbers = dict[str, dict[str, tuple[Compared, ...]]]
+
+
+def kind_of(part: str) -> str:
+    """The kind that a reading's difference counts for."""
+    return next((kind for kind, parts in KINDS.items() if part in parts), FORCE)
+
+
+def compared(drawing: Construction, ours: Results, theirs: Results,
+             floor: Callable[[str, str], float] = lambda part, name: 0.0) -> Numbers:
+    """All readings that the solver knows, beside what it says of them; none counts beside less than its `floor`."""
+    largest = scales(drawing, theirs)
+    found: Numbers = {}
+    for part, named in ours.items():
+        if part in theirs:
+            scale = largest[kind_of(part)] / weight(drawing, part) if part != ARM else extent(drawing.scene)
+            least = scale if part == ARM else NOTHING * scale
+            found[part] = {
+                name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
+                                    max(least, floor(part, name), sliding(drawing.scene, theirs, part, name)), scale))
+                for name in named}
+    return found
+
+
+def sliding(scene: Scene, theirs: Results, part: str, name: str) -> Any:
+    """The size of the vectors whose difference a sliding is, whichever way they point; of any other reading nothing."""
+    if part not in SLIDING:
+        return 0.0
+    at = next(slide.at for slide in scene.slides if slide.name == name)
+    sizes = [abs(plain(number)) for number in theirs[part.removeprefix("slide ")][at]]
+    return (sizes[0]**2 + sizes[1]**2) ** 0.5
+
+
+def plain(number: Any) -> Any:
+    """A number with bounds or sizes as a float, or an array of them; any other as it is."""
+    return getattr(number, "value", number)
+
+
+def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
+    """The largest number of each kind, or what is drawn as large as the mechanism if that is larger."""
+    found = drawn_sizes(drawing)
+    for part, named in theirs.items():
+        if part != ARM:
+            sizes = (abs(float(number)) * weight(drawing, part) for value in named.values() for number in each(value))
+            found[kind_of(part)] = max([found[kind_of(part)], *sizes])
+    return found
+
+
+def drawn_sizes(drawing: Construction) -> dict[str, float]:
+    """The numbers of each kind that are drawn as large as the mechanism."""
+    reach, unit = extent(drawing.scene), float(drawing.tempo.unit)
+    return {"velocity": reach * unit, "acceleration": reach * unit**2, FORCE: reach / float(drawing.phi)}
+
+
+def weight(drawing: Construction, part: str) -> float:
+    """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
+    reach = extent(drawing.scene)
+    return reach if part in RATES else float(metre(drawing.scene.units)) / reach if "moment" in part else 1.0
+
+
+def each(value: Any) -> tuple[Any, ...]:
+    """The numbers of a vector, or a number alone."""
+    return value if isinstance(value, tuple) else (value,)
+
+
+def _vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float, scale: float) -> Iterator[Compared]:
+    """The components of a vector beside the size of the whole."""
+    numbers = [_number(*pair, scale) for pair in zip(ours, theirs, strict=True)]
+    size = max([least, *(number.size for number in numbers)])
+    for number in numbers:
+        close = number.close or number.gap <= CLOSE * size
+        yield number._replace(size=size, close=close)
+
+
+def _number(ours: Any, theirs: Any, scale: float) -> Compared:
+    """One number, whatever it is made of."""
+    if isinstance(theirs, Bounded):
+        if not theirs.value and theirs.error <= ZERO and abs(ours) <= CLOSE * scale:
+            return Compared(0.0, 0.0, 0.0, 0.0, theirs.size)  # proven to be nothing, and drawn so but for rounding
+        gap = abs(ours - theirs.value)
+        return Compared(ours, theirs.value, gap, UP * (gap + theirs.error), max(theirs.size, abs(ours)),
+                        close=gap <= theirs.error)
+    if isinstance(ours, Fraction | int):
+        gap = abs(ours - theirs)
+        return Compared(ours, theirs, gap, gap, max(abs(ours), abs(theirs)), bool(gap), not gap)
+    return _enclosed(ours, theirs)
+
+
+def _enclosed(ours: Any, theirs: Any) -> Compared:
+    """One enclosure beside another: the float that is printed of it, and how far that is off."""
+    printed = 0.0 if abs(ours.middle) <= ours.error else float(ours.middle)
+    bound = upwards(max(abs(ours.middle - Fraction(printed)), theirs.error) + ours.error)
+    truth = float(theirs.middle)
+    size, gap = max(abs(printed), abs(truth)), float(abs(ours.middle - theirs.middle))
+    return Compared(printed, truth, gap, bound, size, apart=not ours.overlaps(theirs))
+
+
+def upwards(bound: Fraction) -> float:
+    """A bound as a float that is no smaller."""
+    return math.nextafter(float(bound), math.inf) if bound else 0.0
+
+
+def rounded(numbers: Numbers) -> Numbers:
+    """Fractions as the floats that are printed of them, with what rounding makes them be off."""
+    def one(number: Compared) -> Compared:
+        value = float(number.value)
+        bound = upwards(number.gap + abs(number.value - Fraction(value)))
+        return Compared(value, float(number.truth), upwards(number.gap), bound, float(number.size), number.apart)
+
+    return {part: {name: tuple(map(one, vector)) for name, vector in named.items()} for part, named in numbers.items()}
+
+
+def printed(results: Results, numbers: Numbers, plain: Callable[[Any], Any]) -> dict[str, dict[str, Any]]:
+    """The results as they are printed: numbers that are compared as they were, others made `plain`."""
+    def value(part: str, name: str, one: Any) -> Any:
+        if part not in numbers:
+            return tuple(map(plain, one)) if isinstance(one, tuple) else plain(one)
+        values = tuple(number.value for number in numbers[part][name])
+        return values if isinstance(one, tuple) else values[0]
+
+    return {part: {name: value(part, name, one) for name, one in named.items()} for part, named in results.items()}

@@ -1,0 +1,157 @@
+"""A construction in many poses beside the analytic solver, each number beside what cancels in it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+
+from graphplan.check.arithmetics import floats
+from graphplan.check.compared import (
+    CLOSE,
+    KINDS,
+    NOTHING,
+    RATES,
+    compared,
+    drawn_sizes,
+    each,
+    kind_of,
+    plain,
+    sliding,
+    weight,
+)
+from graphplan.check.opinion import bounded_rates, bounded_reactions, by_part
+from graphplan.errors import GraphplanError
+from graphplan.mechanism.model import Drive, Scene, TurningDrive
+from graphplan.methods.construction import Construction
+from graphplan.solver import poses, solve
+from graphplan.solver.bounded import Unproven
+
+BLOCK = 4096  # poses whose systems are solved at once
+EPSILON = 2.0**-52
+SAFETY = 100  # times the solver's own bound, or its condition's roundings, that a difference may be
+Results = dict[str, dict[str, Any]]
+
+
+@dataclass(frozen=True)
+class Round:
+    """Some poses of a scene: their places among all, and where points and guides are in them."""
+
+    scene: Scene
+    places: Any
+    points: Mapping[str, Any]
+    guides: Mapping[str, Any]
+
+    def some(self, kept: Any) -> Round:
+        """Those of the poses that a mask or a slice keeps."""
+        points, guides = ({name: z[kept] for name, z in arrays.items()} for arrays in (self.points, self.guides))
+        return Round(self.scene, self.places[kept], points, guides)
+
+    @property
+    def posed(self) -> Scene:
+        """The scene in these poses."""
+        return poses.posed(self.scene, self.points, self.guides)
+
+
+def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any]) -> dict[str, Any]:
+    """Where points are in the poses in which the construction agrees with the solver; nan in others."""
+    count = len(next(iter(points.values())))
+    there = np.all([np.isfinite(z) for z in points.values()], axis=0)
+    part = Round(drawing.scene, np.arange(count), points, guides).some(there)
+    results = drawing.evaluate(part.points, part.guides).results
+    there[part.places] = sound(part, drawing, results, gaps(part, drawing, results))
+    return {name: np.where(there, z, np.nan) for name, z in points.items()}
+
+
+def gaps(part: Round, drawing: Construction, results: Results,
+         progress: Callable[[int, int], None] = lambda done, of: None) -> dict[str, Any]:
+    """For each kind of result the largest difference from the solver beside the number's own size, in each pose."""
+    n, found = part.places.size, list[dict[str, Any]]()
+    for start in range(0, n, BLOCK):
+        block = slice(start, min(start + BLOCK, n))
+        ours = {kind: {name: z[block] for name, z in named.items()} for kind, named in results.items()}
+        found.append(_against(part.some(block), drawing, ours))
+        progress(block.stop, n)
+    return {kind: np.concatenate([apart[kind] for apart in found]) for kind in found[0]}
+
+
+def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any]:
+    """The differences in one block of poses."""
+    n, scene = part.places.size, part.posed
+    motion = poses.solve(scene, n, sizes=True)
+    truth = by_part(motion)
+    if scene.loads is not None:
+        from graphplan.check.held import force_truth
+
+        truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
+    apart: dict[str, Any] = {kind: np.zeros(n) for kind in (*KINDS, *(["force"] if scene.loads else []))}
+    least = {kind: NOTHING * size for kind, size in drawn_sizes(drawing).items()}
+    for kind, named in ours.items():
+        for name, value in named.items() if kind in truth else ():
+            numbers = each(truth[kind][name])
+            true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
+            size = np.full(n, least[kind_of(kind)] / weight(drawing, kind))
+            besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
+            for number in (*(number.size for number in numbers), *besides):
+                size = np.maximum(size, number)
+            apart[kind_of(kind)] = np.maximum(apart[kind_of(kind)], np.abs(value - true) / size)
+    return apart
+
+
+def _read_from(scene: Scene, truth: Results, kind: str, name: str) -> Any:
+    """The size of the vectors that a link's rate is read from, beside its longest side; of any other result nothing."""
+    if kind not in RATES:
+        return 0.0
+    vectors, points = truth["velocity" if kind == "omega" else "acceleration"], scene.links[name]
+    ends: Any = combinations([scene.points[point] for point in points], 2)
+    longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
+    sizes = [np.abs(plain(part)) for point in points for part in vectors[point]]
+    return np.max(np.broadcast_arrays(*sizes), axis=0) / longest if longest else 0.0
+
+
+def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[str, Any]) -> Any:
+    """In which poses the results are there, and differ from the solver's by no more than rounding."""
+    worst = np.max(list(apart.values()), axis=0)
+    worst[np.isnan(worst)] = np.inf
+    kept = worst <= CLOSE
+    for k in np.flatnonzero(~kept & np.isfinite(worst)):
+        ours = {kind: {name: _plain(z[k]) for name, z in named.items()} for kind, named in results.items()}
+        kept[k] = _sound(part.some(k), drawing, ours, worst[k])
+    return kept
+
+
+def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> bool:
+    """Whether one pose is sound: beside the bounds that are proven there, or where none are, beside the condition."""
+    scene = _alone(pose.posed)
+    by = floats()
+    try:
+        rates = bounded_rates(scene, by)
+        truth = by_part(rates)
+        if scene.loads is not None:
+            from graphplan.check.held import force_truth
+
+            truth |= force_truth(scene, ours, bounded_reactions(scene, rates, by))
+    except Unproven:
+        try:
+            return bool(worst <= SAFETY * EPSILON * solve(scene).condition)
+        except GraphplanError:
+            return False
+    numbers = compared(drawing, ours, truth, lambda part, name: float(_read_from(scene, truth, part, name)))
+    return all(number.close or number.gap <= SAFETY * (number.bound - number.gap)
+               for named in numbers.values() for vector in named.values() for number in vector)
+
+
+def _alone(scene: Scene) -> Scene:
+    """A scene in one pose, its floats taken as they are."""
+    def drive(one: Drive) -> Drive:
+        return replace(one, rpm=None) if isinstance(one, TurningDrive) else one
+
+    slides = tuple(replace(slide, written=None) for slide in scene.slides)
+    return replace(scene, irrational=(), placements={}, slides=slides, drives=tuple(map(drive, scene.drives)))
+
+
+def _plain(number: Any) -> Any:
+    return (number.real, number.imag) if isinstance(number, complex | np.complexfloating) else float(number)

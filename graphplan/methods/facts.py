@@ -3,7 +3,7 @@
 Each body has three unknowns, each place two. A body with two facts gives every other place of it one (a locus), with
 three facts two (the end itself). The moves are found on the mechanism's graph. The pose has one word in it: whether
 facts are independent there. Two loci of a place that are parallel are one fact, three loci of a body through one point
-are two; that is decided modulo a prime, and no length or angle matters.
+are two; that is decided modulo a prime, and no length or angle matters. In general position nothing is so.
 
 A fact is filed at its place under its source, so that a body never takes its own word for news.
 """
@@ -13,9 +13,10 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterator
 from itertools import combinations
+from random import Random
 
 from graphplan.mechanism.equations import PRIME
-from graphplan.mechanism.model import Slide
+from graphplan.mechanism.model import Pair, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.methods.moves import Auxiliary, Carry, Figure, Guide, Locus, Meet, Move, Rest, Seed, Settle, Slip, Swing
 from graphplan.methods.network import Network, Place
@@ -29,8 +30,9 @@ ANYWHERE: Two = (1939, 1974)  # the normal of what is only assumed: like no line
 class Facts:
     """What is known of one network, and the moves that made it known."""
 
-    def __init__(self, network: Network):
+    def __init__(self, network: Network, general: bool = False):
         self.net = network
+        self.chance = Random(1939) if general else None  # gives what the pose does not
         self.moves: list[Move] = []
         self.facts: dict[Place, dict[str, Fact]] = {}
         self.drawn: set[Place] = set()
@@ -114,8 +116,12 @@ class Facts:
         """Where a place lies in the pose."""
         point = place[0]
         if point not in self.spots:
-            self.spots[point] = residues(self.net.scene.points[point])
+            self.spots[point] = self._posed(self.net.scene.points[point])
         return self.spots[point]
+
+    def _posed(self, pair: Pair) -> Two:
+        """A point or direction of the pose, or in general position any other."""
+        return residues(pair) if self.chance is None else (self.chance.randrange(PRIME), self.chance.randrange(PRIME))
 
     def _loci(self, body: str, but: Place = ("", "")) -> Iterator[Locus]:
         """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
@@ -234,7 +240,7 @@ class Facts:
     def _line(self, body: str, X: Place, own: Locus | None) -> tuple[Move, Two] | None:
         """One fact for X, and its normal: from an end, from a locus and the turning, or from two loci of the body.
 
-        Where X has an own locus by which the body is known, a line that is parallel to it is no news.
+        Where X has an own locus by which the body is known, a line that is parallel to it is no news: better another.
         """
         here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
         if here:
@@ -247,7 +253,7 @@ class Facts:
             return Slip(body, loci[0], X, like), self._normal(loci[0])
         if len(loci) > 1 and any(normal := self._carried(loci[0], loci[1], X)):
             return Carry(body, loci[0], loci[1], X), normal
-        return None
+        return (Swing(body, K, X), self._swung(K, X)) if K else None
 
     def _auxiliary(self, body: str, X: Place) -> Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""
@@ -326,7 +332,7 @@ class Facts:
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
                 self.moves.append(Guide(slide, point, known, new))
-                self._file(target, slide.name, residues(slide.direction))
+                self._file(target, slide.name, self._posed(slide.direction))
 
     def _seen(self, slide: Slide, known: str, new: str) -> str:
         """A point whose end is known in the plane of `known`, not by way of this slide."""

@@ -56,8 +56,8 @@ class Planner(Facts):
     ways: "trial" all but trials.
     """
 
-    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = ()):
-        super().__init__(network)
+    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False):
+        super().__init__(network, general)
         self.method, self.choice = method, choice
         self.options: list[Options] = []
         self.spent: dict[str, int] = {}

@@ -53,7 +53,9 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
     wild = sorted((way for way in tried.values() if way.construction and way.growth >= WILD), key=_Way.rank(0.0))
     yield from (way.told(len(tried)) for way in wild)
     if all(way.construction is None for way in tried.values()):
-        raise best.refusal or Refused("the mechanism", "no construction reaches it", "check the drives")
+        planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
+        planner.plan()
+        yield draw(planner), planner
 
 
 def _ring_by_ring(network: Network, method: str, draw: Draw) -> _Way:
@@ -97,7 +99,6 @@ class _Way:
     choice: tuple[int, ...]
     planner: Planner
     construction: Construction | None
-    refusal: Refused | None
     growth: float
     weighed: int = 0
 
@@ -123,16 +124,16 @@ class _Way:
 
 
 def _way(network: Network, method: str, choice: tuple[int, ...], draw: Callable[[Planner], Construction]) -> _Way:
-    """Plan and draw one way; a refusal is kept, since another way may do."""
+    """Plan and draw one way; where it is refused another may do."""
     planner = Planner(network, method, choice)
     try:
         planner.plan()
-    except Refused as refusal:
+    except Refused:
         full = (*choice, *[0] * (len(planner.options) - len(choice)))
-        return _Way(full, planner, None, refusal, math.inf)
+        return _Way(full, planner, None, math.inf)
     construction = draw(planner)
     full = (*choice, *[0] * (len(planner.options) - len(choice)))
-    return _Way(full, planner, construction, None, growth(construction.program) if full else 1.0)
+    return _Way(full, planner, construction, growth(construction.program) if full else 1.0)
 
 
 def growth(program: Program) -> float:

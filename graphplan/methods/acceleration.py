@@ -216,7 +216,7 @@ class Normal(Plan):
             return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
         assert weld.slide is not None
         length = sign * weld.sign * self.tempo.acceleration(weld.drive.acceleration)
-        return self.board.lay_along(self.pose.guide(weld.slide), mark, length=length) if length else mark
+        return self.board.lay_along(self.pose.guide(weld.slide, run=True), mark, length=length) if length else mark
 
     def _gap(self, weld: Weld) -> Vector:
         """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""

@@ -160,7 +160,7 @@ class Draughtsman:
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)
                 vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
                 given = rates[kind].get((slide.link, slide.along))
-                guide = [self.pose.guide(slide)] if given else []
+                guide = [self.pose.guide(slide, run=True)] if given else []
                 self.read(kind, slide.name, *guide, *vector, given=given)
 
 

@@ -26,13 +26,13 @@ class Pose:
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
 
-    def guide(self, slide: Slide) -> Mark:
-        """The guide of a sliding pair, through the pair."""
+    def guide(self, slide: Slide, *, run: bool = False) -> Mark:
+        """The guide of a sliding pair, through the pair; with `run` it runs as its direction does."""
         with self.board.on(MECHANISM, (slide.link, slide.along)):
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)
-            along, at = self.board.line(one, two), self.points[slide.at]
+            along, at = (self.board.line if run else self.board.side)(one, two), self.points[slide.at]
             return along if at is one or at is two else self.board.parallel(along, at)
 
     def spoken(self, point: str) -> str:

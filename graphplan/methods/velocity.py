@@ -73,7 +73,7 @@ class Orthogonal(Velocity):
                 return mark
             return A if ratio == -1 and mark is X else self.board.step_off(A, X, mark, ratio=ratio)
         assert weld.slide is not None
-        across = self.board.perpendicular(self.pose.guide(weld.slide), X)
+        across = self.board.perpendicular(self.pose.guide(weld.slide, run=True), X)
         return _along(self.board, across, mark, sign * weld.sign * self.tempo.velocity(weld.drive.speed))
 
     def seeded(self, place: Place) -> Mark:
@@ -123,7 +123,7 @@ class Polar(Velocity):
             A, ratio = self.pose.points[weld.at], sign * weld.sign * self.tempo.turning(weld.drive.omega)
             return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
         assert weld.slide is not None
-        guide = self.pose.guide(weld.slide)
+        guide = self.pose.guide(weld.slide, run=True)
         return _along(self.board, guide, mark, sign * weld.sign * self.tempo.velocity(weld.drive.speed))
 
     def seeded(self, place: Place) -> Mark:

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations, pairwise
+from itertools import combinations, islice, pairwise, zip_longest
 from typing import NamedTuple
 
 from graphplan.errors import Refused
@@ -21,6 +21,7 @@ from graphplan.methods.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
 DEEPEST = 4  # trials within trials
+MOST_FIGURES = 3  # by which one locus may close a trial
 Bar = tuple[str, Place, Place]
 
 
@@ -185,10 +186,10 @@ class Planner(Facts):
         closings = list(self._closings(body))
         if not closings:
             return
-        taken = self._chosen(Options(len(closings) + 1, rare=True)) if len(closings) > 1 else 0
-        if taken >= len(closings):
+        taken = self._chosen(Options(len(closings) + 1, rare=True))
+        if taken == 1:
             return  # another body may close it
-        moves, end, locus = closings[taken]
+        moves, end, locus = closings[max(taken - 1, 0)]
         trial = self.open.pop()
         inner = (*self.moves[trial.start :], *moves)
         del self.moves[trial.start :]
@@ -211,13 +212,15 @@ class Planner(Facts):
                     yield Closing((Figure(body, K, X, R=R, copy=copy),), copy, (X, source))
         if closing := self._three_loci(body):
             yield closing
+        loci = [locus for place in self.places[body] if (locus := self._locus_of(place, body))]
+        for figures in zip_longest(*(islice(self._figures(body, X), MOST_FIGURES) for X, _ in loci)):
+            for (X, source), figure in zip(loci, figures, strict=True):
+                if figure:
+                    copy = (X[0], own)
+                    yield Closing((figure._replace(copy=copy),), copy, (X, source))
         for K, X in combinations(told, 2):
             if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
                 yield Closing((Swing(body, K, X, own),), X, (X, own))
-        for X, source in filter(None, (self._locus_of(place, body) for place in self.places[body])):
-            for figure in self._figures(body, X):
-                copy = (X[0], own)
-                yield Closing((figure._replace(copy=copy),), copy, (X, source))
 
     def _figures(self, body: str, X: Place) -> Iterator[Figure]:
         """The end of X by the others that are drawn: by one in the same spot, by one and the turning, or by two."""

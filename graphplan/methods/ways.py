@@ -85,11 +85,12 @@ def _others(network: Network, method: str, best: _Way, draw: Draw) -> Iterator[_
 
 
 def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
-    """The choices that differ from a way's at one place; the last place first."""
-    for place in reversed(range(len(way.planner.options))):
-        for other in range(way.planner.options[place].ways):
-            if other != way.choice[place]:
-                yield (*way.choice[:place], other)
+    """The choices that differ from a way's at one place: the next at each place, the last place first, and so on."""
+    options = way.planner.options
+    for step in range(1, max((option.ways for option in options), default=0)):
+        for place in reversed(range(len(options))):
+            if step < options[place].ways:
+                yield (*way.choice[:place], (way.choice[place] + step) % options[place].ways)
 
 
 @dataclass

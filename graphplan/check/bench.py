@@ -39,7 +39,7 @@ class Opinion(NamedTuple):
     rates: Rates
     reactions: Any  # Reactions, whose module is imported where there are loads
     power: tuple[Any, ...]
-    truth: Callable[[dict[str, dict[str, Any]]], dict[str, Any]]
+    truth: Callable[[dict[str, dict[str, Any]], int], dict[str, Any]]  # of results with so many rounds of friction
 
     @property
     def third(self) -> dict[str, dict[str, Any]]:
@@ -88,7 +88,7 @@ class Bench:
         """What the solver says of all that a construction would give, which has no numbers in this pose."""
         found: Report | None = None
         for opinion, name, lift in self._opinions():
-            truth = opinion.truth({})
+            truth = opinion.truth({}, 0)
             ours = {kind: {r.of: lift(truth[kind][r.of]) for r in drawing.readings if r.kind == kind}
                     for kind in drawing.kinds if kind in truth}
             found = replace(self._report(drawing, opinion, ours, name), fault=fault)
@@ -121,7 +121,8 @@ class Bench:
             yield lambda: self._exactly(drawing)
             return
         yield lambda: self._in_floats(drawing)
-        rational = not self.scene.irrational and not (self.scene.loads and self.scene.loads.frictions)
+        frictions = self.scene.loads.frictions if self.scene.loads else ()
+        rational = not self.scene.irrational and not any(friction.at for friction in frictions)
         if find_spec("flint") and not (rational and self._singular):
             for digits in ENOUGH:
                 yield lambda digits=digits: self._in_enclosures(drawing, digits)  # type: ignore[misc]
@@ -230,13 +231,18 @@ class Bench:
     def _exact(self) -> Opinion:
         rates = solve(self.scene, exact=True)
         if self.scene.loads is None:
-            return Opinion(rates, None, (), lambda results: by_part(rates))
+            return Opinion(rates, None, (), lambda results, rounds: by_part(rates))
         from graphplan.check.held import force_truth
+        from graphplan.solver.friction import with_friction
         from graphplan.solver.statics import reactions
         from graphplan.solver.virtual_power import power
 
+        def truth(results: dict[str, dict[str, Any]], rounds: int) -> dict[str, Any]:
+            rough = with_friction(self.scene, rounds, exact=True) if rounds else None
+            return by_part(rates) | force_truth(self.scene, results, found, rough)
+
         found, powers = reactions(self.scene, exact=True), power(self.scene, exact=True)
-        return Opinion(rates, found, powers, lambda results: by_part(rates) | force_truth(self.scene, results, found))
+        return Opinion(rates, found, powers, truth)
 
     # ---- both ------------------------------------------------------------------------------------------------------
 
@@ -245,24 +251,28 @@ class Bench:
         rates = bounded_rates(known, by)
         told = plain_rates(rates, plain)
         if self.scene.loads is None:
-            return Opinion(told, None, (), lambda results: by_part(rates))
+            return Opinion(told, None, (), lambda results, rounds: by_part(rates))
         from graphplan.check.held import force_truth, plain_reactions
+        from graphplan.check.rubbed import rubbed
         from graphplan.solver.virtual_power import power
+
+        def truth(results: dict[str, dict[str, Any]], rounds: int) -> dict[str, Any]:
+            rough = rubbed(held, rounds, by) if rounds else None
+            return by_part(rates) | force_truth(known, results, held, rough)
 
         held = bounded_reactions(known, rates, by)
         powers = power(self.scene) if third else ()
-        return Opinion(told, plain_reactions(held, told, plain), powers,
-                       lambda results: by_part(rates) | force_truth(known, results, held))
+        return Opinion(told, plain_reactions(held, told, plain), powers, truth)
 
     def _report(self, drawing: Construction, opinion: Opinion, ours: dict[str, dict[str, Any]], name: str) -> Report:
         """The comparison in one arithmetic."""
-        numbers = compared(drawing, ours | opinion.third, opinion.truth(ours))
+        numbers = compared(drawing, ours | opinion.third, opinion.truth(ours, drawing.rounds))
         results = printed(ours, numbers, (lambda number: number) if self.exact or name == "fractions" else float)
         if opinion.reactions is None:
             return Report(drawing, opinion.rates, results, self.exact, None, name, numbers)
         from graphplan.check.held import Held
 
-        held = Held(self.scene, results, opinion.reactions, opinion.power)
+        held = Held(self.scene, results, opinion.reactions, opinion.power, drawing.rounds, self.exact)
         return Report(drawing, opinion.rates, results, self.exact, held, name, numbers)
 
 

@@ -8,7 +8,7 @@ doubled and everything is done once more.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property
@@ -45,18 +45,10 @@ class Certified(Report):
     """A construction with its numbers between proven bounds; `bits` is the precision at which `digits` were had.
 
     `results` are enclosures by kind and name, `check` and `errors` are upper bounds by velocity, acceleration, force.
-    `rubbed` is the second opinion on one round of friction, where some is drawn.
     """
 
     digits: int
     bits: int
-    rubbed: Reactions | None = None
-
-    def truth(self, part: str) -> Mapping[str, Any]:
-        """The solver's values for one kind of reading."""
-        if self.rubbed and self.held and part.endswith("with friction"):
-            return self.held.named(self.rubbed.balances)
-        return super().truth(part)
 
     @cached_property
     def check(self) -> dict[str, Enclosure]:
@@ -230,9 +222,9 @@ def _beside(drawing: Construction, rates: Rates, smooth: Reactions | None, digit
     from graphplan.check.held import Held
     from graphplan.check.rubbed import rubbed
 
-    forces = Held(drawing.scene, results, smooth, (), rounds=False)
-    rough = rubbed(smooth) if forces.rubbed else None
-    return Certified(drawing, rates, results, False, forces, digits=digits, bits=bits, rubbed=rough)
+    rough = rubbed(smooth, drawing.rounds, enclosures()) if drawing.rounds else None
+    forces = Held(drawing.scene, results, smooth, (), drawing.rounds, rough=rough)
+    return Certified(drawing, rates, results, False, forces, digits=digits, bits=bits)
 
 
 def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> GraphplanError:

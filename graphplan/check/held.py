@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
@@ -27,7 +28,9 @@ class Held:
     results: dict[str, dict[str, Any]]
     reactions: Reactions
     power: tuple[Any, ...]
-    rounds: bool = True  # whether it is told where further rounds of friction stand
+    rounds: int = 0  # of friction that are drawn
+    exact: bool = False
+    rough: Reactions | None = None  # what the solver says of the rounds that are drawn, if not to be found in floats
 
     @cached_property
     def truth(self) -> dict[str, dict[str, Any]]:
@@ -39,7 +42,7 @@ class Held:
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
         turned = {name: value for name, value in balances.items() if name not in held}
         return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
-                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._standing}
+                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._rough}
 
     def named(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
@@ -53,17 +56,19 @@ class Held:
 
     @property
     def rubbed(self) -> dict[str, Any]:
-        """The balances with friction that are drawn, in one round, in the scene's order."""
+        """The balances with friction that are drawn, in the scene's order."""
         found = {name: value for kind in RUBBED for name, value in self.results.get(kind, {}).items()}
         order = self.scene.loads.named_balances if self.scene.loads else ()
         return {name: found[name] for name in order if name in found}
 
     @property
-    def _standing(self) -> dict[str, dict[str, Any]]:
-        """The balances with friction as they stand in the end, where some are drawn: a round of their own."""
-        kinds = [kind for kind in RUBBED if kind in self.results and self.rounds]
-        return {kind: {name: value for name, value in self.named(self.standing.balances).items()
-                       if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in kinds}
+    def _rough(self) -> dict[str, dict[str, Any]]:
+        """The balances with friction after as many rounds as are drawn."""
+        if not self.rounds:
+            return {}
+        rough = self.rough or with_friction(self.scene, self.rounds, self.exact)
+        return {kind: {name: value for name, value in self.named(rough.balances).items()
+                       if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in RUBBED if kind in self.results}
 
     def _arm(self, slide: Slide) -> Any:
         """From a slide's point to where its reaction has no moment, square to it."""
@@ -74,7 +79,7 @@ class Held:
     @cached_property
     def standing(self) -> Frictional:
         """What the forces with friction come to, when round follows round."""
-        return with_friction(self.scene)
+        return with_friction(self.scene, exact=self.exact)
 
     @property
     def efficiency(self) -> Any:
@@ -86,7 +91,7 @@ class Held:
 
     def _delivered(self, suffix: str) -> Any:
         """The power that the balances of the construction give, in force * length/s."""
-        loads, rates, delivered = self.scene.loads, self.reactions.rates, 0.0
+        loads, rates, delivered = self.scene.loads, self.reactions.rates, Fraction(0)
         for name, balance in loads.named_balances.items() if loads else ():
             if balance.at:
                 force, velocity = self.results["balance" + suffix][name], rates.velocity[balance.at]
@@ -97,9 +102,11 @@ class Held:
         return delivered
 
 
-def force_truth(scene: Scene, results: dict[str, dict[str, Any]], found: Reactions) -> dict[str, dict[str, Any]]:
-    """What the solver says of the forces without friction that a construction gives, and of the power balance."""
-    return Held(scene, results, found, (), rounds=False).truth | powers(found.balances)
+def force_truth(scene: Scene, results: dict[str, dict[str, Any]], found: Reactions,
+                rough: Reactions | None = None) -> dict[str, dict[str, Any]]:
+    """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
+    """
+    return Held(scene, results, found, (), rounds=rough is not None, rough=rough).truth | powers(found.balances)
 
 
 def powers(balances: tuple[Any, ...]) -> dict[str, dict[str, Any]]:

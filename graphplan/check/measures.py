@@ -18,6 +18,6 @@ def size(value: Any) -> Any:
 
 
 def extent(scene: Scene) -> Any:
-    """How far the mechanism extends, across or upwards."""
+    """How far the mechanism extends, across or upwards; one unit of length where all its points coincide."""
     xs, ys = zip(*scene.points.values(), strict=True)
-    return max(max(xs) - min(xs), max(ys) - min(ys))
+    return max(max(xs) - min(xs), max(ys) - min(ys)) or 1

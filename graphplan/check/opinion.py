@@ -7,7 +7,7 @@ makes facts redundant, as many are kept as there are unknowns; that the others h
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -16,12 +16,11 @@ from graphplan.check.compared import KINDS
 from graphplan.mechanism.model import Scene
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Along, facts, supports
+from graphplan.solver.facts import Along, Fact, facts, supports
 from graphplan.solver.plane import dot
 from graphplan.solver.rates import Rates, motion
 
 if TYPE_CHECKING:
-    from graphplan.solver.loads import Load
     from graphplan.solver.statics import Reactions
 
 
@@ -33,14 +32,14 @@ def bounded_rates(scene: Scene, by: Arithmetic) -> Rates:
     return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))
 
 
-def bounded_reactions(scene: Scene, motion: Rates, by: Arithmetic, besides: tuple[Load, ...] = ()) -> Reactions:
-    """The reactions and balances of a scene with loads, from its rates, and with other loads `besides`."""
+def bounded_reactions(scene: Scene, motion: Rates, by: Arithmetic, stated: Iterable[Fact] | None = None) -> Reactions:
+    """The reactions and balances of a scene with loads, from its rates; of these facts, if not its own."""
     from graphplan.solver.loads import acting, resultants  # what forces need is imported where there are loads
     from graphplan.solver.statics import read as read_forces
     from graphplan.solver.statics import repeating, without
 
-    equations = Equations(scene, supports(scene))
-    right = [-value for value in resultants(equations, (*acting(scene, motion), *besides))]
+    equations = Equations(scene, supports(scene) if stated is None else tuple(stated))
+    right = [-value for value in resultants(equations, acting(scene, motion))]
     kept = _independent(equations)
     held = [equations.facts[i] for i in kept]
     scales = [_length(fact.direction) if isinstance(fact, Along) else 1 / equations.reach for fact in held]

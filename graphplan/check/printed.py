@@ -97,14 +97,19 @@ def _slide(found: Report, slide: Slide) -> dict[str, Any]:
 
 
 def _friction(found: Report, held: Held) -> dict[str, Any]:
-    """The balances with friction and the efficiency: as drawn, in one round, and where further rounds stand."""
+    """The balances with friction and the efficiency: as drawn, in so many rounds, and where further rounds stand."""
     if not held.rubbed:
         return {}
-    told = {"balance": _balances(found, held.rubbed), "efficiency": held.efficiency}
-    if held.rounds:
+    told = {"balance": _balances(found, held.rubbed), "efficiency": _efficiency(held.efficiency),
+            "rounds": held.rounds}
+    if held.rough is None:
         told["stands"] = {"balance": _balances(found, held.named(held.standing.balances)),
-                          "efficiency": held.standing.efficiency}
+                          "efficiency": _efficiency(held.standing.efficiency)}
     return {"friction": told}
+
+
+def _efficiency(value: Any) -> Any:
+    return None if value is None else _number(value)
 
 
 def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:

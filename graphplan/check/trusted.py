@@ -56,15 +56,16 @@ def trusted(scene: Scene, *, exact: bool = False, method: str = "", plan: str = 
             inertia: str = "couple", refuse: bool = True, alone: bool = False) -> Report:
     """The first construction that agrees with the solver, with its numbers; `exact` asks for fractions.
 
-    Friction, which depends on the sizes of reactions, is left out of exact numbers. Fails as `construct` does, with
-    `SingularPose` naming the links and the lines that should meet, and with `Refused` where `exact` meets an irrational
-    scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else that is the report's to tell.
+    Where journals rub, which depends on the sizes of reactions, friction is left out of exact numbers. Fails as
+    `construct` does, with `SingularPose` naming the links and the lines that should meet, and with `Refused` where
+    `exact` meets an irrational scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else that
+    is the report's to tell.
     With `alone` it is the solver's own numbers where no way can be drawn though the pose is regular.
     """
     if exact and scene.irrational:
         irrational = ", ".join(sorted(scene.irrational, key=by_name))
         raise Refused(f"{scene.name}: {irrational}", "fractions cannot hold this", "leave out --exact")
-    if exact and scene.loads is not None:  # the size of a reaction is a root
+    if exact and scene.loads is not None and any(friction.at for friction in scene.loads.frictions):
         scene = replace(scene, loads=replace(scene.loads, frictions=()))
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
     bench = Bench(scene, how, exact)

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices
+from graphplan.commands.choices import add_choices, rounded
 from graphplan.commands.messages import error
 from graphplan.commands.output import write
 
@@ -36,7 +36,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
-    scene = load(options.scene)
+    scene = rounded(options, load(options.scene))
     found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia,
                    refuse=False)
     groups = structure(scene).lines()
@@ -65,8 +65,8 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the number's own size{proof}")
     lines += notes
     if found.held and found.held.efficiency is not None:
-        lines.append(f"instantaneous efficiency: {found.held.efficiency:.4g} as drawn, "
-                     f"{found.held.standing.efficiency:.4g} in further rounds")
+        lines.append(f"instantaneous efficiency: {float(found.held.efficiency):.4g} as drawn, "
+                     f"{float(found.held.standing.efficiency or 0):.4g} in further rounds")
     if not found.exact:
         lines.append(f"arithmetic: {found.arithmetic}; condition of the mechanism: {found.condition:.3g}")
     return lines
@@ -79,7 +79,8 @@ def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[st
                       for name in ours} for part, ours in found.results.items()}
     held = {"power balance": _plain(tuple(found.held.power))} if found.held else {}
     if found.held and found.held.efficiency is not None:
-        held["efficiency"] = {"drawn": _plain(found.held.efficiency), "stands": found.held.standing.efficiency}
+        held["efficiency"] = {"drawn": _plain(found.held.efficiency),
+                              "stands": _plain(found.held.standing.efficiency)}
     condition = {} if found.exact else {"condition": found.condition}
     return {"title": found.scene.title, "structure": list(groups), "results": results, **held,
             "check": {kind: float(difference) for kind, difference in found.check.items()},

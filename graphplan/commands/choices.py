@@ -6,8 +6,12 @@ import argparse
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from graphplan.errors import Refused
+
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
+
+MOST_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 
 
 def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
@@ -21,6 +25,8 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     command.add_argument("--inertia", default="couple", choices=("couple", "shifted", "points"),
                          help="inertia forces: at the centre of mass with a couple (default), shifted so that they "
                          "need none, or at two points that replace the link")
+    command.add_argument("--rounds", type=int, metavar="N",
+                         help="draw so many rounds of friction; without it they go on until the forces stand")
     if strict:
         command.add_argument("--strict", action="store_true",
                              help="compasses and straightedge alone, no set squares")
@@ -44,8 +50,18 @@ def add_sheet(command: argparse.ArgumentParser) -> None:
     add_language(command, default="")
 
 
+def rounded(options: argparse.Namespace, scene: Scene) -> Scene:
+    """The scene with as many rounds of friction as the options ask for, if they do."""
+    if options.rounds is None or scene.loads is None:
+        return scene
+    if not 1 <= options.rounds <= MOST_ROUNDS:
+        raise Refused("--rounds", f"{options.rounds} rounds of friction", f"give 1 to {MOST_ROUNDS}")
+    return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
+
+
 def presented(options: argparse.Namespace, scene: Scene) -> Scene:
-    """The scene with its sheet as the options have it, where they say."""
+    """The scene with its sheet and its rounds of friction as the options have it, where they say."""
+    scene = rounded(options, scene)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     return replace(scene, sheet=replace(scene.sheet, **said))
 

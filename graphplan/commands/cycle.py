@@ -17,7 +17,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_language
+from graphplan.commands.choices import add_choices, add_language, rounded
 from graphplan.commands.messages import Messages, error
 from graphplan.commands.output import apart, kind, write
 from graphplan.errors import Refused
@@ -59,7 +59,7 @@ def run(options: argparse.Namespace) -> int:
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     apart(options.output, options.plot)
-    scene = load(options.scene)
+    scene = rounded(options, load(options.scene))
     span = None if options.start is None else (options.start, options.end)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()

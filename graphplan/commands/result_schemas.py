@@ -91,7 +91,8 @@ def _friction() -> Fragment:
     """Balances and efficiency with friction."""
     keys = {"balance": listed(_balance()), "efficiency": told("the instantaneous efficiency", _value())}
     stands = told("where further rounds stand", table(keys))
-    return table({**keys, "stands": stands}, required=[*keys])
+    rounds = told("how many rounds of friction are drawn", COUNT)
+    return table({**keys, "rounds": rounds, "stands": stands}, required=[*keys, "rounds"])
 
 
 def solve() -> Fragment:

@@ -15,7 +15,7 @@ import json
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_preference, chosen
+from graphplan.commands.choices import add_choices, add_preference, chosen, rounded
 from graphplan.commands.output import write
 from graphplan.errors import Refused
 
@@ -39,7 +39,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
-    scene = load(options.scene)
+    scene = rounded(options, load(options.scene))
     how = {"method": chosen(options, scene)[0], "plan": options.plan, "inertia": options.inertia}
     if options.digits is not None:
         return _certified(options, scene, how)

@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import json
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, chosen
+from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, rounded
 from graphplan.commands.output import write
 
 
@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.mechanism.structure import structure
     from graphplan.words.tongue import tongue
 
-    scene, hand = load(options.scene), pencil(options.pencil)
+    scene, hand = rounded(options, load(options.scene)), pencil(options.pencil)
     method, told = chosen(options, scene, strict=options.strict)
     found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
     found.drawing.notes.extend(told)

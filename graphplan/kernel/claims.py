@@ -274,20 +274,20 @@ def _takes_couple(d: Drawn, C: int, p: int, q: int, P: int, R: int, a: int, b: i
     return (_cross(d[-1] - d[C], force) - couple) / abs(force) / (d.size + abs(d[-1] - d[C]))
 
 
-def _rubs(d: Drawn, P: int, R: int, w: int, p: int, q: int, m: int) -> float:
-    """The couple is the reaction at the radius of the friction circle, against the turning."""
-    arm, turned = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P])
-    full = math.copysign(d.number("radius") * abs(d[q] - d[p]), turned)
-    drawn, still = _cross(arm, d[-1] - d[m]), abs(turned) <= STILL * d.size
-    return min(abs(drawn - couple) for couple in (full, 0.0 if still else full)) / abs(arm) / (
-        d.size + abs(full) / abs(arm))
+def _touches(d: Drawn, P: int, R: int, w: int, p: int, q: int) -> float:
+    """The force passes at the radius of the friction circle, and turns against the motion."""
+    arm, turned, force = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P]), d[q] - d[p]
+    full = d.number("radius") * math.copysign(1.0, turned) * _unit(force) / 1j if force else 0j
+    still = abs(turned) <= STILL * d.size or abs(force) <= STILL * d.size
+    return min(abs(d[-1] - d[P] - off) for off in (full, 0j if still else full)) / (d.size + abs(arm))
 
 
-def _drags(d: Drawn, B: int, w: int, p: int, q: int, m: int) -> float:
-    """The friction is the reaction times its coefficient, against the sliding."""
-    slip = (d[w] - d[B]) / 1j
-    full, still = -d.number("coefficient") * abs(d[q] - d[p]) * _unit(slip), abs(slip) <= STILL * d.size
-    return min(abs(d[-1] - d[m] - friction) for friction in (full, 0j if still else full)) / d.size
+def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
+    """The guide is turned by the friction angle: the force square to it is against the sliding."""
+    slip, force, way = (d[w] - d[B]) / 1j, _dot(d[q] - d[p], 1j * d.way(l)), d.way(l)
+    full = d.number("coefficient") * math.copysign(1.0, _dot(slip, way)) * math.copysign(1.0, force)
+    still = abs(_dot(slip, way)) <= STILL * d.size or abs(force) <= STILL * d.size
+    return min(abs(d.way(-1) - _unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
 RESIDUALS: dict[str, Callable[..., float]] = {
@@ -331,8 +331,8 @@ RESIDUALS: dict[str, Callable[..., float]] = {
     "turns": _turns,
     "resists": _resists,
     "takes couple": _takes_couple,
-    "rubs": _rubs,
-    "drags": _drags,
+    "touches": _touches,
+    "leans": _leans,
 }
 
 

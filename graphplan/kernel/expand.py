@@ -33,8 +33,7 @@ FLOATS = Floats()
 BY_SET_SQUARE = frozenset({
     "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
     "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
-    "quarter", "bisector", "balance", "couple", "inertia_pair", "journal",
-    "drag", "resultant",
+    "quarter", "bisector", "balance", "couple", "inertia_pair", "touch", "lean", "resultant",
 })
 STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
 

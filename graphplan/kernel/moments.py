@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SCALE, STRAIGHTEDGE, primitive
+from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, primitive
 
 
 def _vector(P: Any, Q: Any) -> Any:
@@ -75,38 +75,41 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
     return _across(arm, -d.lift(ratio) * _cross(arm, _vector(a, b)) / square / square, m)
 
 
-@primitive((POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "The reaction from {3} to {4} touches the friction circle of {0}, of radius {radius}: for its couple, "
-           "against the turning that the vector from {1} to {2} shows, take a pair of forces at {0} and {1}; from {5} "
-           "lay off that at {1}, mark {out}.",
-           claims=(("across", (5, -1), (0, 1)), ("rubs", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
-           params=("radius",), source="Ozols 1974, 12-4, fig. 12-11")
-def journal(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, m: Any, /, *, radius: Any) -> Any:
-    """The end of the force at R, laid off from m, whose pair with P is the friction couple of a journal at P.
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
+           "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0}, of radius "
+           "{radius}, so that it turns against the motion that the vector from {1} to {2} shows.",
+           claims=(("touches", 0, 1, 2, 3, 4),), fails=("points-coincide",), where=0, params=("radius",),
+           source="Ozols 1974, 12-4, fig. 12-11")
+def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> Any:
+    """The point of the friction circle of a journal at P through which its force acts, as its last one pq says.
 
-    pq is the journal's reaction; Rw the orthogonal velocity of R against the other link, which runs with PR where the
-    link turns clockwise. Where the two links stand still on each other there is none.
+    Rw is the orthogonal velocity of R against the other link, which runs with PR where the link turns clockwise. Where
+    the two links stand still on each other, and where there is no force, it is P.
     """
     arm, force, slip = _arm(d, P, R), _vector(p, q), _vector(R, w)
-    sense = d.sign(arm[0] * slip[0] + arm[1] * slip[1], _square(arm))
-    couple = d.lift(radius) * d.sqrt(_square(force), "not-rational", "the size of the reaction is irrational")
-    return _across(arm, sense * couple / _square(arm), m)
+    sense = d.sign(arm[0] * slip[0] + arm[1] * slip[1], _square(arm)) * d.lift(radius)
+    acts = d.sign(_size(force), _size(p) + _size(q))
+    size = d.sqrt(_square(force) + (1 - acts), "not-rational", "the size of the reaction is irrational")
+    return P[0] + acts * sense * force[1] / size, P[1] - acts * sense * force[0] / size
 
 
-@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "The reaction from {2} to {3} leans by the friction angle, of tangent {coefficient}, against the sliding "
-           "that the vector from {0} to {1} shows: from {4} lay off its part along the guide; mark {out}.",
-           claims=(("drags", 0, 1, 2, 3, 4),), params=("coefficient",),
-           source="Ozols 1974, 12-1")
-def drag(d: Any, B: Any, w: Any, p: Any, q: Any, m: Any, /, *, coefficient: Any) -> Any:
-    """The end of the friction force of a slide, laid off from m; Bw is the orthogonal velocity along the guide.
+@primitive((LINE, POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
+           "Through {1} draw {out}, which leans from {0} by the friction angle, of tangent {coefficient}: a force "
+           "square to it, on the side of that from {3} to {4}, is against the sliding that the vector from {1} to {2} "
+           "shows.",
+           claims=(("on", 1), ("leans", 0, 1, 2, 3, 4)), where=1, params=("coefficient",), source="Ozols 1974, 12-1")
+def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any) -> Any:
+    """A guide turned by the friction angle: the slide's reaction is square to it.
 
-    Where the two links stand still on each other there is none.
+    pq is its last reaction; Bw is the orthogonal velocity along the guide. Where the two links stand still on each
+    other, and where there is no force, it does not lean.
     """
     slip, force = _vector(B, w), _vector(p, q)
-    moves = d.sign(_size(slip), _size(B) + _size(w))
-    size2 = _square(force) / (_square(slip) + (1 - moves))
-    return _across(slip, moves * d.lift(coefficient) * d.sqrt(size2, "not-rational", "the size is irrational"), m)
+    moves = d.sign(slip[0] * l[0] + slip[1] * l[1], (_size(B) + _size(w)) * _size(l))
+    side = d.sign(force[0] * l[0] + force[1] * l[1], (_size(p) + _size(q)) * _size(l))
+    k = moves * side * d.lift(coefficient)
+    a, b = l[0] - k * l[1], l[1] + k * l[0]
+    return a, b, -(a * B[0] + b * B[1])
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,

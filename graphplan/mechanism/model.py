@@ -186,7 +186,10 @@ class Friction:
 
 @dataclass(frozen=True)
 class Loads:
-    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units."""
+    """What acts on the links besides each other: gravity is in m/s^2, all else in the scene's units.
+
+    `rounds` is how many rounds of friction are asked for; 0 means as many as it takes.
+    """
 
     gravity: Pair
     masses: dict[str, Mass]
@@ -194,6 +197,7 @@ class Loads:
     moments: tuple[Moment, ...]
     balances: tuple[Balance, ...]
     frictions: tuple[Friction, ...] = ()
+    rounds: int = 0
 
     @cached_property
     def named_balances(self) -> dict[str, Balance]:

@@ -6,11 +6,31 @@ links before this one, joints with links after it, and the others, each by name;
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from graphplan.errors import Key as Key
 from graphplan.errors import by_name as by_name
-from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import FRAME, Drive, Force, Loads, Moment, Scene, Slide, SlidingDrive, TurningDrive
+
+
+def ordered(scene: Scene) -> Scene:
+    """The scene with its links, points, slides and loads in this order; its balances stay numbered as they are."""
+    links, slides = ordered_links(scene), ordered_slides(scene)
+    return replace(scene, points={point: scene.points[point] for point in ordered_points(scene)}, links=links,
+                   slides=slides, loads=scene.loads and _ordered_loads(scene.loads))
+
+
+def _ordered_loads(loads: Loads) -> Loads:
+    """The loads by their links, those of one link by their values and points."""
+    def key(load: Force | Moment) -> tuple[Key, tuple[float, ...], Key]:
+        at, value = (load.at, load.value) if isinstance(load, Force) else ("", (load.value,))
+        return by_name(load.on), tuple(map(float, value)), by_name(at)
+
+    masses = {link: loads.masses[link] for link in sorted(loads.masses, key=by_name)}
+    return replace(loads, masses=masses, forces=tuple(sorted(loads.forces, key=key)),
+                   moments=tuple(sorted(loads.moments, key=key)),
+                   frictions=tuple(sorted(loads.frictions, key=lambda f: (f.slide or (), by_name(f.at)))))
 
 
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:

@@ -59,7 +59,7 @@ class Construction:
 
     `program` holds compounds, each with the value rule that is good in every pose; `drawn` is the same construction
     in single movements, in the form chosen for this pose. Velocities and accelerations are complex numbers in scene
-    units, true and not turned.
+    units, true and not turned. `rounds` are those of friction that are drawn.
     """
 
     scene: Scene
@@ -73,6 +73,7 @@ class Construction:
     notes: list[str] = field(default_factory=list)
     phi: Number = 1
     shown: tuple[Reading, ...] = ()
+    rounds: int = 0
 
     def __repr__(self) -> str:
         """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""

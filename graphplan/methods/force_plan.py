@@ -117,7 +117,7 @@ class ForcePlan(Parts):
     def _why(self, part: Part, about: About) -> str:
         """The law: of which links, and about what, the moments are taken."""
         links = [link for link in self.group.links if link in part]
-        where = about.point if isinstance(about, AtPoint) else said("the auxiliary point")
+        where = self.pose.spoken(about.point) if isinstance(about, AtPoint) else said("the auxiliary point")
         return said("moments of {0} about {1}", listed(links), where)
 
     def _weighed(self, about: About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
@@ -141,13 +141,12 @@ class ForcePlan(Parts):
         with self.board.on(MECHANISM):
             return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
 
-    def _pair(self, part: Part, site: Site, Y: Mark, sign: int,
-              own: Iterable[Acting] = ()) -> Pair | None:
+    def _pair(self, part: Part, site: Site, Y: Mark, sign: int) -> Pair | None:
         """The couple that balances all known forces on the part about a point, as a pair of forces there."""
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
         mark = first = self.polygon(part)[1]
-        for force in (*self.acting(part, self.others(part, site), site), *own):
+        for force in self.acting(part, self.others(part, site), site):
             if force.at is not Y:
                 mark = self.board.balance(Y, R, force.at, *signed((force.tail, force.head), sign), mark)
         return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
@@ -155,7 +154,7 @@ class ForcePlan(Parts):
     def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
         """A point at which a pair with Y has a good arm."""
         one, two = self.loading.arm(site.link)
-        return one if two is Y else two
+        return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
     def _across(self, part: Part, site: Site, about: About, sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
@@ -268,11 +267,8 @@ class ForcePlan(Parts):
         """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
         assert isinstance(site, Slide)
         assert known.part is not None
-        at = self.pose.points[site.at]
-        sign = self.sign(part, site)
-        own = Acting(at, *signed(known.part, sign))
-        self.pairs[site] = self._pair(part, site, Y, sign, () if Y is at else (own,))
-        self.ends[site], self.seats[site] = known.part, at
+        self.pairs[site] = self._pair(part, site, Y, self.sign(part, site))
+        self.ends[site], self.seats[site] = known.part, self.pose.points[site.at]
 
     def _pin(self, site: Joint) -> None:
         """The forces on the links of a joint balance."""
@@ -348,7 +344,7 @@ class ForcePlan(Parts):
     def _letter(self, site: Site) -> str:
         """The letter of a site's force: that of the force of one link on another, or of the balance."""
         if isinstance(site, Joint):
-            return reaction_letter(self.group.scene, site.point, site.link)
+            return reaction_letter(self.forces.scene, site.point, site.link)
         return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
 
     def _at_joint(self, point: str, link: str) -> Span:

@@ -2,17 +2,34 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Collection, Iterable, Iterator, Sequence
+from functools import cached_property
 
+from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.order import ordered
+from graphplan.methods.assumed_motion import (
+    AXES,
+    Assumed,
+    freed_joint,
+    freed_slide,
+    freed_turning,
+    moving,
+    planned,
+    velocities,
+    working,
+)
+from graphplan.methods.force_letters import pair_letter
 from graphplan.methods.force_plan import ForcePlan
-from graphplan.methods.lever import AXES, Lever, freed, moving, unit_drives, virtual
+from graphplan.methods.friction import rough
+from graphplan.methods.lever import Lever
 from graphplan.methods.loading import Acting, Loading
 from graphplan.methods.panels import MECHANISM, slide_named
+from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
-from graphplan.methods.reactions import Forces, Shown
-from graphplan.methods.sites import Group, groups
+from graphplan.methods.reactions import Forces, Shown, reaction_on
+from graphplan.methods.sites import Group, Position, groups, in_general, posed
 from graphplan.methods.statics import Equilibrium, StaticMove
 from graphplan.methods.velocity import Velocity
 from graphplan.phrases import said
@@ -28,31 +45,55 @@ Way = tuple[str, int]
 class Plans:
     """The groups of a scene in the order of force transfer, and the moves of each, planned once for every way.
 
-    Groups with statically indeterminate forces, and those that have forces from them, are left out.
+    `rough` are the plans for its rounds of friction. Groups with statically indeterminate forces, and those that have
+    forces from them, are left out.
+
     A way is a preference of moves, and where a trial begins, counted from the first choice; `options` tells how many
     choices there are.
     """
 
     def __init__(self, scene: Scene):
+        self.scene = scene
         self.groups: list[Group] = []
+        self._general = in_general(scene)
+        self._assumed: dict[str, Planner] = {}
         self.options = 1
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove]] = {}
         done: list[str] = []
         untold: set[str] = set()
-        for links in groups(scene):
+        own = ordered(scene)
+        for links in groups(own):
             if _indeterminate(scene, links, untold):
                 untold.update(links)
             else:
-                self.groups.append(Group(scene, links, done))
+                self.groups.append(Group(own, links, done))
                 done += links
+
+    @cached_property
+    def rough(self) -> Plans:
+        """The plans of the scene whose journals rub."""
+        changed = rough(self.scene)
+        return self if changed.links == self.scene.links else Plans(changed)
+
+    def planner(self, assumed: Assumed, panel: str) -> Planner:
+        """The plan of the motion that a lever's panel shows."""
+        if panel not in self._assumed:
+            self._assumed[panel] = planned(assumed)
+        return self._assumed[panel]
 
     def moves(self, group: Group, way: Way) -> list[StaticMove]:
         """The moves of a group."""
         if (group.links, way) not in self._moves:
-            equilibrium = Equilibrium(group, *way)
-            self._moves[group.links, way] = equilibrium.plan()
-            self.options = max(self.options, equilibrium.options)
+            try:
+                self._plan(group, (self._general, posed(self.scene)), way)
+            except Refused:  # the pose may be singular, which the numbers will show
+                self._plan(group, (self._general,), way)
         return self._moves[group.links, way]
+
+    def _plan(self, group: Group, positions: Sequence[Position], way: Way) -> None:
+        equilibrium = Equilibrium(group, positions, *way)
+        self._moves[group.links, way] = equilibrium.plan()
+        self.options = max(self.options, equilibrium.options)
 
 
 def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool:
@@ -65,8 +106,8 @@ def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool
 
 def reactions(board: Board, pose: Pose, loading: Loading, plans: Plans, way: Way,
               before: Forces | None = None) -> Forces:
-    """All reactions, drawn; `before` are those without friction, where friction is now among the loads."""
-    forces = Forces(before)
+    """All reactions, drawn in a pose; in one of friction after those of the round `before`."""
+    forces = Forces(plans.scene, before)
     for group in plans.groups:
         plan = ForcePlan(board, pose, group, loading, forces)
         if plan.idle():
@@ -90,7 +131,7 @@ def pair_name(point: str, link: str) -> str:
     return f"{link} at {point}"
 
 
-def rubbed(loading: Loading, forces: Forces) -> Iterator[Result]:
+def with_friction(loading: Loading, forces: Forces) -> Iterator[Result]:
     """The balances with friction, by kind and name."""
     for name, balance in loading.loads.named_balances.items():
         if balance in forces.balances:
@@ -105,7 +146,7 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
         if (asked is None or point in asked) and _told(scene, forces, point, link):
-            yield REACTION, pair_name(point, link), reaction_on(scene, forces, board, point, link)
+            yield REACTION, pair_name(point, link), reaction_on(forces, board, point, link)
     for slide in scene.slides:
         if (asked is None or slide.name in asked) and slide in forces.slides:
             yield SLIDE_REACTION, slide.name, forces.slides[slide]
@@ -118,15 +159,16 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
             yield BALANCE_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
 
 
-def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Result], list[Shown]]:
+def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tuple[list[Result], list[Shown]]:
     """The balances by Zhukovsky's lever: one lever for each."""
     scene, board = loading.scene, pose.board
     results: list[Result] = []
     shown: list[Shown] = []
     for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
-        serves = moving(scene)
-        motion = velocity if serves else virtual(scene, unit_drives(scene, mode), pose, {})
-        panel = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}"
+        panel, motion = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}", velocity
+        if not moving(scene):
+            assumed = working(scene, mode)
+            motion = velocities(assumed, pose, plans.planner(assumed, panel))
         lever = Lever(board, motion, loading, panel)
         if balance.at:
             marks: tuple[Mark, ...] = lever.force(balance)
@@ -138,25 +180,51 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading) -> tuple[list[Resul
     return results, shown
 
 
-def freed_reactions(pose: Pose, loading: Loading) -> tuple[list[Result], list[Shown]]:
-    """The reactions that are asked for by name, each by two levers with its pair freed."""
-    scene, board = loading.scene, pose.board
-    results: list[Result] = []
-    shown: list[Shown] = []
-    for point, link, pin in pairs(scene):
-        if point not in (scene.find.reactions or ()):
-            continue
-        spans = []
-        for axis, name in zip(AXES, "xy", strict=True):
-            changed, drives, new = freed(scene, point, link, pin, axis)
-            velocity = virtual(changed, drives, pose, {new: point})
-            lever = Lever(board, velocity, loading, f"lever {pair_name(point, link)}, {name}", {(link, point): new})
+class Freed:
+    """Reactions by levers without any force plan, each with its pair freed: results and the arrows that show them."""
+
+    def __init__(self, pose: Pose, loading: Loading, plans: Plans):
+        self.pose, self.loading, self.plans, self.board = pose, loading, plans, pose.board
+        self.results: list[Result] = []
+        self.shown: list[Shown] = []
+
+    def all(self, asked: Collection[str]) -> Freed:
+        """Those of the joints and slides of these names that statics tells."""
+        scene = self.loading.net.scene
+        for point, link, pin in pairs(scene):
+            if point in asked and pair_name(point, link) not in scene.indeterminate_pairs:
+                self._joint(point, link, pin)
+        for slide in self.loading.scene.slides:
+            if slide.name in asked and slide.name not in scene.indeterminate_pairs:
+                self._slide(slide)
+        return self
+
+    def _lever(self, assumed: Assumed, whose: str) -> Lever:
+        panel = f"lever {whose}"
+        motion = velocities(assumed, self.pose, self.plans.planner(assumed, panel))
+        return Lever(self.board, motion, self.loading, panel, assumed.renamed)
+
+    def _joint(self, point: str, link: str, pin: str) -> None:
+        """A joint's reaction by two levers, one for each component."""
+        spans, name = [], pair_name(point, link)
+        for axis, letter in zip(AXES, "xy", strict=True):
+            lever = self._lever(freed_joint(self.loading.scene, point, link, pin, axis), f"{name}, {letter}")
             spans.append(lever.across(point, link, pin))
-            shown += [*lever.shown, Shown("reaction", f"R_{name}", *spans[-1])]
+            self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
         (tail, corner), other = spans
-        with board.on(lever.panel):
-            results.append((REACTION, pair_name(point, link), (tail, board.transfer(*other, corner))))
-    return results, shown
+        with self.board.on(lever.panel):
+            self.results.append((REACTION, name, (tail, self.board.transfer(*other, corner))))
+
+    def _slide(self, slide: Slide) -> None:
+        """A slide's reaction by two levers: its force, and its moment."""
+        lever = self._lever(freed_slide(self.loading.scene, slide), f"{slide.name}, F")
+        force = lever.off_guide(slide)
+        self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
+        self.results.append((SLIDE_REACTION, slide.name, force))
+        lever = self._lever(freed_turning(self.loading.scene, slide), f"{slide.name}, M")
+        moment = lever.turning(slide.link, slide.along)
+        self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
+        self.results.append((SLIDE_MOMENT, slide.name, moment))
 
 
 def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
@@ -171,17 +239,6 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
             if seat is not at:
                 H = board.foot(guide, H)
         yield SLIDE_ARM, slide.name, (at, H)
-
-
-def reaction_on(scene: Scene, forces: Forces, board: Board, point: str, link: str) -> tuple[Mark, Mark]:
-    """The force on a link, the frame among them, at a joint."""
-    if (point, link) in forces.joints:
-        return forces.joints[point, link]
-    spans = [forces.joints[point, other][::-1] for other in scene.links_of[point] if other != link]
-    first, mark = spans[0]
-    for tail, head in spans[1:]:
-        mark = board.transfer(tail, head, mark)
-    return first, mark
 
 
 def _told(scene: Scene, forces: Forces, point: str, link: str) -> bool:

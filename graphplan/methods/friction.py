@@ -1,77 +1,137 @@
-"""Friction on the drawing board: what the reactions of a plan without friction rub, as loads of a second plan.
+"""Friction on the drawing board: a journal's force touches its friction circle, a slide's leans by its friction angle.
 
-In a journal the reaction touches the friction circle, against the turning; in a slide it leans by the friction angle,
-against the sliding. Both follow from the reaction, so the plan is drawn without friction first, and then again (Ozols
-1974, 9-1 and 12-4). The balances of the two plans give the instantaneous efficiency.
+Which way it does so follows from the force itself. So each round takes the directions of the forces from the last, and
+the first those without friction; then friction is no load, but a pose in which the forces act elsewhere, and a round is
+a force plan like any other (Ozols 1974, 9-1, 12-1 and 12-4). The senses of slides' forces seldom change, and a force
+that is turned a little still touches its circle but for the square of that: few rounds are needed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from functools import partial
+import math
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
 
-from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Friction, Slide
-from graphplan.methods.forces import reaction_on
-from graphplan.methods.loading import Acting, Lay, Loading
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
+from graphplan.mechanism.order import by_name
+from graphplan.methods.loading import Loading
 from graphplan.methods.panels import MECHANISM, link_named, slide_named
-from graphplan.methods.reactions import Forces
+from graphplan.methods.poses import Pose
+from graphplan.methods.reactions import Forces, Span, reaction_on
+from graphplan.methods.tempo import extent
 from graphplan.methods.velocity import Velocity
 from graphplan.phrases import said
 
+STANDS = 1e-12  # of the largest force, at the mechanism's extent: how far off its circle or its line a force may be
+SHORT = 1e-9  # of the mechanism's extent: a force that is drawn shorter is nothing
+Valued = Callable[[Sequence[Mark]], list[Any]]
+
+
+@dataclass(frozen=True)
+class Journal:
+    """A journal that rubs: the joint as the scene names it and as the `rough` scene does, the link, and the pin's."""
+
+    friction: Friction
+    point: str
+    link: str
+    pin: str
+
+
+def journals(scene: Scene) -> Iterator[Journal]:
+    """The journals that rub, each of a link in that which carries the pin."""
+    assert scene.loads is not None
+    for friction in sorted(scene.loads.frictions, key=lambda friction: by_name(friction.at)):
+        if friction.at and friction.radius * friction.coefficient:
+            pin, *others = scene.links_of[friction.at]
+            for link in sorted(others, key=by_name):
+                yield Journal(friction, f"{friction.at} of {link}", link, pin)
+
+
+def rough(scene: Scene) -> Scene:
+    """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
+    named: dict[str, dict[str, list[str]]] = {}
+    for journal in journals(scene):
+        for link in (journal.link, journal.pin):
+            named.setdefault(journal.friction.at, {}).setdefault(link, []).append(journal.point)
+    points = {name: at for point, at in scene.points.items()
+              for name in (point, *dict.fromkeys(new for own in named.get(point, {}).values() for new in own))
+              for at in (at,)}
+    links = {link: tuple(name for point in own for name in named.get(point, {}).get(link, [point]))
+             for link, own in scene.links.items()}
+    return replace(scene, points=points, links=links)
+
 
 class Rubbed:
-    """The friction of a scene's pairs under known reactions."""
+    """The pose in which the forces of one round act, as those of the round before say."""
 
-    def __init__(self, board: Board, velocity: Velocity, loading: Loading, forces: Forces):
-        self.board, self.velocity, self.loading, self.forces = board, velocity, loading, forces
-        self.scene, self.points = loading.scene, loading.pose.points
-        self.slides = {(slide.link, slide.along): slide for slide in self.scene.slides}
+    def __init__(self, velocity: Velocity, loading: Loading, forces: Forces):
+        self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
+        slides = {(slide.link, slide.along): slide for slide in loading.scene.slides}
+        self.touching = {journal: self._touching(journal) for journal in journals(loading.net.scene)}
+        self.leaning = {slides[friction.slide]: self._leaning(slides[friction.slide], friction)
+                        for friction in loading.loads.frictions if friction.slide and friction.coefficient}
 
-    def drags(self, link: str) -> Iterator[tuple[str, Lay]]:
-        """The friction forces of the slides of a link."""
-        for friction in self.loading.loads.frictions:
-            if friction.slide and link in friction.slide and friction.coefficient:
-                slide = self.slides[friction.slide]
-                yield slide.at, partial(self._drag, slide, friction, slide.link == link)
+    @property
+    def pose(self) -> Pose:
+        """The pose with the points where journals' forces touch, and with guides that lean."""
+        own = copy(self.loading.pose)
+        own.points = ChainMap({journal.point: mark for journal, mark in self.touching.items()}, own.standing)
+        own.guides = self.leaning
+        return own
 
-    def _drag(self, slide: Slide, friction: Friction, same: bool, start: Mark) -> Acting:
-        """The friction force of a slide on the sliding link, or its answer on the guide's."""
+    def _touching(self, journal: Journal) -> Mark:
+        """Where a journal's force touches its friction circle."""
+        at, points = journal.friction.at, self.loading.pose.points
+        arm, pair = self._arm(journal), (journal.link, journal.pin)
+        tail, head = self._reaction(journal)
+        if tail is head:
+            return points[at]
+        with self.board.on(MECHANISM, pair):
+            slip = self.velocity.slip(journal.pin, journal.link, arm)
+            return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'",
+                                    radius=journal.friction.radius * journal.friction.coefficient,
+                                    why=said("the friction of the journal {0}, of {1} in {2}", at,
+                                             *map(link_named, pair)))
+
+    def _reaction(self, journal: Journal) -> Span:
+        """The force of a journal, in a round or without friction."""
+        point = journal.point if journal.point in self.forces.scene.points else journal.friction.at
+        return reaction_on(self.forces, self.board, point, journal.link)
+
+    def _arm(self, journal: Journal) -> str:
+        """Another point of the link than the journal."""
+        one, two = self.loading.arm_points(journal.link if journal.link != FRAME else journal.pin)
+        return two if one == journal.friction.at else one
+
+    def _leaning(self, slide: Slide, friction: Friction) -> Mark:
+        """The guide of a slide, turned by the friction angle."""
+        pose = self.loading.pose
         with self.board.on(MECHANISM, (slide.link, slide.along)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)
-        why = said("{0}, the friction of the slide {1}", f"F_{slide.link}", slide_named(slide))
-        tip = self.board.drag(self.points[slide.at], slip, *self.forces.slides[slide], start,
-                              coefficient=friction.coefficient, why=why)
-        if not same:
-            tip = self.board.transfer(tip, start, start)
-        return Acting(self.points[slide.at], start, tip, f"F_{slide.link}")
+            return self.board.lean(pose.guide(slide), pose.points[slide.at], slip, *self.forces.slides[slide],
+                                   coefficient=friction.coefficient,
+                                   why=said("the friction of the slide {0}", slide_named(slide)))
 
-    def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]:
-        """The friction couples of the journals of a link, as pairs of forces; each pair's links have it opposite."""
-        for friction in self.loading.loads.frictions:
-            if not friction.at or not friction.radius * friction.coefficient:
-                continue
-            pin, *others = self.scene.links_of[friction.at]
-            for other in others:
-                if link == other:
-                    yield self._couple(friction, other, pin, start)
-                elif link == pin:
-                    force, answer = self._couple(friction, other, pin, start)
-                    yield force.reversed, answer.reversed
+    def stands(self, then: Rubbed, valued: Valued) -> bool:
+        """Whether the forces of this round act as they themselves say: so `then` would have them act.
 
-    def _couple(self, friction: Friction, link: str, pin: str, start: Mark) -> tuple[Acting, Acting]:
-        name = self._arm(friction.at, link if link != FRAME else pin)
-        P, R = self.points[friction.at], self.points[name]
-        with self.board.on(MECHANISM, (link, pin)):
-            slip = self.velocity.slip(pin, link, name)
-        why = said("the friction of the journal {0}, of {1} in {2}", friction.at, *map(link_named, (link, pin)))
-        radius = friction.radius * friction.coefficient
-        reaction = reaction_on(self.scene, self.forces, self.board, friction.at, link)
-        tip = self.board.journal(P, R, slip, *reaction, start, radius=radius, why=why)
-        letter = f"M_{friction.at}"
-        return Acting(R, start, tip, letter), Acting(P, tip, start, letter)
-
-    def _arm(self, point: str, link: str) -> str:
-        """Another point of a link than the journal."""
-        one, two = self.loading.arm_points(link)
-        return two if one == point else one
+        Their moments about the points where they should touch, and their parts along the guides that should be square
+        to them, are nothing beside the largest of them.
+        """
+        moved = [mark for journal, T in self.touching.items()
+                 for mark in (T, then.touching[journal], *then._reaction(journal))]
+        leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
+        values = valued([*moved, *leant])
+        size, far = extent(self.loading.scene), [0.0]
+        forces = [values[k + 1 : k + 3] for k in range(len(moved), len(values), 3)]
+        forces += [values[k + 2 : k + 4] for k in range(0, len(moved), 4)]
+        largest = max([SHORT * size, *(math.dist(*force) for force in forces)])
+        for T, new, tail, head in zip(*[iter(values[: len(moved)])] * 4, strict=True):
+            far.append(abs((new[0] - T[0]) * (head[1] - tail[1]) - (new[1] - T[1]) * (head[0] - tail[0])) / size)
+        for (a, b, _), tail, head in zip(*[iter(values[len(moved) :])] * 3, strict=True):
+            far.append(abs((head[0] - tail[0]) * b - (head[1] - tail[1]) * a) / math.hypot(a, b))
+        return max(far) <= STANDS * largest

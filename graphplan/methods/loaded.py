@@ -7,49 +7,59 @@ is drawn if it lies near. Imported for scenes with loads alone.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any
 
-from graphplan.errors import ConstructionError
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import needed_steps
-from graphplan.mechanism.model import Loads, Scene, TurningDrive
+from graphplan.kernel.passes import freeze, needed_steps
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import Find, Loads, Scene, TurningDrive
 from graphplan.mechanism.units import metre
 from graphplan.methods.acceleration import Normal
 from graphplan.methods.construct import Draughtsman
 from graphplan.methods.construction import Construction
-from graphplan.methods.forces import Plans, Result, Way, arms, freed_reactions, levers, reactions, results, rubbed
-from graphplan.methods.friction import Rubbed
+from graphplan.methods.forces import Freed, Plans, Result, Way, arms, levers, reactions, results, with_friction
+from graphplan.methods.friction import SHORT, Rubbed
 from graphplan.methods.loading import Loading, force_scale
 from graphplan.methods.network import Network
-from graphplan.methods.panels import slide_named
+from graphplan.methods.panels import link_named, slide_named
 from graphplan.methods.planner import Planner
-from graphplan.methods.reactions import Shown
+from graphplan.methods.reactions import Forces, Shown
 from graphplan.methods.readings import Reading
 from graphplan.methods.statics import PREFERENCES
 from graphplan.methods.styles import Style
 from graphplan.methods.tempo import extent
 from graphplan.methods.velocity import Velocity
 from graphplan.methods.ways import EQUAL, growth, ways
-from graphplan.phrases import said
+from graphplan.phrases import Phrase, phrase, said
 
 NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
 SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
 MOST_PICKS = 4  # at how many places a trial of forces may begin
 TEXTBOOK = "polygons", 0
+MOST_ROUNDS = 8  # of friction: near to locking they may never stand
 UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
 
 class Loaded(Draughtsman):
-    """Draws one scene with its forces, its groups planned in one way; `arms` are the slides whose lines are drawn."""
+    """Draws one scene with its forces, its groups planned in one way; `arms` are the slides whose lines are drawn.
+
+    `by_lever` are the pairs whose reactions levers are to find, where no polygons are drawn.
+    """
 
     def __init__(self, scene: Scene, planner: Planner, style: Style, plans: Plans, way: Way = TEXTBOOK,
-                 arms: tuple[str, ...] = ()):
+                 arms: tuple[str, ...] = (), by_lever: tuple[str, ...] = ()):
         super().__init__(scene, planner, style)
         assert scene.loads is not None
         self.loads: Loads = scene.loads
-        self.style, self.plans, self.way, self.arms = style, plans, way, arms
+        self.style, self.plans, self.way, self.arms, self.by_lever = style, plans, way, arms, by_lever
         self.phi = force_scale(scene)
         self.shown: list[Shown] = []
+        self.notes: list[str] = []
+        self.rounds = 0
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """Motion and forces; the accelerations are drawn for inertia forces, too."""
@@ -58,29 +68,74 @@ class Loaded(Draughtsman):
         self._forces(velocity, plan)
         shown = self._arrows()
         drawn = super().finished(velocity, plan)
-        drawn.phi, drawn.shown = self.phi, shown
+        drawn.phi, drawn.shown, drawn.rounds = self.phi, shown, self.rounds
+        drawn.notes += self.notes
         return drawn
 
     def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
         """Force plans and lever, as the style says."""
         loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
+        loading.apart = frozenset(self._far(loading))
         if self.style.polygons:
             self._polygons(velocity, loading)
         if self.style.lever or self.scene.repeating:
-            self._note(*levers(self.pose, velocity, loading))
+            self._note(*levers(self.pose, velocity, loading, self.plans))
             if not self.style.polygons:
-                self._note(*freed_reactions(self.pose, loading))
+                freed = Freed(self.pose, loading, self.plans).all(self.by_lever)
+                self._note(freed.results, freed.shown)
+                if self.loads.frictions:
+                    self.notes.append(said("friction is left out: force polygons alone have it"))
+
+    def _far(self, loading: Loading) -> Iterator[str]:
+        """The links whose inertia force would be shifted too far, or is nothing beside its couple."""
+        size = extent(self.scene)
+        for link, marks in loading.shifts():
+            try:
+                home, end, P, R, tip = self._valued(marks)
+            except ConstructionError:  # whoever reads the numbers is told
+                return
+            force = math.dist(home, end)
+            couple = abs((R[0] - P[0]) * (tip[1] - end[1]) - (R[1] - P[1]) * (tip[0] - end[0]))
+            if force <= SHORT * size or couple > NEAR * size * force:
+                yield link
+                if couple > SHORT * size * size:
+                    self.notes.append(said("{0}: its inertia force is small beside its couple; they are left apart",
+                                           link_named(link)))
 
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
         forces = reactions(self.board, self.pose, loading, self.plans, self.way)
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
-        if self.loads.frictions and self._in_motion:
-            loading.rubbing = Rubbed(self.board, velocity, loading, forces)
-            second = reactions(self.board, self.pose, loading, self.plans, self.way, forces)
-            self._note(rubbed(loading, second), second.shown)
-            loading.rubbing = None
+        if self.loads.frictions and self._in_motion and not self.scene.repeating:
+            self._rounds(velocity, loading, forces)
+
+    def _rounds(self, velocity: Velocity, loading: Loading, forces: Forces) -> None:
+        """Rounds of friction, as many as are asked for, or until the forces stand."""
+        rubbed, stands = Rubbed(velocity, loading, forces), False
+        asked = self.loads.rounds or MOST_ROUNDS
+        while forces.number < asked and not stands:
+            forces = reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
+            rubbed, last = Rubbed(velocity, loading, forces), rubbed
+            self.shown += forces.shown
+            try:
+                stands = not self.loads.rounds and last.stands(rubbed, self._valued)
+            except ConstructionError:  # whoever reads the numbers is told
+                break
+        self._note(with_friction(loading, forces), ())
+        self.rounds = forces.number
+        if self.loads.rounds:
+            self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
+        elif stands:
+            self.notes.append(said("friction: the forces stand after round {0}", forces.number))
+        else:
+            self.notes.append(said("friction: the forces do not stand after {0} rounds", forces.number))
+
+    def _valued(self, marks: Sequence[Mark]) -> list[Any]:
+        """The values of marks in this pose."""
+        program = freeze(self.board, marks)
+        values = evaluate(program, Floats())
+        return [values[index] for index in program.wanted]
 
     @property
     def _in_motion(self) -> bool:
@@ -108,25 +163,110 @@ class Loaded(Draughtsman):
 
 def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
     """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
-    plans = Plans(scene)
-    found = ways(Network(scene), method, lambda planner: Loaded(scene, planner, style, plans).draw())
-    for best, planner in found:
-        yield _steadiest(best, planner, style, plans) if style.polygons else best
+    forces = Alternatives(scene, style)
+    for best, planner in ways(Network(scene), method, forces.draw):
+        yield forces.steadiest(best, planner)
 
 
-def _steadiest(found: Construction, planner: Planner, style: Style, plans: Plans) -> Construction:
-    """The construction with its forces drawn well: if errors grow in their plans, other ways are weighed against it."""
-    scene, way = found.scene, TEXTBOOK
-    if growth(found.program) >= UNSTEADY:
+class Alternatives:
+    """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
+
+    def __init__(self, scene: Scene, style: Style):
+        self.scene, self.style, self.plans = scene, style, Plans(scene)
+        self.chosen: dict[Planner, Style] = {}
+        self.wary = False  # a way of the motion has failed: of others the motion is tried first
+
+    def draw(self, planner: Planner) -> Construction:
+        """The first construction that can be drawn in this pose, which says what it leaves out, and why.
+
+        Where there is none it is the first at all; fails with `Refused` where even that is not planned.
+        """
+        if self.wary and _singular(motion := self._motion(planner)):
+            return motion
+        first: Construction | Refused | None = None
+        fault: Refused | ConstructionError | None = None
+        for style, missing in self._styles():
+            try:
+                self.chosen[planner] = style
+                found = self._drawn(planner, style)
+                first = first or found
+                if (singular := _singular(found)) and style.polygons:
+                    found = self._by_best_way(found, planner)[0]
+                    singular = _singular(found)
+            except Refused as refused:
+                first, fault = first or refused, refused
+                continue
+            if singular is None:
+                found.notes += [missing(fault.why)] if fault else []
+                return found
+            if fault is None and _singular(self._motion(planner)):
+                self.wary = True
+                return found
+            fault = singular
+        self.chosen[planner] = self.style
+        if isinstance(first, Construction):
+            return first  # whoever reads the numbers is told
+        assert first is not None
+        raise first
+
+    def _motion(self, planner: Planner) -> Construction:
+        """The motion alone: where it cannot be drawn this way no other forces help."""
+        every = tuple(point for point, links in self.scene.links_of.items() if links)
+        bare = replace(self.scene, loads=None, find=Find(every, every))
+        return Draughtsman(bare, planner, self.style).draw()
+
+    def _styles(self) -> Iterator[tuple[Style, Phrase]]:
+        """The style that is asked for, and others in its place, each with what it leaves out."""
+        no_lever, no_polygons = phrase("no lever: {0}"), phrase("no force polygons: {0}")
+        yield self.style, no_lever
+        if self.style.lever:
+            yield replace(self.style, lever=False, polygons=True), no_lever
+        if self.style.polygons:
+            yield replace(self.style, lever=True, polygons=False), no_polygons
+
+    def _drawn(self, planner: Planner, style: Style, way: Way = TEXTBOOK, arms: tuple[str, ...] = ()) -> Construction:
+        return Loaded(self.scene, planner, style, self.plans, way, arms, self._by_lever).draw()
+
+    @property
+    def _by_lever(self) -> tuple[str, ...]:
+        """The pairs whose reactions levers find, where no polygons do: if levers are asked for those that are named."""
+        asked = self.scene.find.reactions
+        if asked is None and self.style.polygons:
+            return (*self.scene.joints, *(slide.name for slide in self.scene.slides))
+        return asked or ()
+
+    def steadiest(self, found: Construction, planner: Planner) -> Construction:
+        """The construction with its force plans, if it has any, drawn well."""
+        style = self.chosen.get(planner)
+        if style is None:  # of a motion that cannot be drawn: whoever reads the numbers is told
+            return self._drawn(planner, self.style)
+        if not style.polygons:
+            return found
+        found, way = self._by_best_way(found, planner)
+        return _with_arms(found, lambda names: self._drawn(planner, style, way, names))
+
+    def _by_best_way(self, found: Construction, planner: Planner) -> tuple[Construction, Way]:
+        """If errors grow in the force plans other ways are weighed against this one; the best, and which it is."""
+        if growth(found.program) < UNSTEADY:
+            return found, TEXTBOOK
         drawn = {TEXTBOOK: found}
-        for other in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
-            if other not in drawn and other[1] < plans.options:
-                drawn[other] = Loaded(scene, planner, style, plans, other).draw()
-        grown = {other: growth(construction.program) for other, construction in drawn.items()}
+        for way in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
+            if way not in drawn and way[1] < self.plans.options:
+                drawn[way] = self._drawn(planner, self.chosen[planner], way)
+        grown = {way: growth(construction.program) for way, construction in drawn.items()}
         least = EQUAL * min(grown.values())
-        way = min(drawn, key=lambda other: (max(grown[other], least), len(drawn[other].program)))
-        drawn[way].notes, found = found.notes, drawn[way]
-    return _with_arms(found, lambda names: Loaded(scene, planner, style, plans, way, names).draw())
+        way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))
+        drawn[way].notes = found.notes
+        return drawn[way], way
+
+
+def _singular(found: Construction) -> ConstructionError | None:
+    """Why the construction cannot be drawn in this pose, if it cannot."""
+    try:
+        found.read(Floats())
+    except ConstructionError as error:
+        return error
+    return None
 
 
 def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
@@ -139,7 +279,8 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
     least = SMALL * max((math.hypot(*force) for force in (*values.get("reaction", {}).values(), *slides.values())),
                         default=0.0)
-    reach = NEAR * extent(found.scene) / float(metre(found.scene.units))
+    size = extent(found.scene)
+    least, reach = max(least, SHORT * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
     drawn.notes = found.notes + [

@@ -8,11 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import partial
 from typing import Protocol
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
+from graphplan.mechanism.order import by_name, ordered
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.network import Network
 from graphplan.methods.panels import MECHANISM, link_named
@@ -46,27 +48,19 @@ class Motion(Protocol):
     def end_in(self, link: str, point: str) -> Mark: ...
 
 
-class Rubbing(Protocol):
-    """Friction as loads: the forces of slides and the couples of journals on a link."""
-
-    def drags(self, link: str) -> Iterator[tuple[str, Lay]]: ...
-    def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]: ...
-
-
 class Loading:
     """The loads of each link, laid off from any mark of a force plan.
 
     Reads the plan of accelerations where links have masses, and `phi` and `unit` (of angular velocity), by which forces
     and rates are drawn. `inertia` names the form of inertia forces: at the centre with a couple, shifted so that it
-    needs none, or as those of two points that replace the link.
+    needs none, or as those of two points that replace the link; those of the links `apart` are not to be shifted.
     """
 
     def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Motion | None,
                  inertia: str = "couple"):
         self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
-        self.inertia = inertia
-        self.rubbing: Rubbing | None = None
-        self.scene: Scene = net.scene
+        self.inertia, self.apart = inertia, frozenset[str]()
+        self.scene: Scene = ordered(net.scene)
         assert self.scene.loads is not None
         self.loads: Loads = self.scene.loads
 
@@ -91,8 +85,6 @@ class Loading:
                 why = said("{0}, the weight of {1}, at {2}", f"G_{link}", link_named(link), mass.centre)
                 yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
             yield from self._inertia_forces(link, mass)
-        if self.rubbing is not None:
-            yield from self.rubbing.drags(link)
 
     def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
         """The inertia force at the centre of mass, shifted aside, or at two points that replace the link."""
@@ -114,7 +106,7 @@ class Loading:
         """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
         if self.motion is None or not (mass.inertia and self.turns(link)):
             return ""
-        able = {"shifted": self._accelerated(link, mass.centre),
+        able = {"shifted": link not in self.apart and self._accelerated(link, mass.centre),
                 "points": self._square(self.arm_points(link)[0], mass.centre)}
         return self.inertia if mass.mass and able.get(self.inertia) else "couple"
 
@@ -124,24 +116,36 @@ class Loading:
 
     def _shifted(self, link: str, mass: Mass, radius2: Number) -> str:
         """The point where the inertia force acts without a couple: acceleration and turning say it, in proportion."""
-        assert self.motion is not None
-        name, points, (one, two) = f"K_{link}", self.pose.points, self.arm_points(link)
+        name, points = _replaced(link), self.pose.standing
         if name not in points:
-            home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
-            ends = self.motion.end_in(link, one), self.motion.end_in(link, two)
-            tip = self.board.inertia_pair(points[one], points[two], *ends, end, ratio=radius2)
+            home, end, P, R, tip = self._couple_of(link, mass, radius2)
             points[name] = self.board.resultant(
-                points[mass.centre], end, home, points[one], points[two], end, tip, name=name,
+                points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
                 why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
         return name
 
+    def _couple_of(self, link: str, mass: Mass, radius2: Number) -> tuple[Mark, Mark, Mark, Mark, Mark]:
+        """The acceleration of a link's centre of mass, as begin and end, and its couple: two points, and the force at
+        the second, from that end; both for a mass of one."""
+        assert self.motion is not None
+        one, two = self.arm_points(link)
+        home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+        P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
+        return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
+
+    def shifts(self) -> Iterator[tuple[str, tuple[Mark, ...]]]:
+        """Of each link whose inertia force is shifted: its acceleration and its couple, as five marks."""
+        for link, mass in self.loads.masses.items():
+            if self.inertia == "shifted" and self._form(link, mass) == "shifted":
+                yield link, self._couple_of(link, mass, mass.inertia / mass.mass * metre(self.scene.units) ** 2)
+
     def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
         """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
-        name, points = f"K_{link}", self.pose.points
+        name, points = _replaced(link), self.pose.standing
         if name not in points:
             with self.board.on(MECHANISM, (link,)):
                 points[name] = self.board.step_off(
-                    points[pivot], points[centre], points[centre], ratio=part, name=name,
+                    points[pivot], points[centre], points[centre], ratio=part, name=f"K_{link}",
                     why=said("the radius of gyration is the mean of the distances from {0}", centre))
         return name
 
@@ -159,7 +163,7 @@ class Loading:
         why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
                    self.pose.spoken(point))
         head = self.board.step_off(home, end, start, ratio=ratio, why=why)
-        return Acting(self.pose.points[f"K_{link}" if shifted else point], start, head, name)
+        return Acting(self.pose.points[_replaced(link) if shifted else point], start, head, name)
 
     def _accelerated(self, link: str, point: str) -> bool:
         return self.motion is not None and FRAME not in self.scene.links_of[point]
@@ -176,8 +180,6 @@ class Loading:
         mass = self.loads.masses.get(link)
         if mass and self._form(link, mass) == "couple":
             yield self._inertia_pair(link, mass, start)
-        if self.rubbing is not None:
-            yield from self.rubbing.couples(link, start)
 
     def _inertia_pair(self, link: str, mass: Mass, start: Mark) -> tuple[Acting, Acting]:
         assert self.motion is not None
@@ -198,14 +200,24 @@ class Loading:
 
     def arm_points(self, link: str) -> tuple[str, str]:
         """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""
-        scene, names = self.scene, list(self.scene.links[link])
+        scene, names = self.scene, sorted(self.scene.links[link], key=by_name)
+        first = next((p for p in names if FRAME in scene.links_of[p]), names[0])
+        own = [p for p in names if self._apart(first, p)]
         names += [p for s in scene.slides if link in (s.link, s.along) for k in (s.link, s.along) if k != link
                   for p in scene.links[k]]
         names += list(scene.points)
-        first = next((p for p in scene.links[link] if FRAME in scene.links_of[p]), names[0])
-        own = [p for p in scene.links[link] if self._apart(first, p)]
-        return first, max(own, key=lambda p: self._apart(first, p)) if own else next(
-            p for p in names if self._apart(first, p))
+        if own:
+            return first, max(own, key=lambda p: self._apart(first, p))
+        return first, next((p for p in names if self._apart(first, p)), None) or self._aside(first)
+
+    def _aside(self, point: str) -> str:
+        """A point beside this one, where all points of the scene coincide: couples need an arm."""
+        name, points = "point aside", self.pose.standing
+        if name not in points:
+            with self.board.on(MECHANISM):
+                points[name] = self.board.lay_off(points[point], dx=Fraction(1), dy=Fraction(0),
+                                                  name=self.pose.letter(name), why=said("an arm for couples"))
+        return name
 
     def _apart(self, P: str, R: str) -> float:
         one, two = self.scene.points[P], self.scene.points[R]
@@ -215,6 +227,11 @@ class Loading:
         """The marks of the two points at which a link's couples act as pairs of forces."""
         one, two = self.arm_points(link)
         return self.pose.points[one], self.pose.points[two]
+
+
+def _replaced(link: str) -> str:
+    """The place where a link's inertia force acts in another form: a name that no point of a scene has."""
+    return f"inertia of {link}"
 
 
 def force_scale(scene: Scene) -> Number:

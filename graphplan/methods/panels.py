@@ -17,8 +17,10 @@ PLANS = {
 def spoken(panel: str) -> Said:
     """How a plan is spoken of among the steps."""
     if panel.startswith(FORCE_PLAN):
-        pattern = phrase("force plan with friction of {0}" if _rubs(panel) else "force plan of {0}")
-        return pattern(listed(_links(panel)))
+        number, links = _round(panel), listed(_links(panel))
+        if number > "1":
+            return said("force plan with friction of {0}, round {1}", links, number)
+        return phrase("force plan with friction of {0}" if number else "force plan of {0}")(links)
     if panel.startswith(f"{LEVER} "):
         return said("lever {0}", _whose(panel.removeprefix(f"{LEVER} ")))
     name, _, part = panel.partition(", part ")
@@ -33,7 +35,10 @@ def caption(panel: str, kinds: Collection[str]) -> Said:
     if panel == "N-plan":
         return said("N-plan: relative normal accelerations")
     if panel.startswith(FORCE_PLAN):
-        return phrase("Force plan with friction: {0}" if _rubs(panel) else "Force plan: {0}")(listed(_links(panel)))
+        number, links = _round(panel), listed(_links(panel))
+        if number > "1":
+            return said("Force plan with friction, round {1}: {0}", links, number)
+        return phrase("Force plan with friction: {0}" if number else "Force plan: {0}")(links)
     if panel == LEVER:
         return arranged("{0:capital}", said("Zhukovsky's lever"))
     if panel.startswith(f"{LEVER} "):
@@ -58,26 +63,39 @@ def _over_the_mechanism(kinds: Collection[str]) -> Said:
 
 
 def _whose(what: str) -> Said:
-    """What a lever serves, in short: a balance by its number, or a reaction with its axis, as `2 at B, x`."""
-    site, _, axis = what.rpartition(", ")
-    return joined((acting(site), axis)) if site else arranged("{0}", what)
+    """What a lever serves, in short: a balance by its number, or a reaction, as `2 at B, x` or `3 along 2, M`."""
+    site, _, part = what.rpartition(", ")
+    whose = sliding if " along " in site else acting
+    return joined((whose(site), part)) if site else arranged("{0}", what)
 
 
 def _served(what: str) -> Said:
     """Which lever of several: that of a balance, by number, or of a reaction, such as `2 at B, x`."""
     if " at " not in what:
-        return said("Zhukovsky's lever {0}", what)
+        return said("Zhukovsky's lever {0}", _whose(what))
     link, _, place = what.partition(" at ")
     point, _, axis = place.rpartition(", ")
     return said("Zhukovsky's lever: the force on {0} at {1}, along {2}", link_named(link), point, axis)
 
 
-def _rubs(panel: str) -> bool:
-    return panel.endswith(FRICTION)
+def rubbing(number: int) -> str:
+    """What a force plan's name ends with in a round of friction; the first is but named so."""
+    return "" if not number else FRICTION if number == 1 else f"{FRICTION}, round {number}"
+
+
+def smooth(panel: str) -> str:
+    """The plan without friction of the same links."""
+    return panel.partition(FRICTION)[0]
 
 
 def _links(panel: str) -> list[str]:
-    return panel.removeprefix(FORCE_PLAN).removesuffix(FRICTION).split(", ")
+    return smooth(panel).removeprefix(FORCE_PLAN).split(", ")
+
+
+def _round(panel: str) -> str:
+    """Which round of friction a force plan is of."""
+    _, rubs, number = panel.partition(FRICTION)
+    return number.removeprefix(", round ") or ("1" if rubs else "")
 
 
 def listed(links: Sequence[str]) -> Said:

@@ -8,7 +8,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide
 from graphplan.methods.force_letters import pair_letter, reaction_letter
 from graphplan.methods.loading import Acting, Loading
-from graphplan.methods.panels import FORCE_PLAN, MECHANISM, spoken
+from graphplan.methods.panels import FORCE_PLAN, MECHANISM, rubbing, spoken
 from graphplan.methods.poses import Pose
 from graphplan.methods.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
 from graphplan.methods.sites import Group, Joint, Site
@@ -21,7 +21,7 @@ class Parts:
 
     def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = FORCE_PLAN + ", ".join(group.links) + forces.suffix
+        self.panel = FORCE_PLAN + ", ".join(group.links) + rubbing(forces.number)
         self.known: dict[Site, Known] = {}
         self.ends: dict[Site, Span] = {}
         self.pairs: dict[Site, Pair | None] = {}
@@ -59,7 +59,7 @@ class Parts:
 
     def _apply(self, loads: Iterable[Acting]) -> None:
         """Draw loads where they act; once, not again with friction."""
-        if not self.forces.suffix:
+        if not self.forces.number:
             self.forces.shown += [applied(self.board, force) for force in loads]
 
     def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
@@ -102,7 +102,7 @@ class Parts:
         for link in self.group.scene.links_of[point]:
             if link in self.group.done:
                 tail, head = self.forces.joints[point, link]
-                name = reaction_letter(self.group.scene, point, self.group.members(point)[0])
+                name = reaction_letter(self.forces.scene, point, self.group.members(point)[0])
                 yield Acting(self.pose.points[point], head, tail, name)
 
     # ---- a part of the group -----------------------------------------------------------------------------------

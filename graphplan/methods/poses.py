@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections import ChainMap
+from collections.abc import Mapping, MutableMapping
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
@@ -15,19 +16,28 @@ class Pose:
     """Marks for the points of a scene; guides and letters on demand.
 
     `shared` names points that lie where another one does, in one link or under a sliding point: they share its mark.
+    `standing` are the points that have nothing to do with how the mechanism moves: auxiliary points and poles of its
+    motion are among `points` alone.
     """
 
     def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str]):
         self.board, self.scene = board, scene
         with board.on(MECHANISM):
             apart = {name: scene.points[name] for name in ordered_points(scene) if name not in shared}
-            self.points: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
-        self.points |= {name: self.points[other] for name, other in shared.items()}
+            self.standing: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
+        self.standing |= {name: self.standing[other] for name, other in shared.items()}
+        self.points: MutableMapping[str, Mark] = ChainMap({}, self.standing)
+        self.guides: dict[Slide, Mark] = {}
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
 
     def guide(self, slide: Slide, *, run: bool = False) -> Mark:
-        """The guide of a sliding pair, through the pair; with `run` it runs as its direction does."""
+        """The guide of a sliding pair, through the pair; with `run` it runs as its direction does.
+
+        One that leans, where there is friction.
+        """
+        if slide in self.guides:
+            return self.guides[slide]
         with self.board.on(MECHANISM, (slide.link, slide.along)):
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
@@ -54,4 +64,4 @@ class Pose:
             for other in sorted(self.scene.links[name], key=by_name):
                 if self.scene.points[other] != at:
                     return self.points[other]
-        return next(mark for name, mark in self.points.items() if self.scene.points[name] != at)
+        return next(mark for name, mark in self.standing.items() if self.scene.points.get(name, at) != at)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Balance, Slide
+from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.methods.loading import Acting
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
@@ -58,15 +58,30 @@ def applied(board: Board, force: Acting) -> Shown:
 
 
 class Forces:
-    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows."""
+    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows.
 
-    def __init__(self, before: Forces | None = None) -> None:
+    `number` is that of the round of friction, 0 without; `before` are the forces of the round before.
+    """
+
+    def __init__(self, scene: Scene, before: Forces | None = None) -> None:
+        self.scene = scene
         self.shown: list[Shown] = []
         self.corners: int = before.corners if before else 0
-        self.suffix = " with friction" if before else ""
+        self.number: int = before.number + 1 if before else 0
         self.joints: dict[tuple[str, str], Span] = {}
         self.slides: dict[Slide, Span] = {}
         self.pairs: dict[Slide, Pair | None] = {}
         self.seats: dict[Slide, Mark] = {}
         self.balances: dict[Balance, Span] = {}
         self.moments: dict[Balance, Pair | None] = {}
+
+
+def reaction_on(forces: Forces, board: Board, point: str, link: str) -> Span:
+    """The force on a link, the frame among them, at a joint."""
+    if (point, link) in forces.joints:
+        return forces.joints[point, link]
+    spans = [forces.joints[point, other][::-1] for other in forces.scene.links_of[point] if other != link]
+    first, mark = spans[0]
+    for tail, head in spans[1:]:
+        mark = board.transfer(tail, head, mark)
+    return first, mark

@@ -2,19 +2,20 @@
 
 A *site* is a pair, or what balances. The force that passes there acts along a line: of a pencil through a joint, of the
 parallels across a guide, or one line alone. At a joint each link has a force from the pin, and those of all its links
-balance. Lines and points are homogeneous residues of a prime, for points in general position: what holds for them is
-what the graph says, and no coordinate is looked at.
+balance. Lines and points are homogeneous residues of a prime: for points in general position, where what holds is what
+the graph says, and for those of the pose, where nothing may vanish that a move divides by.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from random import Random
 
 from graphplan.mechanism.equations import PRIME, System
-from graphplan.mechanism.model import Balance, Scene, Slide
+from graphplan.mechanism.model import Balance, Number, Scene, Slide
 from graphplan.mechanism.transfer import stages
 
 Triple = tuple[int, int, int]
@@ -57,13 +58,6 @@ class Group:
     def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
         self.scene, self.links, self.done = scene, links, frozenset(done)
         self._boundaries: dict[frozenset[str], list[tuple[Site, int]]] = {}
-        chance = Random(1952)
-        self._points = {p: (chance.randrange(1, PRIME), chance.randrange(1, PRIME), 1) for p in scene.points}
-        self._ways = {s: (chance.randrange(1, PRIME), chance.randrange(1, PRIME), 0) for s in scene.slides}
-        self._balances = {b: (chance.randrange(1, PRIME), chance.randrange(1, PRIME), 0) for b in self._all_balances()}
-
-    def _all_balances(self) -> tuple[Balance, ...]:
-        return self.scene.loads.balances if self.scene.loads else ()
 
     @cached_property
     def points(self) -> tuple[str, ...]:
@@ -104,7 +98,7 @@ class Group:
             ends = {slide.link, slide.along}
             if len(ends & part) == 1 and not ends & self.done:
                 found.append((slide, 1 if slide.link in part else -1))
-        return found + [(balance, 1) for balance in self._all_balances() if balance.link in part]
+        return found + [(balance, 1) for balance in _balances(self.scene) if balance.link in part]
 
     def _side(self, point: str, here: list[str]) -> tuple[list[str], int]:
         """The links by whose forces that on the links `here` is told; fewer are better, then the first."""
@@ -141,22 +135,60 @@ class Group:
         slid = {other for s in self.scene.slides if link in (s.link, s.along) for other in (s.link, s.along)}
         return (joined | slid) & set(self.links) - {link}
 
-    # ---- in general position -------------------------------------------------------------------------------------
+
+@dataclass(frozen=True)
+class Position:
+    """Where points lie, and which way the forces of slides and balances run."""
+
+    points: dict[str, Triple]
+    ways: dict[Site, Triple]
 
     def pencil(self, site: Site) -> Triple | None:
         """The point through which all forces of a pair pass; a balance has none."""
         if isinstance(site, Joint):
-            return self._points[site.point]
-        return self._ways[site] if isinstance(site, Slide) else None
+            return self.points[site.point]
+        return self.ways[site] if isinstance(site, Slide) else None
 
     def line(self, balance: Balance) -> Triple:
         """The one line of a balance."""
-        return cross(self._points[balance.at], self._balances[balance]) if balance.at else FAR
+        return cross(self.points[balance.at], self.ways[balance]) if balance.at else FAR
 
     def finite(self, site: Site) -> Triple:
         """Any point where a site's force acts."""
         name = site.point if isinstance(site, Joint) else site.at
-        return self._points[name or next(iter(self.scene.points))]
+        return self.points[name or next(iter(self.points))]
+
+
+def in_general(scene: Scene) -> Position:
+    """A position like any other."""
+    chance = Random(1952)
+
+    def pair(w: int) -> Triple:
+        return chance.randrange(1, PRIME), chance.randrange(1, PRIME), w
+
+    return Position({p: pair(1) for p in scene.points}, {s: pair(0) for s in _directed(scene)})
+
+
+def posed(scene: Scene) -> Position:
+    """The position of the scene's pose."""
+    across: dict[Site, Triple] = {s: (-_residue(s.direction[1]) % PRIME, _residue(s.direction[0]), 0)
+                                  for s in scene.slides}
+    along: dict[Site, Triple] = {b: (_residue(b.direction[0]), _residue(b.direction[1]), 0)
+                                 for b in _balances(scene) if b.direction is not None}
+    return Position({p: (_residue(x), _residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
+
+
+def _residue(number: Number) -> int:
+    exact = number if isinstance(number, Fraction) else Fraction(float(number))
+    return exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME
+
+
+def _directed(scene: Scene) -> tuple[Site, ...]:
+    return *scene.slides, *_balances(scene)
+
+
+def _balances(scene: Scene) -> tuple[Balance, ...]:
+    return scene.loads.balances if scene.loads else ()
 
 
 def equation(part: Iterable[str], about: Triple) -> dict[tuple[str, int], int]:

@@ -9,13 +9,13 @@ found by false position.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
-from graphplan.methods.sites import FAR, Group, Joint, Site, Span, Triple, cross, dot, equation
+from graphplan.methods.sites import FAR, Group, Joint, Position, Site, Span, Triple, cross, dot, equation
 
 DEEPEST = 3  # trials within trials
 MOST_FREE = 3  # forces of unknown lines on a part that tells anything
@@ -119,13 +119,16 @@ PREFERENCES = {  # what is drawn before what: by textbook, or by moments whereve
 
 
 class Equilibrium:
-    """Plans one group. `order` names a preference; `pick` says where a trial begins, counted from the first choice."""
+    """Plans one group. `order` names a preference; `pick` says where a trial begins, counted from the first choice.
 
-    def __init__(self, group: Group, order: str = "polygons", pick: int = 0):
-        self.group, self.order, self.pick = group, PREFERENCES[order], pick
-        self.used = Span()
+    What a move tells it has to tell in all `positions`; what forces have in common they have in the first.
+    """
+
+    def __init__(self, group: Group, positions: Sequence[Position], order: str = "polygons", pick: int = 0):
+        self.group, self.positions, self.order, self.pick = group, positions, PREFERENCES[order], pick
+        self.used = [Span() for _ in positions]
         self.rank: dict[Site, int] = {}
-        self.lines: dict[Site, Triple] = {}
+        self.lines: dict[Site, tuple[Triple, ...]] = {}
         self.through: dict[Site, About] = {}
         self.moves: list[StaticMove] = []
         self.assumed = 0
@@ -134,7 +137,7 @@ class Equilibrium:
         for site in dict.fromkeys(whole):
             self.rank[site] = int(isinstance(site, Balance))
             if isinstance(site, Balance):
-                self.lines[site] = group.line(site)
+                self.lines[site] = tuple(position.line(site) for position in positions)
                 self.through[site] = AtPoint(site.at)
 
     def plan(self) -> list[StaticMove]:
@@ -170,7 +173,7 @@ class Equilibrium:
                 continue  # no point is passed by so many forces of unknown lines
             for site in unknown:
                 others = [other for other in unknown if other != site]
-                if all(self.lines.get(other) == FAR for other in others) and not self._twofold(site, others):
+                if all(self._is_couple(other) for other in others) and not self._twofold(site, others):
                     yield "close", Close(part, site)
                 for about in self._abouts(site, others):
                     if self.rank[site]:
@@ -183,7 +186,10 @@ class Equilibrium:
 
     def _twofold(self, site: Site, others: list[Site]) -> bool:
         """Whether a couple is unknown besides, so that forces alone do not tell a slide's reaction or a couple."""
-        return bool(others) and (self.lines.get(site) == FAR or (isinstance(site, Slide) and self.rank[site] == 0))
+        return bool(others) and (self._is_couple(site) or (isinstance(site, Slide) and self.rank[site] == 0))
+
+    def _is_couple(self, site: Site) -> bool:
+        return site in self.lines and self.lines[site][0] == FAR
 
     def _unknown(self, part: Part) -> list[Site]:
         return [site for site, _ in self.group.boundary(part) if self.rank[site] < 2]
@@ -205,10 +211,8 @@ class Equilibrium:
             options = [self._pencil(free[0])]
         elif len(known) > 1:
             options = [self._meeting(*pair) for pair in combinations(known[:3], 2)][:1]
-        elif known and self.lines[known[0]] != FAR:
+        elif known and not self._is_couple(known[0]):
             options = [self.through[known[0]]] if not isinstance(known[0], Joint) else [AtPoint(known[0].point)]
-        elif not known and self.lines.get(site) == FAR:
-            options = []
         return [about for about in options if self._passed(about, free, known) and self._tells(site, about)]
 
     def _pencil(self, site: Site) -> About:
@@ -217,47 +221,51 @@ class Equilibrium:
 
     def _meeting(self, one: Site, two: Site) -> About:
         """Where two known lines meet; a couple's line is far away."""
-        if self.lines[one] == FAR or self.lines[two] == FAR:
-            return AlongLine(two if self.lines[one] == FAR else one)
+        if self._is_couple(one) or self._is_couple(two):
+            return AlongLine(two if self._is_couple(one) else one)
         return Where(one, two)
 
-    def point(self, about: About) -> Triple:
-        """A point in general position."""
+    def points(self, about: About) -> list[Triple]:
+        """A point in every position."""
+        return [self._point(about, n) for n in range(len(self.positions))]
+
+    def _point(self, about: About, n: int) -> Triple:
         match about:
             case AtPoint(point):
-                return self.group.finite(Joint(point, ""))
+                return self.positions[n].points[point]
             case Along(slide):
-                pencil = self.group.pencil(slide)
-                assert pencil is not None
-                return pencil
+                return self.positions[n].ways[slide]
             case AlongLine(site):
-                return cross(self.lines[site], FAR)
+                return cross(self.lines[site][n], FAR)
             case Where(one, two):
-                return cross(self.lines[one], self.lines[two])
+                return cross(self.lines[one][n], self.lines[two][n])
 
     def _passed(self, about: About, free: list[Site], known: list[Site]) -> bool:
-        """Whether all these forces pass a point."""
-        Y = self.point(about)
-        pencils = [self.group.pencil(site) for site in free]
+        """Whether all these forces pass a point in any position."""
+        Y = self._point(about, 0)
+        pencils = [self.positions[0].pencil(site) for site in free]
         return any(Y) and not any(pencil is None or any(cross(pencil, Y)) for pencil in pencils) and not any(
-            dot(self.lines[site], Y) for site in known)
+            dot(self.lines[site][0], Y) for site in known)
 
     def _tells(self, site: Site, about: About) -> bool:
-        """Whether moments about a point tell anything of a site's force."""
-        Y = self.point(about)
+        """Whether moments about a point tell anything of a site's force, in general and in the pose."""
+        ends = enumerate(self.points(about))
         if self.rank[site] == 1:
-            return bool(dot(self.lines[site], Y))
-        pencil = self.group.pencil(site)
-        return pencil is not None and any(cross(pencil, Y))
+            return all(dot(self.lines[site][n], Y) for n, Y in ends)
+        pencils = [position.pencil(site) for position in self.positions]
+        return all(pencil is not None and any(cross(pencil, Y)) for pencil, (_, Y) in zip(pencils, ends, strict=True))
 
-    def _equations(self, move: StaticMove) -> tuple[list[dict[tuple[str, int], int]], int]:
-        """The equilibrium equations that a move uses, and how many of them have to be new."""
+    def _cross(self, one: Site, two: Site, n: int) -> bool:
+        """Whether the lines of two forces run different ways."""
+        return any(cross(cross(self.lines[one][n], FAR), cross(self.lines[two][n], FAR)))
+
+    def _equations(self, move: StaticMove, n: int) -> tuple[list[dict[tuple[str, int], int]], int]:
+        """The equilibrium equations that a move uses in one position, and how many of them have to be new."""
         match move:
             case Fact(part, _, about) | Found(part, _, about):
-                return [equation(part, self.point(about))], 1
+                return [equation(part, self._point(about, n))], 1
             case Polygon(part, one, two):
-                if not (self.rank[one] and self.rank[two]) or not any(cross(cross(self.lines[one], FAR),
-                                                                            cross(self.lines[two], FAR))):
+                if not (self.rank[one] and self.rank[two]) or not self._cross(one, two, n):
                     return [], 1
                 return [equation(part, way) for way in FORCES], 2
             case Close(part, site):
@@ -267,32 +275,46 @@ class Equilibrium:
         return [], 0
 
     def _new(self, move: StaticMove) -> bool:
-        rows, needed = self._equations(move)
-        span = self.used.copy()
-        return sum([span.adds(row) for row in rows]) >= needed
+        """Whether a move says something new, in general and in the pose."""
+        for n, used in enumerate(self.used):
+            rows, needed = self._equations(move, n)
+            span = used.copy()
+            if sum([span.adds(row) for row in rows]) < needed:
+                return False
+        return True
+
+    def _use(self, part: Part, about: About) -> None:
+        """Use up the equilibrium of a part about a point."""
+        for span, Y in zip(self.used, self.points(about), strict=True):
+            span.adds(equation(part, Y))
 
     def _enter(self, move: StaticMove) -> None:
         """Take a move: what it uses, and what is known after it."""
-        for row in self._equations(move)[0]:
-            self.used.adds(row)
+        for n, span in enumerate(self.used):
+            for row in self._equations(move, n)[0]:
+                span.adds(row)
         self.moves.append(move)
         match move:
             case Fact(_, site, about):
-                pencil = self.group.pencil(site)
-                assert pencil is not None
                 self.rank[site], self.through[site] = 1, about
-                line = cross(pencil, self.point(about))
-                self.lines[site] = FAR if not any(line[:2]) else line
+                self.lines[site] = tuple(self._line(position.pencil(site), Y) for position, Y in
+                                         zip(self.positions, self.points(about), strict=True))
             case Found(_, site, _) | Close(_, site) | Pin(site):
                 self.rank[site] = 2
             case Polygon(_, one, two):
                 self.rank[one] = self.rank[two] = 2
 
+    @staticmethod
+    def _line(pencil: Triple | None, Y: Triple) -> Triple:
+        assert pencil is not None
+        line = cross(pencil, Y)
+        return line if any(line[:2]) else FAR
+
     # ---- trials ------------------------------------------------------------------------------------------------
 
     def _assume(self) -> bool:
         """Assume a force on its known line, go on until a part's equilibrium is hurt, and find it from that."""
-        sites = [site for site, rank in self.rank.items() if rank == 1 and self.lines[site] != FAR]
+        sites = [site for site, rank in self.rank.items() if rank == 1 and not self._is_couple(site)]
         if not sites or self.assumed >= DEEPEST:
             return False
         self.options = max(self.options, len(sites))
@@ -307,7 +329,7 @@ class Equilibrium:
             elif not self._assume():
                 return False
         end, part, about = closing
-        self.used.adds(equation(part, self.point(about)))
+        self._use(part, about)
         self.assumed -= 1
         self.moves = [*before, Assume(site, tuple(self.moves), end, part, about)]
         return True
@@ -322,10 +344,14 @@ class Equilibrium:
                 if isinstance(site, Joint) and self.rank[site] == 2:
                     abouts = self._abouts(site, unknown) if unknown else self._anywhere(part, site)
                     for about in abouts:
-                        known_line = cross(self.group.finite(site), self.point(about))
-                        if any(known_line) and self.used.copy().adds(equation(part, self.point(about))):
+                        if self._closes(part, site, about):
                             return site, part, about
         return None
+
+    def _closes(self, part: Part, site: Joint, about: About) -> bool:
+        """Whether the equilibrium of a part about a point tells of a site's force, and was not used."""
+        return all(any(cross(position.finite(site), Y)) and span.copy().adds(equation(part, Y))
+                   for position, span, Y in zip(self.positions, self.used, self.points(about), strict=True))
 
     def _anywhere(self, part: Part, site: Joint) -> list[About]:
         """Other points of the part."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.methods.panels import FRICTION, MECHANISM
+from graphplan.methods.panels import MECHANISM, smooth
 from graphplan.sheet.frame import frame_of
 from graphplan.sheet.given_scales import ROUNDING, GivenScales, given_scales
 from graphplan.sheet.paper import Arrangement, Measure, arrangements, inside, room
@@ -142,12 +142,8 @@ def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], needs: Map
 
 def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
     """The plan of a group with friction and that without it are compared, so they have one scale: the smaller."""
-    found = dict(multiples)
-    for panel in multiples:
-        twin = panel.removesuffix(FRICTION)
-        if twin != panel and twin in multiples:
-            found[panel] = found[twin] = min(multiples[panel], multiples[twin])
-    return found
+    return {panel: min(other for name, other in multiples.items() if smooth(name) == smooth(panel))
+            for panel in multiples}
 
 
 def _legible(planes: Planes, views: Mapping[str, View], paper: str) -> bool:

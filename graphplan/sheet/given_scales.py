@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.methods.panels import FORCE_PLAN, FRICTION, MECHANISM
+from graphplan.methods.panels import FORCE_PLAN, MECHANISM, smooth
 from graphplan.sheet.pens import FORCES
 from graphplan.sheet.planes import Drawing, Planes
 from graphplan.sheet.scales import ACCELERATIONS, VELOCITIES
@@ -61,7 +61,7 @@ def _multiple(planes: Planes, panel: str) -> Fraction | None:
     """The multiple given for a plan, or 1 where a scale of its vectors is given."""
     sheet, kinds = planes.drawing.scene.sheet, planes.kinds(panel)
     plan = panel.partition(", part ")[0]
-    told = sheet.multiples.get(plan, sheet.multiples.get(plan.removesuffix(FRICTION)))
+    told = sheet.multiples.get(plan, sheet.multiples.get(smooth(plan)))
     scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
     return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
 

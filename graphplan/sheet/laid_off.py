@@ -9,9 +9,9 @@ from graphplan.kernel.program import Step
 # Which mark a point is laid off from, by the operation that makes it.
 ROOTS = {
     "foot": 1, "transfer": 2, "step_off": 2, "step_across": 2, "quarter": 2, "lay_along": 1, "lay_off": 0,
-    "balance": 5, "couple": 2, "inertia_pair": 4, "journal": 5, "drag": 4, "resultant": 0,
+    "balance": 5, "couple": 2, "inertia_pair": 4, "touch": 0, "resultant": 0,
 }  # fmt: skip
-MEASURED = ("balance", "couple", "inertia_pair", "journal", "drag")  # by its size, not carried over from another plan
+MEASURED = ("balance", "couple", "inertia_pair")  # by its size, not carried over from another plan
 GIVEN = ("lay_off", "lay_along", "step_off", "step_across")
 
 

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
+from typing import Any
+
+from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import metre
 from graphplan.solver.loads import asked
 from graphplan.solver.plane import dot
@@ -10,18 +14,19 @@ from graphplan.solver.statics import Reactions
 IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 
 
-def delivered(found: Reactions) -> float:
+def delivered(found: Reactions) -> Number:
     """The power that the balances give, in force * length/s."""
-    scene, rates, power = found.equations.scene, found.rates, 0.0
+    scene, rates = found.equations.scene, found.rates
+    power: Number = Fraction(0)
     for balance, value in zip(asked(scene).balances, found.balances, strict=True):
         if isinstance(value, tuple):
-            power += float(dot(value, rates.velocity[balance.at]))
+            power += dot(value, rates.velocity[balance.at])
         else:
-            power += float(value * metre(scene.units) * rates.omega[balance.link])
+            power += value * metre(scene.units) * rates.omega[balance.link]
     return power
 
 
-def efficiency(smooth: float, rubbed: float) -> float | None:
+def efficiency(smooth: Any, rubbed: Any) -> Any:
     """The efficiency from the powers of the balances without friction and with it; None where neither gives any.
 
     Where the balances drive, it is the power without by the power with friction. Where the loads drive and the balances
@@ -30,5 +35,5 @@ def efficiency(smooth: float, rubbed: float) -> float | None:
     if not smooth and not rubbed:
         return None
     if abs(smooth) <= IDLE * abs(rubbed):
-        return 0.0
+        return 0 * rubbed
     return smooth / rubbed if smooth > 0 else rubbed / smooth

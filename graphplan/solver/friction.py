@@ -3,7 +3,7 @@
 Which way a force leans depends on the force itself. So each round takes the directions of the forces from the last and
 solves for all their sizes at once, which is Newton's method: it stands after a few rounds, or there is no equilibrium
 and the mechanism locks itself. Friction grows in a few steps: at its full size at once, where it is near to locking,
-the rounds may miss the equilibrium. In floats only.
+the rounds may miss the equilibrium. The size of a journal's force is a root: fractions have friction of slides alone.
 """
 
 from __future__ import annotations
@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Number, Pair, Scene, Slide
@@ -20,12 +21,13 @@ from graphplan.solver.equations import Equations
 from graphplan.solver.facts import Along, Fact, Rate, Turning, X, Y, held
 from graphplan.solver.loads import asked
 from graphplan.solver.plane import dot, plus, times, turned
-from graphplan.solver.rubbing import Rubbing, rubbing
+from graphplan.solver.rubbing import Rubbing, rubbing, sign
 from graphplan.solver.statics import Reactions, equilibrium, reactions
 
-GROWING = (0.25, 0.5, 0.75, 1.0)
+GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
 ROUNDS = 20
 STANDS = 1e-14  # times the condition of the system: how close two rounds are at the end
+NOTHING = 8 * 2.0**-52  # times the condition, of the largest force: a smaller one has no direction
 
 
 @dataclass(frozen=True)
@@ -39,7 +41,7 @@ class Frictional(Reactions):
 
     couples: dict[tuple[str, str], Number]
     drags: dict[str, Pair]
-    efficiency: float | None
+    efficiency: Number | None
 
 
 @dataclass(frozen=True)
@@ -54,46 +56,69 @@ class Touching(Along):
         return Rate(x, y, turn + self.lever)
 
 
-def with_friction(scene: Scene) -> Frictional:
+def with_friction(scene: Scene, rounds: int = 0, exact: bool = False) -> Frictional:
     """The reactions and balances of the scene with the friction of its journals and slides.
 
-    Fails as `reactions` does, and with `SingularPose` where the mechanism locks itself.
+    With `rounds` as so many rounds from those without friction have it, else as they stand; with `exact` as fractions,
+    where nothing but slides rubs. Fails as `reactions` does, and with `SingularPose` where the mechanism locks itself.
     """
-    plain = last = reactions(scene)
+    plain = last = reactions(scene, exact)
     against = rubbing(scene, plain.rates)
-    for share in GROWING:
-        last = settled(last, against.part(share))
+    if rounds:
+        for _ in range(rounds):
+            last = further(last, against, exact)
+    else:
+        for share in GROWING:
+            last = settled(last, against.part(share), exact)
     return finished(plain, last, against)
 
 
-def settled(last: Reactions, against: Rubbing) -> Reactions:
+def settled(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as they themselves say, from reactions that do nearly so."""
-    scene, close = last.equations.scene, STANDS * last.condition
+    close = STANDS * last.condition
     for _ in range(ROUNDS):
-        try:
-            now = equilibrium(Equations(scene, tuple(leaning(last, against))), last.rates, exact=False)
-        except SingularPose:
-            break
+        now = further(last, against, exact)
         if stands(now, last, close):
             return now
         last = now
-    raise locked(scene)
+    raise locked(last.equations.scene)
+
+
+def further(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
+    """The reactions that lean as the last ones say."""
+    scene = last.equations.scene
+    try:
+        return equilibrium(Equations(scene, tuple(leaning(last, against))), last.rates, exact)
+    except SingularPose:
+        raise locked(scene) from None
 
 
 def leaning(last: Reactions, against: Rubbing) -> Iterator[Fact]:
-    """The supports of the scene, each pair's turned aside by friction as its last force says."""
-    scene = last.equations.scene
+    """The supports of the scene, each pair's turned aside by friction as its last force says; none by no force."""
+    scene, least = last.equations.scene, NOTHING * last.condition * largest(last)
     for (point, link), force in last.joints.items():
-        pin, size = scene.links_of[point][0], math.hypot(*force) or 1.0
+        pin, circle = scene.links_of[point][0], against.journals[point, link]
+        size = math.hypot(*force) if circle else 0
         for axis in X, Y:
-            lever = against.journals[point, link] * dot(axis, force) / size
+            lever = circle * dot(axis, force) / size if size > least else 0
             yield Touching(link, pin, point, axis, 0, 0, lever=lever)
     for slide in scene.slides:
         across, (force, _) = turned(slide.direction), last.slides[slide.name]
-        lean = against.guides[slide.name] * math.copysign(1.0, dot(across, force))
+        side = sign(float(dot(across, force)), least * math.hypot(*across))
+        lean = against.guides[slide.name] * side
         yield Turning(slide.link, slide.along, 0, 0)
         yield Along(slide.link, slide.along, slide.at, plus(across, times(lean, slide.direction)), 0, 0)
     yield from map(held, asked(scene).balances)
+
+
+def largest(found: Reactions) -> float:
+    """The largest of the forces, and of the moments at the mechanism's reach: what is nothing beside it is nothing."""
+    arm = found.equations.reach / metre(found.equations.scene.units)
+    forces = [*found.joints.values(), *(force for force, _ in found.slides.values())]
+    moments = [moment for _, moment in found.slides.values()]
+    for balance in found.balances:
+        (forces if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
+    return max((*(math.hypot(*force) for force in forces), *(abs(float(m)) / arm for m in moments)), default=0.0)
 
 
 def stands(now: Reactions, last: Reactions, close: float) -> bool:
@@ -101,7 +126,7 @@ def stands(now: Reactions, last: Reactions, close: float) -> bool:
     forces = [*now.joints.values(), *(force for force, _ in now.slides.values())]
     before = [*last.joints.values(), *(force for force, _ in last.slides.values())]
     change = max((math.dist(a, b) for a, b in zip(forces, before, strict=True)), default=0.0)
-    return change <= close * max((math.hypot(*force) for force in forces), default=0.0)
+    return change <= close * largest(now)
 
 
 def locked(scene: Scene) -> SingularPose:
@@ -114,7 +139,8 @@ def locked(scene: Scene) -> SingularPose:
 def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
     """The last round's forces with what friction is in them."""
     scene = plain.equations.scene
-    couples = {name: math.hypot(*force) * against.journals[name] for name, force in last.joints.items()}
+    couples = {name: circle * math.hypot(*last.joints[name]) if circle else circle
+               for name, circle in against.journals.items()}
     drags = {s.name: drag(s, last.slides[s.name][0], against) for s in scene.slides}
     return Frictional(
         joints=last.joints,
@@ -130,4 +156,6 @@ def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
 
 def drag(slide: Slide, normal: Pair, against: Rubbing) -> Pair:
     """The friction of a slide, along its guide."""
-    return times(against.guides[slide.name] * math.hypot(*normal) / math.hypot(*slide.direction), slide.direction)
+    across = turned(slide.direction)
+    size = dot(across, normal) / dot(across, across)
+    return times(against.guides[slide.name] * max(size, -size), slide.direction)

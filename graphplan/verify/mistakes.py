@@ -114,7 +114,7 @@ def slips(program: Program, step: Step, homes: Sequence[str]) -> Iterator[Slip]:
 
 
 LAID_OFF = ("transfer", "step_off", "step_across", "quarter", "lay_along", "lay_off", "balance", "couple",
-            "inertia_pair", "journal", "drag")
+            "inertia_pair", "touch")
 ROUND = {"left": "right", "right": "left", "on": "back", "back": "on"}
 
 

@@ -107,8 +107,9 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("couple", "the wrong way round", reflected(2)),
     ("inertia_pair", "with the turning", reflected(4)),
     ("resultant", "to the other side", reflected(0)),
-    ("journal", "with the turning", reflected(5)),
-    ("drag", "with the sliding", reflected(4)),
+    ("touch", "with the turning", reflected(0)),
+    ("lean", "with the sliding", lambda rule: lambda d, l, B, w, p, q, *, coefficient: rule(
+        d, l, B, w, p, q, coefficient=-coefficient)),
     ("towards", "parallel to the first line", lambda rule: lambda d, y, z, X: (y[0], y[1], -y[0] * X[0] - y[1] * X[1])),
     ("weigh", "sign of the moment", reflected(6)),
 ]

@@ -8,7 +8,7 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 from graphplan.mechanism.model import Balance, Loads, Scene
-from graphplan.methods.sites import Group, Joint, groups
+from graphplan.methods.sites import Group, Joint, groups, in_general, posed
 from graphplan.methods.statics import Along, Assume, AtPoint, Close, Equilibrium, Fact, Found, Polygon, Where
 
 
@@ -22,7 +22,7 @@ def planned(scene: Scene, order: str = "polygons") -> list[tuple[Group, list[obj
     found, done = [], list[str]()
     for links in groups(scene):
         group = Group(scene, links, done)
-        found.append((group, list[object](Equilibrium(group, order).plan())))
+        found.append((group, list[object](Equilibrium(group, (in_general(scene), posed(scene)), order).plan())))
         done += links
     return found
 

@@ -58,7 +58,7 @@ class Plans:
         self._general = in_general(scene)
         self._assumed: dict[str, Planner] = {}
         self.options = 1
-        self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove]] = {}
+        self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove] | Refused] = {}
         done: list[str] = []
         untold: set[str] = set()
         own = ordered(scene)
@@ -88,11 +88,18 @@ class Plans:
                 self._plan(group, (self._general, posed(self.scene)), way)
             except Refused:  # the pose may be singular, which the numbers will show
                 self._plan(group, (self._general,), way)
-        return self._moves[group.links, way]
+        moves = self._moves[group.links, way]
+        if isinstance(moves, Refused):
+            raise moves
+        return moves
 
     def _plan(self, group: Group, positions: Sequence[Position], way: Way) -> None:
         equilibrium = Equilibrium(group, positions, *way)
-        self._moves[group.links, way] = equilibrium.plan()
+        try:
+            self._moves[group.links, way] = equilibrium.plan()
+        except Refused as refused:
+            self._moves[group.links, way] = refused
+            raise
         self.options = max(self.options, equilibrium.options)
 
 

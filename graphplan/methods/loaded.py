@@ -179,35 +179,34 @@ class Alternatives:
     def draw(self, planner: Planner) -> Construction:
         """The first construction that can be drawn in this pose, which says what it leaves out, and why.
 
-        Where there is none it is the first at all; fails with `Refused` where even that is not planned.
+        Where there is none it is the first at all; fails with `Refused` where not even that is planned.
         """
         if self.wary and _singular(motion := self._motion(planner)):
             return motion
-        first: Construction | Refused | None = None
-        fault: Refused | ConstructionError | None = None
+        first: tuple[Construction, Style] | None = None
+        faults: list[Refused | ConstructionError] = []
         for style, missing in self._styles():
+            self.chosen[planner] = style
             try:
-                self.chosen[planner] = style
                 found = self._drawn(planner, style)
-                first = first or found
-                if (singular := _singular(found)) and style.polygons:
+                if _singular(found) and style.polygons:
                     found = self._by_best_way(found, planner)[0]
-                    singular = _singular(found)
             except Refused as refused:
-                first, fault = first or refused, refused
+                faults.append(refused)
                 continue
+            singular = _singular(found)
             if singular is None:
-                found.notes += [missing(fault.why)] if fault else []
+                found.notes += [missing(faults[-1].why)] if faults else []
                 return found
-            if fault is None and _singular(self._motion(planner)):
+            if not faults and _singular(self._motion(planner)):
                 self.wary = True
                 return found
-            fault = singular
-        self.chosen[planner] = self.style
-        if isinstance(first, Construction):
-            return first  # whoever reads the numbers is told
-        assert first is not None
-        raise first
+            first = first or (found, style)
+            faults.append(singular)
+        if first is None:
+            raise faults[0]
+        found, self.chosen[planner] = first
+        return found  # whoever reads the numbers is told
 
     def _motion(self, planner: Planner) -> Construction:
         """The motion alone: where it cannot be drawn this way no other forces help."""

@@ -58,8 +58,8 @@ def trusted(scene: Scene, *, exact: bool = False, method: str = "", plan: str = 
 
     Where journals rub, which depends on the sizes of reactions, friction is left out of exact numbers. Fails as
     `construct` does, with `SingularPose` naming the links and the lines that should meet, and with `Refused` where
-    `exact` meets an irrational scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else that
-    is the report's to tell.
+    `exact` meets an irrational scene; unless `refuse` says otherwise, with `Disagreement` where no way agrees: else
+    that is the report's to tell.
     With `alone` it is the solver's own numbers where no way can be drawn though the pose is regular.
     """
     if exact and scene.irrational:

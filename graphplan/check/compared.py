@@ -25,6 +25,7 @@ KINDS = {
 RATES = ("omega", "alpha")
 SLIDING = ("slide velocity", "slide acceleration")
 ARM = "slide arm"
+THIRD = "power balance"  # the third opinion has no bounds: it counts beside the largest of its kind
 FORCE = "force"
 
 NOTHING = 2.0**-64  # of the largest of a kind
@@ -75,7 +76,7 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
     for part, named in ours.items():
         if part in theirs:
             scale = largest[kind_of(part)] / weight(drawing, part) if part != ARM else extent(drawing.scene)
-            least = scale if part == ARM else NOTHING * scale
+            least = scale if part == ARM or part.startswith(THIRD) else NOTHING * scale
             found[part] = {
                 name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
                                     max(least, floor(part, name), sliding(drawing.scene, theirs, part, name)), scale))

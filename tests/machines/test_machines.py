@@ -17,8 +17,6 @@ from graphplan.mechanism.scene import parse
 FAMILIES = ("fourbars", "sixbars", "guided", "engines", "cylinders", "platforms")
 MACHINES = [machine for name in FAMILIES for machine in family(name)]
 REDUNDANT = family("redundant")
-WRONG = {"four bar moved by a cylinder between its arms"}  # today: a driven pair serves as a bar of a relative pole
-REFUSED = {machine.name for machine in REDUNDANT}  # today: special geometry that the count of freedoms does not see
 LENGTHS = {"velocity": 1, "slide velocity": 1, "acceleration": 2, "slide acceleration": 2}  # how often derived
 ANGLES = {"omega": 1, "alpha": 2}
 LATER = 0.15  # seconds from the first pose to the second, where a table gives but one
@@ -26,11 +24,9 @@ ROUNDING = 64 * 2.0**-52
 TAYLOR = 1e-9  # what sixteen poses on a circle leave of the accelerations, at the most
 
 
-def marked(machines: list[Machine], poses: tuple[int, ...]) -> list[Any]:
-    """The machines in some of their poses; what is wrong or refused today is marked."""
-    known = WRONG | REFUSED
-    return [pytest.param(m, k, id=f"{m}, pose {k}", marks=[pytest.mark.xfail] * (m.name in known))
-            for m in machines for k in poses]
+def poses(machines: list[Machine], numbers: tuple[int, ...]) -> list[Any]:
+    """The machines in some of their poses."""
+    return [pytest.param(m, k, id=f"{m}, pose {k}") for m in machines for k in numbers]
 
 
 @cache
@@ -75,7 +71,7 @@ def gap(one: Rates, other: Rates, size: float) -> float:
     return max(length(kind, value - other[kind, name]) / scale[order[kind]] for (kind, name), value in one.items())
 
 
-@pytest.mark.parametrize(("machine", "k"), marked(MACHINES, (0, 1)) + marked(REDUNDANT, (0,)))
+@pytest.mark.parametrize(("machine", "k"), poses(MACHINES, (0, 1)) + poses(REDUNDANT, (0,)))
 def test_three_opinions_are_one(machine: Machine, k: int) -> None:
     """Orthogonal and polar plans, the solver, and the machine itself a moment later, agree."""
     closure, (truth, condition) = posed(machine, k), solved(machine, k)
@@ -86,7 +82,7 @@ def test_three_opinions_are_one(machine: Machine, k: int) -> None:
         assert gap(ours, truth, closure.size) < ROUNDING * condition
 
 
-@pytest.mark.parametrize(("machine", "k"), marked(MACHINES + REDUNDANT, (0,)))
+@pytest.mark.parametrize(("machine", "k"), poses(MACHINES + REDUNDANT, (0,)))
 def test_the_order_of_writing_means_nothing(machine: Machine, k: int) -> None:
     """Points, links, slides and drives in any order give the same."""
     closure, (truth, condition) = posed(machine, k), solved(machine, k)
@@ -95,7 +91,7 @@ def test_the_order_of_writing_means_nothing(machine: Machine, k: int) -> None:
         assert gap(ours, truth, closure.size) < ROUNDING * condition
 
 
-@pytest.mark.parametrize(("machine", "k"), marked([m for m in MACHINES + REDUNDANT if m.at == ([],)], (0,)))
+@pytest.mark.parametrize(("machine", "k"), poses([m for m in MACHINES + REDUNDANT if m.at == ([],)], (0,)))
 def test_round_poses_agree_exactly(machine: Machine, k: int) -> None:
     """Where the pose is of round numbers, construction and solver are the same fractions, in any order of writing."""
     exact = gp.analytic.solve(read(machine, machine.pose(k)), exact=True)

@@ -18,7 +18,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.solver import Rates, solve
 
-LINKAGES = int(os.environ.get("LINKAGES", "240"))
+LINKAGES = int(os.environ.get("LINKAGES", "100"))
 TOGETHER = 20  # linkages to a test
 LONGEST = 5.0  # seconds for one construction and its numbers
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]
@@ -50,7 +50,7 @@ def test_linkages_are_constructed_exactly(first: int) -> None:
                 assert not wrong, f"linkage {seed}, order {number}, {method} {plan}: {kind} of {wrong}"
 
 
-@pytest.mark.parametrize("first", range(0, LINKAGES // 4, TOGETHER))
+@pytest.mark.parametrize("first", range(0, LINKAGES // 2, TOGETHER))
 def test_the_order_of_writing_draws_nothing_else(first: int) -> None:
     """Links, points, slides and drives in another order give the same steps with the same letters."""
     for seed in range(first, first + TOGETHER):
@@ -61,7 +61,7 @@ def test_the_order_of_writing_draws_nothing_else(first: int) -> None:
 
 def test_most_linkages_are_regular() -> None:
     """Chance makes few poses singular, and links of every number: the other tests are not empty."""
-    found = [next(scenes(seed)) for seed in range(LINKAGES)]
+    found = [next(scenes(seed, orders=1)) for seed in range(LINKAGES)]
     assert sum(rates(scene) is not None for scene in found) > 0.8 * len(found)
     assert {len(scene.moving) for scene in found} == set(range(1, 10))
     assert all(isinstance(x, Fraction) for scene in found for at in scene.points.values() for x in at)

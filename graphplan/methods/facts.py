@@ -24,7 +24,7 @@ from graphplan.methods.residues import Image, Two, less, parallel, product, quar
 
 TRIAL = "trial"  # the source of what is only assumed
 Fact = Two | None  # the normal of a locus; nothing where the end itself is known
-ANYWHERE: Two = (1939, 1974)  # the normal of what is only assumed: like no line of the pose
+ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as an assumption: like none of the pose
 
 
 class Facts:
@@ -135,7 +135,7 @@ class Facts:
     def _locus_of(self, place: Place, body: str) -> Locus | None:
         """A locus of a place that another source than this body gives."""
         for source, fact in self.facts.get(place, {}).items():
-            if source != body and fact is not None and not source.startswith(TRIAL):
+            if source != body and fact is not None and fact is not ANYWHERE:
                 return place, source
         return None
 
@@ -218,6 +218,8 @@ class Facts:
             line = self._line(body, X, self._locus_of(X, body) if whole else None)
             if line and whole:  # the locus is for others, who may ask for it; pruned if nobody does
                 self._tell_locus(body, X, [line[0], whole], line[1], marked=True)
+            elif whole:
+                self._tell_locus(body, X, [whole], ANYWHERE, marked=True)
             elif line:
                 self._tell_locus(body, X, [line[0]], line[1])
             elif crossing := self._auxiliary(body, X):
@@ -272,9 +274,14 @@ class Facts:
         return Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
 
     def _beside(self, body: str, X: Place) -> Figure | None:
-        """The end of X, which has a locus of its own, in a body of which an end and the turning are known."""
+        """The end of X, which has a locus of its own, from an end in its spot, or from another and the turning."""
+        if not self.facts.get(X):
+            return None
+        here = next((place for place in self._together(body, X) if place in self.drawn), None)
+        if here:
+            return Figure(body, here, X)
         known, like = self._ends(body, X), self._like(body)
-        return Figure(body, known[0], X, like=like) if known and like and self.facts.get(X) else None
+        return Figure(body, known[0], X, like=like) if known and like else None
 
     def _figure(self, body: str, X: Place) -> Move | None:
         """The end of X from the whole body, or from an end in the same spot."""

@@ -39,49 +39,61 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
     """The constructions by all ways, best first, each with its planner; more are sought as they are asked for.
 
     First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, all
-    other choices are tried, rare ones among them, until one is steady. Fails with `Refused`, naming the
-    links, where no way reaches them.
+    other choices are tried, rare ones among them, until one is steady. Fails with `Refused`, naming the links, where no
+    way reaches them.
     """
-    best = _ring_by_ring(network, method, draw)
-    tried = {best.choice: best}
+    tried: dict[tuple[int, ...], _Way] = {}
+
+    def way(choice: tuple[int, ...]) -> _Way:
+        if choice not in tried:
+            found = _way(network, method, choice, draw)
+            tried[choice] = tried.setdefault(found.choice, found)
+        return tried[choice]
+
+    best = _ring_by_ring(way)
     if best.growth < WILD:
-        yield best.told(len(tried))
-    for way in _others(network, method, best, draw):
-        tried[way.choice] = way
-        if way.growth < WILD:
-            yield way.told(len(tried))
-    wild = sorted((way for way in tried.values() if way.construction and way.growth >= WILD), key=_Way.rank(0.0))
-    yield from (way.told(len(tried)) for way in wild)
-    if all(way.construction is None for way in tried.values()):
+        yield best.told(best.weighed + 1)
+    for other in _others(tried, way):
+        if other is not best and other.growth < WILD:
+            yield other.told(len({*map(id, tried.values())}))
+    found = {id(one): one for one in tried.values()}.values()
+    wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Way.rank(0.0))
+    yield from (one.told(len(found)) for one in wild)
+    if all(one.construction is None for one in found):
         planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
         planner.plan()
         yield draw(planner), planner
 
 
-def _ring_by_ring(network: Network, method: str, draw: Draw) -> _Way:
+def _ring_by_ring(way: Callable[[tuple[int, ...]], _Way]) -> _Way:
     """The best way on at each ring, one ring after the other; rare choices are left alone."""
-    taken, ring = _way(network, method, (), draw), 0
+    taken, ring = way(()), 0
     while ring < len(options := taken.planner.options):
         if not options[ring].rare:
-            others = [_way(network, method, (*taken.choice[:ring], way), draw)
-                      for way in range(options[ring].ways) if way != taken.choice[ring]]
+            others = [way((*taken.choice[:ring], other)) for other in range(options[ring].ways)
+                      if other != taken.choice[ring]]
             weighed = taken.weighed + len(others)
-            taken = min([taken, *others], key=_Way.rank(min(way.growth for way in [taken, *others])))
+            taken = min([taken, *others], key=_Way.rank(min(one.growth for one in [taken, *others])))
             taken.weighed = weighed
         ring += 1
     return taken
 
 
-def _others(network: Network, method: str, best: _Way, draw: Draw) -> Iterator[_Way]:
-    """Further ways, the likest to the best one first."""
-    waiting, seen = deque([best]), {best.choice}
-    while waiting:
-        for choice in _neighbours(waiting.popleft()):
-            if choice not in seen and len(seen) < MOST:
-                seen.add(choice)
-                way = _way(network, method, choice, draw)
-                waiting.append(way)
-                yield way
+def _others(tried: dict[tuple[int, ...], _Way], way: Callable[[tuple[int, ...]], _Way]) -> Iterator[_Way]:
+    """Further ways, each that was drawn giving the next one like it in turn; those that were refused come last."""
+    known = {id(one): one for one in tried.values()}
+    waiting = deque(_neighbours(one) for one in sorted(known.values(), key=lambda one: one.construction is None))
+    while waiting and len(known) < MOST:
+        choices = waiting.popleft()
+        choice = next((choice for choice in choices if choice not in tried), None)
+        if choice is None:
+            continue
+        waiting.append(choices)
+        found = way(choice)
+        if id(found) not in known:
+            known[id(found)] = found
+            (waiting.appendleft if found.construction else waiting.append)(_neighbours(found))
+            yield found
 
 
 def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
@@ -114,11 +126,11 @@ class _Way:
         return self.construction, self.planner
 
     @staticmethod
-    def rank(least: float) -> Callable[[_Way], tuple[float, int]]:
+    def rank(least: float) -> Callable[[_Way], tuple[float, float]]:
         """The shortest of those whose errors grow about as little as the least."""
 
-        def key(way: _Way) -> tuple[float, int]:
-            steps = len(way.construction.program) if way.construction else 0
+        def key(way: _Way) -> tuple[float, float]:
+            steps = len(way.construction.program) if way.construction else math.inf
             return (0.0 if way.growth <= EQUAL * least else way.growth), steps
 
         return key

@@ -52,10 +52,12 @@ def add_sheet(command: argparse.ArgumentParser) -> None:
 
 def rounded(options: argparse.Namespace, scene: Scene) -> Scene:
     """The scene with as many rounds of friction as the options ask for, if they do."""
-    if options.rounds is None or scene.loads is None:
+    if options.rounds is None:
         return scene
     if not 1 <= options.rounds <= MOST_ROUNDS:
         raise Refused("--rounds", f"{options.rounds} rounds of friction", f"give 1 to {MOST_ROUNDS}")
+    if scene.loads is None:
+        return scene
     return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
 
 

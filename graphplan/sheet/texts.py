@@ -128,8 +128,8 @@ class Words:
         if self.check:
             yield self._heading(said("Check"))
             parts = joined(joined((kind_named(kind), _within(float(gap))), " ") for kind, gap in self.check.items())
-            yield from self._said(said("Largest difference from the analytic solver, beside the largest value of its "
-                                       "kind: {0}.", parts), wide)
+            yield from self._said(said("Largest difference from the analytic solver, beside the number's own "
+                                       "size: {0}.", parts), wide)
 
     def _forms(self, wide: float) -> Iterator[Row]:
         yield self._heading(said("Method and forms"))

@@ -263,6 +263,20 @@ class Normal(Plan):
             return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
         return one, next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
+    def far_from(self, place: Place) -> Mark:
+        """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
+        point, link = place
+        for name in [link] if link else self.net.links_of[point]:
+            K = self._base(name, point) if self._moving(name) else None
+            side = self._side(name, K) if K else None
+            if K and side:
+                return self.board.transfer(self.pose.points[K], self.pose.points[side], self.figure(name, side))
+        return super().far_from(place)
+
+    def _base(self, link: str, point: str) -> str:
+        """The point of a link at whose mark the vector of another begins."""
+        return point
+
     def pole_shift(self, move: Pole) -> Vector | None:
         """The perpendiculars to the two bars cut off what the poles' images differ by."""
         one, two = move.bodies
@@ -306,15 +320,8 @@ class PolarAcceleration(Normal):
     def home(self, place: Place) -> Mark:
         return self.pole
 
-    def far_from(self, place: Place) -> Mark:
-        """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
-        point, link = place
-        for name in [link] if link else self.net.links_of[point]:
-            K = self.anchors[name].point if self._moving(name) else None
-            side = self._side(name, K) if K else None
-            if K and side:
-                return self.board.transfer(self.pose.points[K], self.pose.points[side], self.figure(name, side))
-        return super().far_from(place)
+    def _base(self, link: str, point: str) -> str:
+        return self.anchors[link].point
 
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         """Every link begins at the pole, but for two that a drive ties together."""

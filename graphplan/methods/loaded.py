@@ -40,6 +40,7 @@ NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further aw
 SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
 MOST_PICKS = 4  # at how many places a trial of forces may begin
 TEXTBOOK = "polygons", 0
+MOST_FAILURES = 3  # ways of a motion whose forces could not be drawn, before no more are tried
 MOST_ROUNDS = 8  # of friction: near to locking they may never stand
 UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
 
@@ -175,12 +176,16 @@ class Alternatives:
         self.scene, self.style, self.plans = scene, style, Plans(scene)
         self.chosen: dict[Planner, Style] = {}
         self.wary = False  # a way of the motion has failed: of others the motion is tried first
+        self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could
 
     def draw(self, planner: Planner) -> Construction:
         """The first construction that can be drawn in this pose, which says what it leaves out, and why.
 
         Where there is none it is the first at all; fails with `Refused` where not even that is planned.
         """
+        if len(self.hopeless) >= MOST_FAILURES:  # another way of the motion is no help
+            found, self.chosen[planner] = self.hopeless[0]
+            return found
         if self.wary and _singular(motion := self._motion(planner)):
             return motion
         first: tuple[Construction, Style] | None = None
@@ -205,6 +210,7 @@ class Alternatives:
             faults.append(singular)
         if first is None:
             raise faults[0]
+        self.hopeless.append(first)
         found, self.chosen[planner] = first
         return found  # whoever reads the numbers is told
 

@@ -108,9 +108,9 @@ class Facts:
     def _heard(self, place: Place, body: str) -> int:
         """How many independent facts a place knows that this body did not tell it."""
         facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
-        if len(facts) < 2:
-            return 2 if None in facts else len(facts)
-        return 2 if any(_cross(one, two) for one, two in combinations(facts, 2)) else 1
+        if None in facts or any(_cross(one, two) for one, two in combinations(facts, 2)):
+            return 2
+        return min(len(facts), 1)
 
     def _spot(self, place: Place) -> Two:
         """Where a place lies in the pose."""

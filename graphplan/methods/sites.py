@@ -10,15 +10,14 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from fractions import Fraction
 from functools import cached_property
 from random import Random
 
 from graphplan.mechanism.equations import PRIME, System
-from graphplan.mechanism.model import Balance, Number, Scene, Slide
+from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.transfer import stages
+from graphplan.methods.residues import Triple, cross, residue
 
-Triple = tuple[int, int, int]
 MOST_PARTS = 2000  # of a group: no textbook's has so many
 FAR: Triple = (0, 0, 1)  # the line on which all slides' pencils have their points: a force along it is a couple
 
@@ -32,17 +31,6 @@ class Joint:
 
 
 Site = Joint | Slide | Balance
-
-
-def cross(p: Triple, q: Triple) -> Triple:
-    """The line through two points, or the point of two lines."""
-    return ((p[1] * q[2] - p[2] * q[1]) % PRIME, (p[2] * q[0] - p[0] * q[2]) % PRIME,
-            (p[0] * q[1] - p[1] * q[0]) % PRIME)
-
-
-def dot(p: Triple, q: Triple) -> int:
-    """Whether a point lies on a line: then it is nothing."""
-    return sum(a * b for a, b in zip(p, q, strict=True)) % PRIME
 
 
 def groups(scene: Scene) -> list[tuple[str, ...]]:
@@ -171,16 +159,11 @@ def in_general(scene: Scene) -> Position:
 
 def posed(scene: Scene) -> Position:
     """The position of the scene's pose."""
-    across: dict[Site, Triple] = {s: (-_residue(s.direction[1]) % PRIME, _residue(s.direction[0]), 0)
+    across: dict[Site, Triple] = {s: (-residue(s.direction[1]) % PRIME, residue(s.direction[0]), 0)
                                   for s in scene.slides}
-    along: dict[Site, Triple] = {b: (_residue(b.direction[0]), _residue(b.direction[1]), 0)
+    along: dict[Site, Triple] = {b: (residue(b.direction[0]), residue(b.direction[1]), 0)
                                  for b in _balances(scene) if b.direction is not None}
-    return Position({p: (_residue(x), _residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
-
-
-def _residue(number: Number) -> int:
-    exact = number if isinstance(number, Fraction) else Fraction(float(number))
-    return exact.numerator * pow(exact.denominator, -1, PRIME) % PRIME
+    return Position({p: (residue(x), residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
 
 
 def _directed(scene: Scene) -> tuple[Site, ...]:

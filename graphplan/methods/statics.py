@@ -15,7 +15,8 @@ from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
-from graphplan.methods.sites import FAR, Group, Joint, Position, Site, Span, Triple, cross, dot, equation
+from graphplan.methods.residues import Triple, cross, dot
+from graphplan.methods.sites import FAR, Group, Joint, Position, Site, Span, equation
 
 DEEPEST = 3  # trials within trials
 MOST_FREE = 3  # forces of unknown lines on a part that tells anything

@@ -94,7 +94,9 @@ def sliding(scene: Scene, theirs: Results, part: str, name: str) -> Any:
 
 
 def plain(number: Any) -> Any:
-    """A number with bounds or sizes as a float, or an array of them; any other as it is."""
+    """A number with bounds or sizes as a float, or an array of them; a fraction as it is."""
+    if hasattr(number, "middle"):
+        return float(number.middle)
     return getattr(number, "value", number)
 
 

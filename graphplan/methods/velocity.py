@@ -108,6 +108,10 @@ class Polar(Velocity):
         with board.on(self.panel):
             self.pole = board.begin(plan=spoken(self.panel), number=1, name="p")
 
+    def far_from(self, place: Place) -> Mark:
+        """As far from the pole as the place is from another point of its link."""
+        return self.board.transfer(self.point(place), super().far_from(place), self.pole)
+
     def home(self, place: Place) -> Mark:
         return self.pole
 

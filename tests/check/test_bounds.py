@@ -12,6 +12,7 @@ import pytest
 from proven import lies
 
 from graphplan.check import bench
+from graphplan.check.printed import data
 from graphplan.check.report import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
@@ -278,3 +279,11 @@ def test_a_singular_pose_is_singular_in_every_arithmetic(capsys: pytest.CaptureF
         streams = capsys.readouterr()
         assert streams.out == ""
         assert "links 2, 3" in streams.err
+
+
+def test_slidings_far_from_their_pairs_are_printed_from_enclosures() -> None:
+    """Where floats lose the digits of a sliding its bound is a number like any other."""
+    text = (Path(__file__).parents[1] / "faults" / "04-wrong.toml").read_text().replace("[-20, 19]", "[1e9, 19]")
+    found = json.loads(json.dumps(data(report(parse(text, "far")))))
+    assert found["arithmetic"] != "floats"
+    assert 0 < found["bounds"]["acceleration"] < 1e-9

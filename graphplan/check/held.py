@@ -17,7 +17,6 @@ from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions
 
 RUBBED = ("balance with friction", "balance moment with friction")
-MOMENTS = ("slide moment", "balance moment", "lever moment")
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,6 @@ from graphplan.methods.moves import Auxiliary, Carry, Figure, Guide, Locus, Meet
 from graphplan.methods.network import Network, Place
 from graphplan.methods.residues import Image, Two, less, parallel, product, quarter, residues
 
-TRIAL = "trial"  # the source of what is only assumed
 Fact = Two | None  # the normal of a locus; nothing where the end itself is known
 ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as an assumption: like none of the pose
 

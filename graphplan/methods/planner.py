@@ -14,7 +14,7 @@ from itertools import combinations, islice, pairwise, zip_longest
 from typing import NamedTuple
 
 from graphplan.errors import Refused
-from graphplan.methods.facts import ANYWHERE, TRIAL, Facts
+from graphplan.methods.facts import ANYWHERE, Facts
 from graphplan.methods.moves import Auxiliary, Carry, Figure, Locus, Move, Pole, Slip, Swing, Trial
 from graphplan.methods.network import POLE, Network, Place
 from graphplan.methods.residues import Two, line, meet, parallel
@@ -177,7 +177,7 @@ class Planner(Facts):
         """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
         self.open.append(_Open(at, len(self.moves)))
         self.spent |= {body: max(self._excess(body), self.spent.get(body, 0)) for body in self.places}
-        self._file(at[0], TRIAL + str(len(self.open)), ANYWHERE, marked=True)
+        self._file(at[0], f"trial {len(self.open)}", ANYWHERE, marked=True)
 
     def _overheard(self, body: str) -> None:
         """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""

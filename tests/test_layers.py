@@ -24,24 +24,22 @@ MAY = {
     "solver": {"errors", "mechanism"},
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
-    "backends": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "verify"},
-    "handed": {"errors", "phrases", "kernel", "mechanism", "sheet"},
-    "verify": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "drafting", "handed"},
-    "drafting": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet"},
+    "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking"},
+    "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle"},
-    "survey": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet", "drafting"},
+    "accuracy": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet"},
 }
 FRONT = {"__init__", "__main__", "commands"}
 
 # Who may import what does not come with Python.
 OUTSIDE = {
-    "matplotlib": {"backends"},
-    "ezdxf": {"backends", "handed"},
-    "cv2": {"handed"},
-    "pypdfium2": {"handed"},
+    "matplotlib": {"output"},
+    "ezdxf": {"output", "marking"},
+    "cv2": {"marking"},
+    "pypdfium2": {"marking"},
     "numba": {"kernel/tape/compiled.py"},
-    "distributed": {"methods/crew.py"},
+    "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},
 }
 # Where the kernel reckons beyond Python alone.
@@ -137,13 +135,13 @@ def test_a_command_loads_no_more_than_it_needs() -> None:
     code = ("import sys, graphplan; print([m for m in sys.modules if m.startswith('graphplan.')], file=sys.stderr); "
             "from graphplan.commands import SUBCOMMANDS, main; assert main(['solve', 'four-bar']) == 0; "
             "others = {f'graphplan.commands.{name}' for name in SUBCOMMANDS} - {'graphplan.commands.solve'}; "
-            "unused = [m for m in sys.modules if m in others or m.startswith(('graphplan.sheet', 'graphplan.back'))]; "
+            "unused = [m for m in sys.modules if m in others or m.startswith(('graphplan.sheet', 'graphplan.output'))]; "
             "print(unused, file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.split() == ["[]", "[]"], done.stderr
 
 
-FORCES = ("methods.loaded", "methods.forces", "methods.statics", "methods.lever", "methods.friction", "check.held",
+FORCES = ("methods.forces", "check.forces",
           "solver.statics", "solver.virtual_power", "solver.friction")
 
 

@@ -15,10 +15,10 @@ from matplotlib.font_manager import get_font
 from matplotlib.ft2font import LoadFlags
 
 import graphplan as gp
+from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.preference import Form, weighed
 from graphplan.cycle import follow
-from graphplan.drafting.drafted import drafted
-from graphplan.drafting.pencil import Pencil
-from graphplan.drafting.preference import Form, weighed
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
 from graphplan.kernel.passes import freeze
@@ -26,9 +26,9 @@ from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import WEIGHED, Construction
 from graphplan.methods.panels import spoken
-from graphplan.methods.readings import thing_named
+from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
-from graphplan.sheet.lettering import ADVANCE
+from graphplan.sheet.lettering.lettering import ADVANCE
 from graphplan.words.tongue import LANGUAGES, Entry, catalogue, tongue
 
 PACKAGE = Path(gp.__file__).parent

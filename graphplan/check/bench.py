@@ -15,9 +15,9 @@ from itertools import islice
 from typing import Any, NamedTuple
 
 from graphplan.check.arithmetics import floats
+from graphplan.check.certified_solver import bounded_rates, bounded_reactions, by_part, plain_rates
 from graphplan.check.compared import compared, printed, rounded
 from graphplan.check.enclosed import enclosed
-from graphplan.check.opinion import bounded_rates, bounded_reactions, by_part, plain_rates
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError, Refused, SingularPose
 from graphplan.kernel.numbers import Domain
@@ -46,7 +46,7 @@ class Opinion(NamedTuple):
         """The power balance, which is compared as what is drawn is."""
         if not self.power:
             return {}
-        from graphplan.check.held import powers
+        from graphplan.check.forces import powers
 
         return powers(self.power)
 
@@ -232,7 +232,7 @@ class Bench:
         rates = solve(self.scene, exact=True)
         if self.scene.loads is None:
             return Opinion(rates, None, (), lambda results, rounds: by_part(rates))
-        from graphplan.check.held import force_truth
+        from graphplan.check.forces import force_truth
         from graphplan.solver.friction import with_friction
         from graphplan.solver.statics import reactions
         from graphplan.solver.virtual_power import power
@@ -252,7 +252,7 @@ class Bench:
         told = plain_rates(rates, plain)
         if self.scene.loads is None:
             return Opinion(told, None, (), lambda results, rounds: by_part(rates))
-        from graphplan.check.held import force_truth, plain_reactions
+        from graphplan.check.forces import force_truth, plain_reactions
         from graphplan.check.rubbed import rubbed
         from graphplan.solver.virtual_power import power
 
@@ -270,7 +270,7 @@ class Bench:
         results = printed(ours, numbers, (lambda number: number) if self.exact or name == "fractions" else float)
         if opinion.reactions is None:
             return Report(drawing, opinion.rates, results, self.exact, None, name, numbers)
-        from graphplan.check.held import Held
+        from graphplan.check.forces import Held
 
         held = Held(self.scene, results, opinion.reactions, opinion.power, drawing.rounds, self.exact)
         return Report(drawing, opinion.rates, results, self.exact, held, name, numbers)

@@ -17,11 +17,11 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.bench import WAYS
+from graphplan.check.certified_solver import bounded_rates, bounded_reactions
 from graphplan.check.decimals import OPEN, SPARE, decimal, upwards
 from graphplan.check.enclosed import enclosed
+from graphplan.check.json_results import data
 from graphplan.check.measures import difference
-from graphplan.check.opinion import bounded_rates, bounded_reactions
-from graphplan.check.printed import data
 from graphplan.check.report import KINDS, RATES, Report
 from graphplan.check.trusted import trusted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
@@ -29,7 +29,7 @@ from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construct import constructions
-from graphplan.methods.tempo import extent
+from graphplan.methods.motion.time_scale import extent
 from graphplan.solver import Rates, solve
 
 if TYPE_CHECKING:
@@ -219,7 +219,7 @@ def _beside(drawing: Construction, rates: Rates, smooth: Reactions | None, digit
         raise
     if smooth is None:
         return Certified(drawing, rates, results, False, digits=digits, bits=bits)
-    from graphplan.check.held import Held
+    from graphplan.check.forces import Held
     from graphplan.check.rubbed import rubbed
 
     rough = rubbed(smooth, drawing.rounds, enclosures()) if drawing.rounds else None

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
-from graphplan.methods.tempo import extent
+from graphplan.methods.motion.time_scale import extent
 from graphplan.solver.bounded import UP, Bounded
 
 # What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import floats
+from graphplan.check.certified_solver import bounded_rates, bounded_reactions, by_part
 from graphplan.check.compared import (
     CLOSE,
     KINDS,
@@ -23,7 +24,6 @@ from graphplan.check.compared import (
     sliding,
     weight,
 )
-from graphplan.check.opinion import bounded_rates, bounded_reactions, by_part
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Drive, Scene, TurningDrive
 from graphplan.methods.construction import Construction
@@ -84,7 +84,7 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
     motion = poses.solve(scene, n, sizes=True)
     truth = by_part(motion)
     if scene.loads is not None:
-        from graphplan.check.held import force_truth
+        from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
     apart: dict[str, Any] = {kind: np.zeros(n) for kind in (*KINDS, *(["force"] if scene.loads else []))}
@@ -131,7 +131,7 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> b
         rates = bounded_rates(scene, by)
         truth = by_part(rates)
         if scene.loads is not None:
-            from graphplan.check.held import force_truth
+            from graphplan.check.forces import force_truth
 
             truth |= force_truth(scene, ours, bounded_reactions(scene, rates, by))
     except Unproven:

@@ -14,7 +14,7 @@ from graphplan.methods.construction import Construction
 from graphplan.solver import Rates
 
 if TYPE_CHECKING:
-    from graphplan.check.held import Held
+    from graphplan.check.forces import Held
 
 __all__ = ["KINDS", "RATES", "Report", "report"]
 

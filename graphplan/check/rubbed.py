@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from graphplan.check.arithmetics import Arithmetic
-from graphplan.check.opinion import bounded_reactions
+from graphplan.check.certified_solver import bounded_reactions
 from graphplan.mechanism.model import FRAME
 from graphplan.solver.facts import Along, Fact, Turning, X, Y, held
 from graphplan.solver.friction import Touching

@@ -26,9 +26,9 @@ from graphplan.commands.output import write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.drafting.pencil import Pencil
+    from graphplan.accuracy.pencil import Pencil
+    from graphplan.accuracy.survey.picture import Chart
     from graphplan.mechanism.model import Scene
-    from graphplan.survey.picture import Chart
 
 Made = tuple["Chart", str]  # a picture and its table
 
@@ -43,9 +43,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.backends.charts import drawn
-    from graphplan.drafting.pencil import pencil
+    from graphplan.accuracy.pencil import pencil
     from graphplan.mechanism.scene import load
+    from graphplan.output.charts import drawn
 
     for name in options.names:
         if name not in CHARTS:
@@ -62,9 +62,9 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _machine(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.survey.machine import Measure, measures
-    from graphplan.survey.pictures.machine import picture
-    from graphplan.survey.table import table
+    from graphplan.accuracy.survey.machine import Measure, measures
+    from graphplan.accuracy.survey.pictures.machine import picture
+    from graphplan.accuracy.survey.table import table
 
     rows = [row for scene in _each("machine", scenes or _packaged(), messages)
             for row in measures(scene, compiled=bool(scenes) or scene.name == BIG)]
@@ -72,9 +72,9 @@ def _machine(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
 
 
 def _draughtsman(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.survey.draughtsman import Draft, drafts
-    from graphplan.survey.pictures.draughtsman import picture
-    from graphplan.survey.table import table
+    from graphplan.accuracy.survey.draughtsman import Draft, drafts
+    from graphplan.accuracy.survey.pictures.draughtsman import picture
+    from graphplan.accuracy.survey.table import table
 
     rows = [row for scene in _each("draughtsman", scenes or _packaged(), messages)
             for row in drafts(scene, hand, long=bool(scenes))]
@@ -82,9 +82,9 @@ def _draughtsman(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> M
 
 
 def _stability(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.survey.pictures.stability import picture
-    from graphplan.survey.stability import Sample, everything
-    from graphplan.survey.table import table
+    from graphplan.accuracy.survey.pictures.stability import picture
+    from graphplan.accuracy.survey.stability import Sample, everything
+    from graphplan.accuracy.survey.table import table
 
     rows = []
     for row in everything():
@@ -94,10 +94,10 @@ def _stability(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Mad
 
 
 def _forms(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
+    from graphplan.accuracy.survey.best_forms import SCENES, Sample, samples
+    from graphplan.accuracy.survey.pictures.forms import picture
+    from graphplan.accuracy.survey.table import table
     from graphplan.mechanism.scene import load
-    from graphplan.survey.best_forms import SCENES, Sample, samples
-    from graphplan.survey.pictures.forms import picture
-    from graphplan.survey.table import table
 
     rows = [row for scene in _each("forms", scenes or [load(name) for name in SCENES], messages)
             for row in samples(scene, hand)]
@@ -105,9 +105,9 @@ def _forms(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
 
 
 def _growth(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.survey.growth import Stage, stages
-    from graphplan.survey.pictures.growth import picture
-    from graphplan.survey.table import table
+    from graphplan.accuracy.survey.growth import Stage, stages
+    from graphplan.accuracy.survey.pictures.growth import picture
+    from graphplan.accuracy.survey.table import table
 
     rows = []
     for row in stages():

@@ -87,9 +87,9 @@ def chosen(options: argparse.Namespace, scene: Scene, *, strict: bool = False,
     """The method to draw by, as named or as preferred, and what is told of the preference."""
     if not options.prefer:
         return options.method, ()
+    from graphplan.accuracy.pencil import pencil
+    from graphplan.accuracy.preference import preferred
     from graphplan.check.trusted import construct
-    from graphplan.drafting.pencil import pencil
-    from graphplan.drafting.preference import preferred
 
     found = preferred(scene, options.prefer, pencil(options.pencil), method=options.method, plan=options.plan,
                       strict=strict, inertia=options.inertia, paper=paper, construct=construct)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING
 from graphplan.commands.output import write
 
 if TYPE_CHECKING:
-    from graphplan.commands.shells import Argument, Command
+    from graphplan.commands.completion_scripts import Argument, Command
 
 PLACES = {"SCENE": "scene", "FOLDER": "folder", "DRAWING": "file"}  # what completes an argument, by its name
 
@@ -28,7 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands import SUBCOMMANDS, parser
-    from graphplan.commands.shells import SHELLS
+    from graphplan.commands.completion_scripts import SHELLS
     from graphplan.mechanism.scene import packaged
 
     write(SHELLS[options.shell]([*_commands(parser(SUBCOMMANDS))], packaged()))
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _commands(parser: argparse.ArgumentParser) -> Iterator[Command]:
     """The subcommands with all that may follow them."""
-    from graphplan.commands.shells import Command
+    from graphplan.commands.completion_scripts import Command
 
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
@@ -47,7 +47,7 @@ def _commands(parser: argparse.ArgumentParser) -> Iterator[Command]:
 
 def _argument(action: argparse.Action) -> Argument:
     """An option or an argument, with what completes it: its own choices, or what its name says."""
-    from graphplan.commands.shells import Argument
+    from graphplan.commands.completion_scripts import Argument
 
     takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())
     place = PLACES.get(takes, "file" if "FILE" in takes or "." in takes else "")

@@ -31,11 +31,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.comparison import Comparison, legend
+    from graphplan.accuracy.pencil import pencil
+    from graphplan.accuracy.preference import forms
     from graphplan.check.trusted import construct
     from graphplan.cycle.memory import afford
-    from graphplan.drafting.comparison import Comparison, legend
-    from graphplan.drafting.pencil import pencil
-    from graphplan.drafting.preference import forms
     from graphplan.errors import Disagreement, Refused
     from graphplan.mechanism.scene import load
 

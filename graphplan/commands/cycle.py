@@ -74,8 +74,8 @@ def run(options: argparse.Namespace) -> int:
     if options.output or not options.plot:
         write(_table(found, ending), options.output)
     if options.plot:
-        from graphplan.backends.plots import diagrams
         from graphplan.cycle.diagrams import diagram
+        from graphplan.output.plots import diagrams
         from graphplan.words.tongue import tongue
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
@@ -86,7 +86,7 @@ def run(options: argparse.Namespace) -> int:
 
 def _table(found: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
-    from graphplan.backends import columns
+    from graphplan.output import tables as columns
 
     parts = found.scene, found.turn.travel, found.asked, found.results, found.faults
     return columns.archive(*parts) if ending == ".npz" else columns.text(*parts)

@@ -25,7 +25,7 @@ from graphplan.errors import Refused
 if TYPE_CHECKING:
     from graphplan.kernel.program import Program
     from graphplan.methods.construction import Construction
-    from graphplan.sheet.display import Sheet
+    from graphplan.sheet.plates.display import Sheet
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf")
 DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
@@ -48,11 +48,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import pencil
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
-    from graphplan.sheet.layout import layout
+    from graphplan.sheet.layout.layout import layout
     from graphplan.words.tongue import tongue
 
     ending, dpi = asked(options)
@@ -66,7 +66,7 @@ def run(options: argparse.Namespace) -> int:
     say = tongue(scene.sheet.language or "en")
     composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
     if options.numbers:
-        from graphplan.sheet.selection import with_numbers
+        from graphplan.sheet.plates.selection import with_numbers
 
         composition = with_numbers(composition)
     sheet = _shown(layout(found.drawing, composition=composition), found.drawing.drawn, options)
@@ -85,7 +85,7 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     """What of the sheet is asked for."""
     if not (options.until or options.steps):
         return sheet
-    from graphplan.sheet.selection import numbered, selected
+    from graphplan.sheet.plates.selection import numbered, selected
 
     first, last = numbered(drawn, options.steps or options.until)
     return selected(sheet, last, first if options.steps else 0)
@@ -106,7 +106,7 @@ def asked(options: argparse.Namespace) -> tuple[str, int]:
 def _pages(sheets: list[Sheet], ending: str, dpi: int) -> str | bytes:
     """Sheets as one file of this kind: only a PDF has pages."""
     if ending == ".pdf":
-        from graphplan.backends.ink import pdf
+        from graphplan.output.pdf_png import pdf
 
         return pdf(sheets)
     if len(sheets) > 1:
@@ -118,16 +118,16 @@ def _drawn(sheet: Sheet, ending: str, dpi: int) -> str | bytes:
     """The sheet as a file of this kind."""
     match ending:
         case ".pdf":
-            from graphplan.backends.ink import pdf
+            from graphplan.output.pdf_png import pdf
 
             return pdf([sheet])
         case ".png":
-            from graphplan.backends.ink import png
+            from graphplan.output.pdf_png import png
 
             return png(sheet, dpi)
         case ".dxf":
             return _modelled(sheet)
-    from graphplan.backends.svg import svg
+    from graphplan.output.svg import svg
 
     return svg(sheet)
 
@@ -135,7 +135,7 @@ def _drawn(sheet: Sheet, ending: str, dpi: int) -> str | bytes:
 def _modelled(sheet: Sheet) -> bytes:
     """The sheet for CAD programs, where the package is installed that writes for them."""
     try:
-        from graphplan.backends.dxf import dxf
+        from graphplan.output.dxf import dxf
     except ModuleNotFoundError:
         raise Refused("DXF", "ezdxf is not installed", "pip install 'graphplan[dxf]', or draw it as SVG") from None
     return dxf(sheet)

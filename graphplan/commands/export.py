@@ -18,7 +18,7 @@ from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.drafting.drafted import Drafted
+    from graphplan.accuracy.drafted import Drafted
 
 
 class Format(NamedTuple):
@@ -36,15 +36,15 @@ class Format(NamedTuple):
 
 
 FORMATS = {
-    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "geogebra", "geogebra", "figure"),
-    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "jsxgraph", "jsxgraph", "figure"),
-    "gcl": Format(".gcl", "GCLC, the language of constructions", "gclc", "gclc", "figure"),
-    "tikz": Format(".tex", "LaTeX with TikZ", "tikz", "tikz", "figure"),
-    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "tkz", "tkz_euclide", "figure"),
+    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "exports.geogebra", "geogebra", "figure"),
+    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "exports.jsxgraph", "jsxgraph", "figure"),
+    "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "figure"),
+    "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "figure"),
+    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "figure"),
     "json": Format(".json", "the steps as data", "", "", "steps"),
     "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
-    "pdf": Format(".pdf", "the sheet as PDF, in true size", "ink", "pdf", "sheets"),
-    "png": Format(".png", "the sheet as a picture", "ink", "png", "sheet"),
+    "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),
+    "png": Format(".png", "the sheet as a picture", "pdf_png", "png", "sheet"),
     "dxf": Format(".dxf", "the sheet for CAD programs", "dxf", "dxf", "sheet", "dxf"),
 }
 __doc__ = f"""{__doc__}
@@ -69,9 +69,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import pencil
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.words.tongue import tongue
 
@@ -120,7 +120,7 @@ def back_end(name: str) -> Callable[..., str | bytes]:
     if not format.module:
         return _data
     try:
-        module = importlib.import_module(f"graphplan.backends.{format.module}")
+        module = importlib.import_module(f"graphplan.output.{format.module}")
     except ModuleNotFoundError as missing:
         if not format.extra:
             raise
@@ -137,13 +137,13 @@ def _data(data: Mapping[str, Any]) -> str:
 
 
 def _figure(on_sheet: Drafted) -> Any:
-    from graphplan.backends.figure import figure
+    from graphplan.output.exports.figure import figure
 
     return figure(on_sheet.drawing, on_sheet.composition, on_sheet.composition.planes.tongue)
 
 
 def _sheet(on_sheet: Drafted) -> Any:
-    from graphplan.sheet.layout import layout
+    from graphplan.sheet.layout.layout import layout
 
     return layout(on_sheet.drawing, composition=on_sheet.composition)
 
@@ -154,8 +154,8 @@ def _sheets(on_sheet: Drafted) -> Any:
 
 def _steps(on_sheet: Drafted) -> Any:
     """The same as `graphplan steps --json` prints."""
-    from graphplan.backends.text import steps
     from graphplan.mechanism.structure import structure
+    from graphplan.output.text import steps
 
     drawing, say = on_sheet.drawing, on_sheet.composition.planes.tongue
     return steps(drawing, structure(drawing.scene).lines(), say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}

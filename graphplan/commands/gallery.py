@@ -54,13 +54,13 @@ def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
     """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts and handouts
     that are there."""
     from graphplan import sheet
-    from graphplan.backends.text import protocol
-    from graphplan.check.printed import data
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import Pencil
+    from graphplan.check.json_results import data
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import Pencil
     from graphplan.mechanism.scene import load, packaged
     from graphplan.mechanism.structure import structure
+    from graphplan.output.text import protocol
 
     entries = []
     names = packaged()

@@ -21,9 +21,9 @@ from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
-    from graphplan.sheet.composition import Composition
-    from graphplan.sheet.display import Sheet
-    from graphplan.sheet.round import Round
+    from graphplan.sheet.cycle_frames import Round
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
 
 PARTS, POSITIONS = ("task", "guided", "solution"), 36
 ENDINGS = (".pdf", ".html")
@@ -41,9 +41,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import pencil
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.words.tongue import tongue
 
@@ -55,7 +55,7 @@ def run(options: argparse.Namespace) -> int:
     say = tongue(scene.sheet.language or "en")
     composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
     if suffix == ".html":
-        from graphplan.backends.stepper import stepper
+        from graphplan.output.stepper import stepper
 
         write(stepper(_round(found.drawing, composition, positions)), options.output)
     else:
@@ -86,7 +86,7 @@ def _positions(options: argparse.Namespace) -> int:
 
 def _pages(composition: Composition, only: str | None) -> bytes:
     """The parts that are wanted as pages."""
-    from graphplan.backends.ink import pdf
+    from graphplan.output.pdf_png import pdf
     from graphplan.sheet.handout import guided, solution, task
 
     solved = solution(composition)
@@ -106,7 +106,7 @@ def _round(drawing: Construction, composition: Composition, positions: int) -> R
     """The construction around its cycle, or where there is none, or none is wanted, in its own pose."""
     from math import degrees
 
-    from graphplan.sheet.round import standing, turning
+    from graphplan.sheet.cycle_frames import standing, turning
 
     if not positions:
         return standing(drawing, composition)

@@ -14,7 +14,7 @@ import argparse
 
 from graphplan.commands.messages import Messages
 from graphplan.commands.output import STANDARD, kind, write
-from graphplan.commands.starts import STARTS
+from graphplan.commands.templates import STARTS
 
 ENDINGS = (".toml",)
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Collection
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
+from graphplan.marking.judge.verdict import STATES
 from graphplan.mechanism.schema import DRAFT, FROM_0, NUMBER, TEXT, Fragment, listed, table, told
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-from graphplan.verify.verdict import STATES
 
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 EXACT: Fragment = {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}

@@ -35,7 +35,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.printed import data
+    from graphplan.check.json_results import data
     from graphplan.check.report import report
     from graphplan.mechanism.scene import load
 
@@ -51,8 +51,8 @@ def _errors(options: argparse.Namespace, found: Report) -> dict[str, Any]:
     """How far off each result is drawn, where a pencil is given."""
     if not options.pencil:
         return {}
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import pencil
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import pencil
 
     return {"pencil": drafted(found.drawing, pencil(options.pencil), check=found.check).data}
 

@@ -24,12 +24,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.backends import text
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.accuracy.pencil import pencil
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
-    from graphplan.drafting.pencil import pencil
     from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
+    from graphplan.output import text
     from graphplan.words.tongue import tongue
 
     scene, hand = rounded(options, load(options.scene)), pencil(options.pencil)

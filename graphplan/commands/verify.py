@@ -36,13 +36,13 @@ from graphplan.commands.output import STANDARD, kind, write
 from graphplan.errors import GraphplanError, Refused
 
 if TYPE_CHECKING:
-    from graphplan.drafting.pencil import Pencil
+    from graphplan.accuracy.pencil import Pencil
+    from graphplan.marking.classroom import Classroom, Marked
+    from graphplan.marking.judge.score import Weights
     from graphplan.methods.construction import Construction
     from graphplan.phrases import Said
-    from graphplan.sheet.composition import Composition
-    from graphplan.sheet.display import Sheet
-    from graphplan.verify.classroom import Classroom, Marked
-    from graphplan.verify.score import Weights
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
@@ -63,8 +63,8 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.drafting.pencil import pencil
-    from graphplan.verify.score import weights
+    from graphplan.accuracy.pencil import pencil
+    from graphplan.marking.judge.score import weights
 
     path, hand, weighed = Path(options.drawing), pencil(options.pencil), weights(options.weights)
     ending = _reported(options.report, path, options.scene)
@@ -94,13 +94,13 @@ class Desk:
     def marked(self, path: Path) -> Marked:
         """A drawing judged; fails with `Refused` where it cannot be."""
         from graphplan.check.trusted import construct
-        from graphplan.handed.files import read
-        from graphplan.handed.traces import Frame
+        from graphplan.marking.classroom import Marked
+        from graphplan.marking.judge.any_method import judge_by_any
+        from graphplan.marking.judge.judge import judge
+        from graphplan.marking.judge.score import score
+        from graphplan.marking.submission import read
+        from graphplan.marking.traces import Frame
         from graphplan.sheet.handout import code
-        from graphplan.verify.classroom import Marked
-        from graphplan.verify.judge import judge
-        from graphplan.verify.score import score
-        from graphplan.verify.ways import judge_by_any
 
         frames = {panel: Frame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
         size = self.composition.arrangement.width, self.composition.arrangement.height
@@ -129,8 +129,8 @@ def printable(name: str) -> str:
 
 def _composed(options: argparse.Namespace, hand: Pencil) -> tuple[Construction, Composition]:
     """The construction on its sheet, as the handout has it."""
+    from graphplan.accuracy.drafted import drafted
     from graphplan.check.report import report
-    from graphplan.drafting.drafted import drafted
     from graphplan.mechanism.scene import load
     from graphplan.words.tongue import tongue
 
@@ -164,9 +164,9 @@ def _same(one: str, other: str | Path) -> bool:
 
 def _lines(one: Marked) -> Iterator[Said]:
     """The verdict in a few lines."""
+    from graphplan.marking.judge.findings import asked, counted, lacking, miss, opinion
+    from graphplan.marking.judge.verdict import MISSING, STATES, WRONG
     from graphplan.phrases import arranged
-    from graphplan.verify.findings import asked, counted, lacking, miss, opinion
-    from graphplan.verify.verdict import MISSING, STATES, WRONG
 
     yield opinion(one.judgement)
     yield from asked(one.judgement)
@@ -181,7 +181,7 @@ def _lines(one: Marked) -> Iterator[Said]:
 
 def _record(one: Marked) -> str:
     """The verdict as data."""
-    from graphplan.verify.record import record
+    from graphplan.marking.judge.record import record
 
     return json.dumps(record(one.judgement, one.score), indent=1, ensure_ascii=False) + "\n"
 
@@ -190,19 +190,19 @@ def _report(one: Marked, ending: str) -> str | bytes:
     """The report as a file of this kind."""
     if ending == ".json":
         return _record(one)
-    from graphplan.verify.overlay import overlay
+    from graphplan.marking.judge.overlay import overlay
 
     sheets = overlay(one.judgement, one.score)
     match ending:
         case ".pdf":
-            from graphplan.backends.ink import pdf
+            from graphplan.output.pdf_png import pdf
 
             return pdf(sheets)
         case ".svg":
-            from graphplan.backends.svg import svg
+            from graphplan.output.svg import svg
 
             return svg(sheets[0])
-    from graphplan.backends.marked import marked
+    from graphplan.output.report_page import marked
 
     return marked(one.judgement, one.score, sheets)
 
@@ -212,7 +212,7 @@ def _report(one: Marked, ending: str) -> str | bytes:
 
 def _class(desk: Desk, folder: Path, ending: str) -> int:
     """Judge every file of a folder; one that cannot be judged is told, and the others go on."""
-    from graphplan.verify.classroom import lines
+    from graphplan.marking.classroom import lines
 
     found, options = _judged(desk, folder, desk.options), desk.options
     if options.report:
@@ -223,7 +223,7 @@ def _class(desk: Desk, folder: Path, ending: str) -> int:
 
 def _judged(desk: Desk, folder: Path, options: argparse.Namespace) -> Classroom:
     """All drawings of a folder, with those that cannot be judged."""
-    from graphplan.verify.classroom import Classroom, Unread
+    from graphplan.marking.classroom import Classroom, Unread
 
     messages, paths = Messages(options.quiet), _files(folder, options.report)
     marked, unread = [], []
@@ -268,6 +268,6 @@ def _class_report(desk: Desk, found: Classroom, ending: str) -> str:
     """The report of a class as a file of this kind."""
     if ending == ".json":
         return _data(found)
-    from graphplan.backends.class_list import class_list
+    from graphplan.output.class_report import class_list
 
     return class_list(found, desk.composition.planes.tongue)

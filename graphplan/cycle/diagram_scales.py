@@ -11,7 +11,7 @@ import numpy as np
 import numpy.typing as npt
 
 from graphplan.cycle.curves import QUANTITIES, Curve, Places, Reals
-from graphplan.sheet.scales import round_up
+from graphplan.sheet.layout.scales import round_up
 
 LENGTH, HEIGHT = 150.0, 60.0  # the room for the axis of time and for each diagram's ordinates, in mm
 NEAREST, FARTHEST = 5.0, 40.0  # a pole nearer than this, in mm, tells no slopes apart; a farther one has no room

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from graphplan.cycle.continuation import Continuation, Progress
-from graphplan.cycle.course import Course
 from graphplan.cycle.linkage import Array, Linkage, number
-from graphplan.cycle.placing import Placing
+from graphplan.cycle.positions import Placing
+from graphplan.cycle.reachability import Course
 from graphplan.cycle.travel import closes, paces, travels
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.methods.network import Network
+from graphplan.methods.motion.network import Network
 
 
 @dataclass(frozen=True)

@@ -13,8 +13,8 @@ from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene, Slide
-from graphplan.methods.network import Network
-from graphplan.methods.readings import ACCELERATION, VELOCITY, Vectors, balances
+from graphplan.methods.motion.network import Network
+from graphplan.methods.results import ACCELERATION, VELOCITY, Vectors, balances
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -107,7 +107,7 @@ def _filled(construction: Construction, given: Coordinates, stretches: Iterable[
         for place in stretches:
             yield stretch(construction, _cut(given, place), _cut(results, place), machine)
         return
-    from graphplan.methods.crew import shared_out
+    from graphplan.methods.executors import shared_out
 
     parts = (_cut(given, place) for place in stretches)
     found = shared_out(construction, parts, tuple(results), workers, machine)

@@ -11,16 +11,19 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, SlidingDrive
 from graphplan.mechanism.order import by_name, ordered_points
-from graphplan.methods.acceleration import Normal, PolarAcceleration
 from graphplan.methods.construction import Construction
-from graphplan.methods.moves import Move, Pole, Trial
-from graphplan.methods.network import Network
+from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
+from graphplan.methods.motion.alternatives import growth_of_rates, ways
+from graphplan.methods.motion.moves import Move, Pole, Trial
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.plan import Plan
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.rates import Needed, Side, Turnings, apart, sides
+from graphplan.methods.motion.time_scale import tempo
+from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
-from graphplan.methods.plan import Plan
-from graphplan.methods.planner import Planner
 from graphplan.methods.poses import Pose
-from graphplan.methods.rates import Needed, Side, Turnings, apart, sides
-from graphplan.methods.readings import (
+from graphplan.methods.results import (
     ACCELERATION,
     ALPHA,
     OMEGA,
@@ -31,9 +34,6 @@ from graphplan.methods.readings import (
     Reading,
 )
 from graphplan.methods.styles import Style, style
-from graphplan.methods.tempo import tempo
-from graphplan.methods.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.ways import growth_of_rates, ways
 from graphplan.phrases import Said, said
 
 
@@ -247,6 +247,6 @@ def _by_ways(scene: Scene, method: str, chosen: Style) -> Iterator[Construction]
     if scene.loads is None:
         found = ways(Network(scene), method, lambda planner: Draughtsman(scene, planner, chosen).draw())
         return (construction for construction, _ in found)
-    from graphplan.methods.loaded import loaded_constructions
+    from graphplan.methods.forces.loaded import loaded_constructions
 
     return loaded_constructions(scene, method, chosen)

@@ -18,7 +18,8 @@ from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.mechanism.units import metre
-from graphplan.methods.readings import (
+from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.results import (
     ACCELERATION,
     FORCE_READERS,
     NUMBERS,
@@ -30,7 +31,6 @@ from graphplan.methods.readings import (
     balances,
     prescribed,
 )
-from graphplan.methods.tempo import Tempo
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:

@@ -8,7 +8,7 @@ from collections.abc import Mapping, MutableMapping
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import by_name, ordered_points
-from graphplan.methods.network import Place
+from graphplan.methods.motion.network import Place
 from graphplan.methods.panels import MECHANISM
 
 

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from graphplan.sheet.composition import Composition
-    from graphplan.sheet.display import Sheet
-    from graphplan.sheet.planes import Drawing
+    from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
+    from graphplan.sheet.plates.plans import Drawing
 
 
 def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -19,7 +19,7 @@ def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
     taken) and what the check against the analytic solver found, by kind; or the composition of the sheet, if it is
     composed already, such as with the expected drawing errors. Fails with `Refused` where the words do not fit.
     """
-    from graphplan.backends.svg import svg as write
+    from graphplan.output.svg import svg as write
 
     return write(_laid_out(drawing, paper, check, composition, language))
 
@@ -27,7 +27,7 @@ def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
 def pdf(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None) -> bytes:
     """The construction sheet as a PDF document of one page, in true size; reads and fails as :func:`svg` does."""
-    from graphplan.backends.ink import pdf as write
+    from graphplan.output.pdf_png import pdf as write
 
     return write([_laid_out(drawing, paper, check, composition, language)])
 
@@ -35,7 +35,7 @@ def pdf(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
 def png(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None, *, dpi: float = 150) -> bytes:
     """The construction sheet as a picture of so many dots per inch; else reads and fails as :func:`svg` does."""
-    from graphplan.backends.ink import png as write
+    from graphplan.output.pdf_png import png as write
 
     return write(_laid_out(drawing, paper, check, composition, language), dpi)
 
@@ -43,7 +43,7 @@ def png(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
 def _laid_out(drawing: Drawing, paper: str | None, check: Mapping[str, Any] | None, composition: Composition | None,
               language: str | None) -> Sheet:
     """The sheet as a display list, in a language by its code."""
-    from graphplan.sheet.layout import layout
+    from graphplan.sheet.layout.layout import layout
     from graphplan.words.tongue import tongue
 
     return layout(drawing, paper, check, composition, tongue(language) if language else None)

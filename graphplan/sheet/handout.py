@@ -11,19 +11,19 @@ from dataclasses import replace
 
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
-from graphplan.sheet.blanks import written
-from graphplan.sheet.composition import Composition
-from graphplan.sheet.corner_marks import corner_marks, sheet_code
-from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
-from graphplan.sheet.labels import placed
-from graphplan.sheet.layout import layout, titled
-from graphplan.sheet.lettering import listed
-from graphplan.sheet.pages import packed
-from graphplan.sheet.pens import BORDER, GREY, ORIGIN, Pen
-from graphplan.sheet.places import Wish
-from graphplan.sheet.selection import with_numbers
-from graphplan.sheet.task import Task
-from graphplan.sheet.title import GUIDED, SOLUTION, TASK
+from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
+from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import layout, titled
+from graphplan.sheet.layout.pages import packed
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.lettering import listed
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import BORDER, GREY, ORIGIN, Pen
+from graphplan.sheet.plates.selection import with_numbers
+from graphplan.sheet.words.answer_boxes import written
+from graphplan.sheet.words.task import Task
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
 EDGE = 0.01  # mm by which what is on an edge may be beyond it

@@ -15,19 +15,19 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Step
 from graphplan.methods.panels import spoken
 from graphplan.phrases import arranged, said
-from graphplan.sheet import pens
-from graphplan.sheet.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
-from graphplan.sheet.frame import frame_of
-from graphplan.sheet.layout import stacked
-from graphplan.sheet.lettering import SIZE, Runs, sentence_runs, wrap
-from graphplan.sheet.paper import COLUMN, inside, lower_right, sheet_size
-from graphplan.sheet.picture import picture
-from graphplan.sheet.planes import Drawing, Planes
-from graphplan.sheet.rows import LEADING, Cell, Row, lettered
-from graphplan.sheet.scales import Scales
-from graphplan.sheet.selection import inked
-from graphplan.sheet.title import STRIP, Page
-from graphplan.sheet.view import View, least, plan_scale, view
+from graphplan.sheet.frames.frame import frame_of
+from graphplan.sheet.frames.title import STRIP, Page
+from graphplan.sheet.layout.layout import stacked
+from graphplan.sheet.layout.paper import COLUMN, inside, lower_right, sheet_size
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
+from graphplan.sheet.plates.picture import picture
+from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.selection import inked
+from graphplan.sheet.plates.view import View, least, plan_scale, view
+from graphplan.sheet.words.rows import LEADING, Cell, Row, lettered
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 

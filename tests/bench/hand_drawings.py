@@ -27,20 +27,20 @@ from hands import Drawn, apart, draw, frames, in_panel, off_paper, points, slipp
 from raster import Printed, photo, printed, scan
 
 import graphplan as gp
-from graphplan.drafting.pencil import Pencil
-from graphplan.handed.files import read
-from graphplan.handed.traces import Frame, Handed
+from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.judge.judge import judge
+from graphplan.marking.judge.mistakes import Slip
+from graphplan.marking.judge.student_sheet import apart as apart_by
+from graphplan.marking.judge.verdict import Judgement
+from graphplan.marking.submission import read
+from graphplan.marking.traces import Frame, Handed
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
-from graphplan.sheet.compose import compose
-from graphplan.sheet.composition import Composition
 from graphplan.sheet.handout import code, solution, task
-from graphplan.sheet.planes import Planes
-from graphplan.verify.board import apart as apart_by
-from graphplan.verify.judge import judge
-from graphplan.verify.mistakes import Slip
-from graphplan.verify.verdict import Judgement
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates.plans import Planes
 
 PENCIL, TRIES = Pencil(), 60
 LARGE, LEAST = 3.0, 0.4  # how many tolerances a mistake is large, and mm of a tolerance at least

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from graphplan.check.opinion import by_part
+from graphplan.check.certified_solver import by_part
 from graphplan.check.report import Report
 from graphplan.mechanism.model import Scene
 from graphplan.solver import reactions, solve
@@ -19,7 +19,7 @@ def lies(found: Report, scene: Scene) -> list[str]:
 def _lies(found: Report, scene: Scene) -> Iterator[str]:
     truth = by_part(solve(scene, exact=True))
     if scene.loads is not None:
-        from graphplan.check.held import force_truth
+        from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, found.results, reactions(scene, exact=True))
     for part, named in found.numbers.items():

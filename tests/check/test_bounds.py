@@ -11,15 +11,15 @@ from typing import Any
 import pytest
 from proven import lies
 
+from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
+from graphplan.accuracy.survey.stability import METHODS
 from graphplan.check import bench
-from graphplan.check.printed import data
+from graphplan.check.json_results import data
 from graphplan.check.report import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.model import FRAME, Drive, Scene, TurningDrive
 from graphplan.mechanism.scene import load, packaged, parse
-from graphplan.survey.degeneracies import DEGENERACIES, Degeneracy
-from graphplan.survey.stability import METHODS
 
 RATIONAL = [name for name in packaged() if not load(name).irrational]
 DISTANCES = tuple(10.0**-k for k in range(3, 15))

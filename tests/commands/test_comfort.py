@@ -17,7 +17,7 @@ import pytest
 from graphplan import __version__
 from graphplan.commands import main
 from graphplan.commands.catalogue import fitted
-from graphplan.commands.starts import LOADS, STARTS
+from graphplan.commands.templates import LOADS, STARTS
 from graphplan.mechanism.scene import load, packaged, parse
 from graphplan.mechanism.schema import scene
 
@@ -229,6 +229,6 @@ def test_quiet_leaves_errors(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_disagreement_is_told_even_so(command: str, capsys: pytest.CaptureFixture[str],
                                         monkeypatch: pytest.MonkeyPatch) -> None:
     """That construction and solver disagree is no remark."""
-    monkeypatch.setattr("graphplan.methods.tempo.Tempo.turning", lambda self, omega: 2 * omega / self.unit)
+    monkeypatch.setattr("graphplan.methods.motion.time_scale.Tempo.turning", lambda self, omega: 2 * omega / self.unit)
     assert main([command, "four-bar", "--quiet"]) == 1
     assert "disagree" in capsys.readouterr().err

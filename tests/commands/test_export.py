@@ -12,11 +12,11 @@ from zipfile import ZipFile
 import pytest
 
 import graphplan as gp
+from graphplan.accuracy.drafted import Drafted, drafted
+from graphplan.accuracy.pencil import pencil
 from graphplan.check.report import report
 from graphplan.commands import main, parser
 from graphplan.commands.export import FORMATS, READ, back_end, format_of
-from graphplan.drafting.drafted import Drafted, drafted
-from graphplan.drafting.pencil import pencil
 
 BEGINS = {
     "ggb": b"PK", "jsxgraph": b"<!DOCTYPE html>", "json": b"{", "svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG",
@@ -79,7 +79,7 @@ def test_nothing_is_written_where_it_fails(arguments: list[str], said: str, tmp_
 
 def test_a_failure_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A back end that fails at its end leaves what was there."""
-    import graphplan.backends.geogebra as geogebra
+    import graphplan.output.exports.geogebra as geogebra
 
     path = tmp_path / "a.ggb"
     path.write_text("old")
@@ -92,7 +92,7 @@ def test_a_failure_leaves_the_old_file(tmp_path: Path, monkeypatch: pytest.Monke
 def test_a_missing_library_names_its_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch,
                                            capsys: pytest.CaptureFixture[str]) -> None:
     """Where the library of a format is not installed, the one line says what installs it."""
-    monkeypatch.delitem(sys.modules, "graphplan.backends.dxf", raising=False)
+    monkeypatch.delitem(sys.modules, "graphplan.output.dxf", raising=False)
     monkeypatch.setitem(sys.modules, "ezdxf", None)
     assert main(["export", "four-bar", "-o", str(tmp_path / "a.dxf")]) == 2
     assert "ezdxf is not installed; pip install 'graphplan[dxf]'" in capsys.readouterr().err

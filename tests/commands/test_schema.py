@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 
 import graphplan
 from graphplan.commands import main, result_schemas
-from graphplan.commands.starts import STARTS
+from graphplan.commands.templates import STARTS
 from graphplan.errors import SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.items import Item

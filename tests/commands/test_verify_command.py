@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 import graphplan as gp
 from graphplan.commands import main, result_schemas
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.planes import Planes
+from graphplan.sheet.plates.plans import Planes
 
 SCALE = 0.4  # mm of the student's sheet for a unit of the scene
 LAST = 39  # the last step of the four-bar's construction, where lines 37 and 38 meet

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.starts import STARTS
+from graphplan.commands.templates import STARTS
 
 ROOT = Path(__file__).parent.parent.parent
 SCENE = STARTS["four-bar"].text

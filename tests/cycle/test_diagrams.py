@@ -14,7 +14,6 @@ import numpy as np
 import pytest
 
 from graphplan import construct, load
-from graphplan.backends import plots
 from graphplan.cycle.chords import axes, by_chords, by_tangents, integrate
 from graphplan.cycle.curves import Curve, followed
 from graphplan.cycle.diagram_program import Found
@@ -26,6 +25,7 @@ from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.passes import freeze
+from graphplan.output import plots
 
 HO = Fraction(25)
 CHORDS, TANGENTS = Found("v", "by chords"), Found("v", "by tangents")

@@ -13,7 +13,8 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
-from graphplan.cycle import Turn, continuation, follow, placing
+from graphplan.cycle import Turn, continuation, follow
+from graphplan.cycle import positions as placing
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
 from graphplan.mechanism.scene import packaged

@@ -11,7 +11,7 @@ from graphplan.errors import SceneError
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.presentation import CODES, FRAMES, PAPERS
 from graphplan.mechanism.scene import parse
-from graphplan.sheet import frame
+from graphplan.sheet.frames import frame
 from graphplan.words.tongue import LANGUAGES
 
 WHOLE = """

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from special_machines import MACHINES, Machine
 
-from graphplan.check.printed import data
+from graphplan.check.json_results import data
 from graphplan.check.report import report
 from graphplan.cycle import follow
 from graphplan.errors import SceneError, SingularPose

@@ -17,11 +17,11 @@ from graphplan.check.report import report
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.structure import structure
-from graphplan.methods import acceleration, velocity
 from graphplan.methods.construct import construct
-from graphplan.methods.plan import Plan
-from graphplan.methods.planner import Planner
-from graphplan.methods.tempo import Tempo
+from graphplan.methods.motion import acceleration, velocity
+from graphplan.methods.motion.plan import Plan
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.time_scale import Tempo
 
 
 def asked(scene: Scene, velocity: str = "", acceleration: str = "") -> Scene:

@@ -10,7 +10,7 @@ import pytest
 from random_loads import loaded
 from random_mechanisms import mechanism
 
-from graphplan.check.printed import data
+from graphplan.check.json_results import data
 from graphplan.check.report import report
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.bracing import bracing

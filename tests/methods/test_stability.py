@@ -9,11 +9,11 @@ from random import Random
 
 import pytest
 
+from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
+from graphplan.accuracy.survey.stability import error_of, exact, samples
 from graphplan.check.report import report
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
-from graphplan.survey.degeneracies import DEGENERACIES, Degeneracy
-from graphplan.survey.stability import error_of, exact, samples
 
 MOST = 100  # roundings of the mechanism's own condition
 DISTANCES = (1.0, 3e-1, 3e-2, 3e-3, 3e-4, 1e-5, 1e-7, 1e-9, 1e-12, 1e-15, 0.0)

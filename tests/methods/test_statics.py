@@ -8,8 +8,8 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 from graphplan.mechanism.model import Balance, Loads, Scene
-from graphplan.methods.sites import Group, Joint, groups, in_general, posed
-from graphplan.methods.statics import Along, Assume, AtPoint, Close, Equilibrium, Fact, Found, Polygon, Where
+from graphplan.methods.forces.statics import Along, Assume, AtPoint, Close, Equilibrium, Fact, Found, Polygon, Where
+from graphplan.methods.forces.unknown_forces import Group, Joint, groups, in_general, posed
 
 
 def balanced(group: str, seed: int = 3) -> Scene:

@@ -19,7 +19,7 @@ from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
-from graphplan.methods.forces import pair_name, pairs
+from graphplan.methods.forces.groups import pair_name, pairs
 from graphplan.methods.styles import INERTIA
 from graphplan.solver import Reactions, reactions, with_friction
 

@@ -7,10 +7,10 @@ from pathlib import Path
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
-from graphplan.sheet.corner_marks import MARKS
-from graphplan.sheet.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.frame import BORDER
-from graphplan.sheet.layout import layout
+from graphplan.sheet.frames.corner_marks import MARKS
+from graphplan.sheet.frames.frame import BORDER
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 
 SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
 LOADED = [name for name in SCENES if gp.load(name).loads is not None]

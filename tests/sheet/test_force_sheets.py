@@ -11,13 +11,13 @@ from sheets import LOADED, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.sheet import pens
-from graphplan.sheet.display import Arrow, Circle, Sheet, Text
-from graphplan.sheet.force_tables import ForceTables
-from graphplan.sheet.layout import layout
-from graphplan.sheet.lettering import plain
-from graphplan.sheet.planes import MECHANISM
-from graphplan.sheet.strokes import HIDDEN, SHORT
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arrow, Circle, Sheet, Text
+from graphplan.sheet.plates.plans import MECHANISM
+from graphplan.sheet.plates.strokes import HIDDEN, SHORT
+from graphplan.sheet.words.force_tables import ForceTables
 
 
 def tables_of(name: str) -> ForceTables:

@@ -15,15 +15,15 @@ from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import NUMBERS
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.compose import compose
-from graphplan.sheet.composition import Composition
-from graphplan.sheet.corner_marks import corner_marks
-from graphplan.sheet.display import Polygon, Sheet, Text
+from graphplan.sheet.cycle_frames import posed, turning
+from graphplan.sheet.frames.corner_marks import corner_marks
 from graphplan.sheet.handout import code, guided, solution, task
-from graphplan.sheet.lettering import plain
-from graphplan.sheet.pages import paged
-from graphplan.sheet.round import posed, turning
-from graphplan.sheet.rows import Cell, Row
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.pages import paged
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import Polygon, Sheet, Text
+from graphplan.sheet.words.rows import Cell, Row
 
 Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 

@@ -10,10 +10,10 @@ from sheets import SCENES, drawing_of, outside, sheet_of, spots
 
 import graphplan as gp
 from graphplan.errors import Refused
-from graphplan.sheet.display import Arrow, Text
-from graphplan.sheet.layout import layout
-from graphplan.sheet.lettering import CAPS, SIZE, plain
-from graphplan.sheet.pens import FORCES
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
+from graphplan.sheet.plates.display import Arrow, Text
+from graphplan.sheet.plates.pens import FORCES
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -8,10 +8,10 @@ import random
 import numpy as np
 import pytest
 
-from graphplan.sheet import pens
-from graphplan.sheet.display import Circle, Polygon, Polyline, Spot
-from graphplan.sheet.obstacles import STRANGER, TOUCH, Lines, Marks, Surfaces
-from graphplan.sheet.places import AIR, OUTWARDS, Array, Places
+from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Places
+from graphplan.sheet.lettering.obstacles import STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 
 RATE = 3.0  # of a figure, for a mm^2
 

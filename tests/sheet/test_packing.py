@@ -9,15 +9,15 @@ from sheets import drawing_of
 
 import graphplan as gp
 from graphplan.methods.panels import caption
-from graphplan.sheet import symbols
-from graphplan.sheet.blanks import TALL, TIGHT, Blank, tightened
-from graphplan.sheet.compose import compose
-from graphplan.sheet.display import Arc, Rect
-from graphplan.sheet.lettering import Run, plain, sentence_runs
-from graphplan.sheet.pages import packed, paged
-from graphplan.sheet.planes import Planes
-from graphplan.sheet.rows import Cell, Row
-from graphplan.sheet.task import Task
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.pages import packed, paged
+from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
+from graphplan.sheet.plates import symbols
+from graphplan.sheet.plates.display import Arc, Rect
+from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.words.answer_boxes import TALL, TIGHT, Blank, tightened
+from graphplan.sheet.words.rows import Cell, Row
+from graphplan.sheet.words.task import Task
 
 
 @pytest.mark.parametrize(("name", "saved"), [("stephenson", True), ("four-bar", False)])

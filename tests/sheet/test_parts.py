@@ -10,15 +10,15 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphplan.methods.panels import caption, listed, spoken
-from graphplan.sheet import pens, symbols
-from graphplan.sheet.clip import clipped, segment
-from graphplan.sheet.display import Arrow, Polygon, Polyline, Rect, Text
-from graphplan.sheet.divisions import divisions
-from graphplan.sheet.labels import placed
-from graphplan.sheet.lettering import Run, name_runs, plain, sentence_runs, width, wrap
-from graphplan.sheet.places import Wish
-from graphplan.sheet.rows import Cell, Row, fill
-from graphplan.sheet.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.layout.divisions import divisions
+from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap
+from graphplan.sheet.plates import pens, symbols
+from graphplan.sheet.plates.clip import clipped, segment
+from graphplan.sheet.plates.display import Arrow, Polygon, Polyline, Rect, Text
+from graphplan.sheet.words.rows import Cell, Row, fill
 
 SQUARE = Rect(0, 0, 100, 100)
 

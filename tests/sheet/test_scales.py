@@ -14,11 +14,11 @@ from sheets import drawing_of, outside
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.sheet.compose import compose
-from graphplan.sheet.display import Text
-from graphplan.sheet.layout import layout
-from graphplan.sheet.lettering import plain
-from graphplan.sheet.scales import Scales
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import Text
 
 
 def wishing(name: str, plan: str = "orthogonal", **wishes: Any) -> Construction:

@@ -6,12 +6,12 @@ import pytest
 from sheets import SCENES, drawing_of, outside, sheet_of
 
 from graphplan.errors import Refused
-from graphplan.sheet.display import Arrow, Text
-from graphplan.sheet.lettering import plain
-from graphplan.sheet.planes import Planes
-from graphplan.sheet.selection import numbered, selected
+from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.plates.display import Arrow, Text
+from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.selection import numbered, selected
 from graphplan.sheet.strip import Strip, strip
-from graphplan.sheet.texts import RESULTS
+from graphplan.sheet.words.texts import RESULTS
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -8,15 +8,15 @@ import pytest
 from sheets import SCENES, drawing_of, outside
 
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.compose import compose
-from graphplan.sheet.composition import Composition
-from graphplan.sheet.display import Arc, Circle, Polyline, Rect, Sheet, Text
-from graphplan.sheet.labels import placed
-from graphplan.sheet.layout import layout
-from graphplan.sheet.lettering import Run, plain
-from graphplan.sheet.places import Wish
-from graphplan.sheet.planes import Planes
-from graphplan.sheet.selection import with_numbers
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.lettering import Run, plain
+from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
+from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.strip import Strip
 
 NUMBERED = ("point", "line", "arc", "step")

@@ -13,7 +13,7 @@ import pytest
 from sheets import SCENES, drawing_of, sheet_of
 
 import graphplan as gp
-from graphplan.backends.svg import svg
+from graphplan.output.svg import svg
 
 NS = "{http://www.w3.org/2000/svg}"
 ROUNDED = 0.03  # mm: coordinates are rounded to hundredths

@@ -1,0 +1,150 @@
+"""A construction on its sheet: at the scales and on the paper that it is drawn, what it costs and how far off it is."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, Any
+
+from graphplan.accuracy.first_order import Result, first_order
+from graphplan.accuracy.hand import Hand, hand
+from graphplan.accuracy.pencil import Pencil
+from graphplan.errors import Refused
+from graphplan.methods.construction import Construction
+from graphplan.methods.results import kind_named, thing_named
+from graphplan.phrases import Said, joined, said
+from graphplan.sheet.layout.compose import Composer
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.words.deviations import Deviation, Deviations
+from graphplan.words.tongue import ENGLISH, Tongue
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.cost import Cost
+
+ATTEMPTS = 5  # the words may make the sheet larger, which changes the errors, which change the words
+
+
+@dataclass(frozen=True)
+class Drafted:
+    """A construction drawn with a pencil: its composition on paper, and the expected error of every result."""
+
+    drawing: Construction
+    pencil: Pencil
+    composition: Composition
+    results: tuple[Result, ...]
+
+    @cached_property
+    def hand(self) -> Hand:
+        """The hand that draws it."""
+        return hand(self.drawing, self.composition.scales, self.pencil)
+
+    @cached_property
+    def cost(self) -> Cost:
+        """What drawing it costs."""
+        from graphplan.accuracy.cost import cost  # a sheet does not tell it
+
+        return cost(self.drawing, self.composition)
+
+    @property
+    def operations(self) -> int:
+        """How many operations drawing it takes."""
+        return self.cost.counts.operations
+
+    @property
+    def paper(self) -> str:
+        """The sheet it stands on."""
+        return self.composition.arrangement.paper
+
+    @property
+    def worst(self) -> Result | None:
+        """The result whose error is largest beside the largest value of its kind; none where nothing is."""
+        seen = [result for result in self.results if result.relative is not None]
+        return max(seen, key=lambda result: result.relative or 0.0, default=None)
+
+    @property
+    def error(self) -> float:
+        """The worst result's error beside the largest value of its kind."""
+        return (self.worst.relative or 0.0) if self.worst else 0.0
+
+    def named(self, index: int) -> Said:
+        """A step by its number, a point of the pose by its name."""
+        drawn = self.drawing.drawn
+        if index >= drawn.givens:
+            return said("step {0}", drawn.number(index))
+        return said("the given point {0}", drawn.text(index))
+
+    @property
+    def deviations(self) -> Deviations:
+        """The errors as the sheet tells them."""
+        results: dict[str, dict[str, Deviation]] = {}
+        for result in self.results:
+            results.setdefault(result.kind, {})[result.of] = result.deviation
+        return Deviations(results, self.told)
+
+    @property
+    def told(self) -> Said:
+        """The drawing model and the worst step, in a sentence or two."""
+        model = said("± is the standard deviation of a drawing with {0}; in brackets mm of paper.", self.pencil.told)
+        if self.worst is None or not self.error:
+            return model
+        worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.named,
+                     percent(self.error), self.named(self.worst.worst_step))
+        return joined((model, worst), " ")
+
+    def lines(self) -> list[Said]:
+        """Cost and errors in words, a line each."""
+        off = [joined((kind_named(kind), joined(
+            joined((thing_named(kind, of), f"±{deviation}"), " ") for of, deviation in found.items())), ": ")
+               for kind, found in self.deviations.results.items()]
+        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *off]
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Model, errors and worst step, as data."""
+        results: dict[str, dict[str, Any]] = {}
+        for result in self.results:
+            results.setdefault(result.kind, {})[result.of] = {
+                "mm": result.deviation.mm, "value": result.deviation.value, "relative": result.relative,
+                "worst step": self._step(result.worst_step),
+            }
+        step = self._step(self.worst.worst_step) if self.worst else None
+        return {"model": self.pencil.model, "paper": self.paper, "results": results,
+                "worst result": self._shared(self.worst) if self.worst else None, "worst step": step}
+
+    def _shared(self, worst: Result) -> dict[str, Any]:
+        """The worst result, and what each step has contributed to its variance, the most first."""
+        whole = sum(worst.shares) or 1.0
+        order = sorted(range(len(worst.shares)), key=lambda index: -worst.shares[index])
+        shares = [{**self._step(index), "share": worst.shares[index] / whole} for index in order if worst.shares[index]]
+        return {"kind": worst.kind, "of": worst.of, "relative": worst.relative, "shares": shares}
+
+    def _step(self, index: int) -> dict[str, Any]:
+        drawn, say = self.drawing.drawn, self.composition.planes.tongue
+        number = drawn.number(index) if index >= drawn.givens else 0
+        return {"number": number, "makes": say(drawn.text(index)), "sentence": say(drawn.sentence(index))}
+
+
+def percent(part: float) -> str:
+    """A part of a whole, in at most two digits."""
+    return f"{digits(100 * part, 2)} %"
+
+
+def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
+            check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH) -> Drafted:
+    """A construction on the sheet that it gets with its errors told on it.
+
+    The errors hang on the scales, the scales on the room that words leave, the words on the errors: the sheet is
+    composed until its scales stay. Fails with `Refused` where they do not, or the words do not fit the paper named.
+    """
+    composer = Composer(drawing, paper, check, tongue)
+    composition = composer.compose()
+    for _ in range(ATTEMPTS):
+        results = first_order(drawing, hand(drawing, composition.scales, pencil), composition.scales)
+        found = Drafted(drawing, pencil, composition, results)
+        again = composer.compose(found.deviations)
+        if again.scales == composition.scales:
+            return Drafted(drawing, pencil, again, results)
+        composition = again
+    raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")

@@ -1,0 +1,149 @@
+"""The expected drawing error of every result, by exact derivatives: variances of independent slips add up.
+
+Each slip of the hand counts with the square of its standard deviation times the result's derivative by it; so each
+step has its share of a result's variance. A vector's error is the root mean square distance of its drawn end. On paper
+a turning's is what it makes of the relative vector that it is read off; a moment is not read off one vector.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.hand import Hand
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import metre
+from graphplan.methods.construction import Construction
+from graphplan.methods.motion.time_scale import extent
+from graphplan.methods.results import Reading, kind_named, thing_named
+from graphplan.phrases import Said, joined, said
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.words.deviations import Deviation
+
+ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
+RATES = {"omega": "velocity", "alpha": "acceleration"}
+
+
+@dataclass(frozen=True)
+class Result:
+    """The expected error of one reading: in its own unit and in mm, beside the largest value of its kind where there
+    is any, and the share of each drawn step in its variance."""
+
+    kind: str
+    of: str
+    deviation: Deviation
+    relative: float | None
+    shares: tuple[float, ...]
+
+    @property
+    def named(self) -> Said:
+        """The reading in words."""
+        kind = kind_named(self.kind)
+        if self.kind in RATES:
+            return said("{0} of link {1}", kind, self.of)
+        thing = thing_named(self.kind, self.of)
+        return joined((kind, thing), " ") if thing.isdigit() else said("{0} of {1}", kind, thing)
+
+    def unit(self, scene: Scene) -> str:
+        """The unit of its error."""
+        length, force = scene.units.length, scene.units.force
+        plain = {"omega": "1/s", "alpha": "1/s²", "slide arm": length}
+        group, _ = _group(scene, self.kind)
+        if self.kind in plain or group != "force":
+            return plain.get(self.kind) or length + {"velocity": "/s", "acceleration": "/s²"}[group]
+        return f"{force}·m" if "moment" in self.kind else force
+
+    @property
+    def worst_step(self) -> int:
+        """The step that contributes most, by its place in the drawn program."""
+        return max(range(len(self.shares)), key=self.shares.__getitem__)
+
+
+def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
+    """The expected error of every result, as the hand draws the construction at these scales."""
+    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips], dtype=int)))
+    domain = Gradients(int(starts[-1]))
+    owner = np.repeat(np.arange(len(hand.slips)), np.diff(starts))
+
+    def errors(step: int) -> list[Any]:
+        return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
+
+    def variance(parts: Sequence[Any]) -> Any:
+        return np.sum([domain.partials(part) ** 2 for part in parts], axis=0)
+
+    homes, largest = Planes(drawing).homes, largest_values(drawing, hand.values)
+    found = []
+    for reading, _, value in readings(drawing, hand.draw(domain, errors), domain):
+        if not reading.marks:
+            continue  # it is given, not drawn
+        squares = variance(value if isinstance(value, tuple) else (value,))
+        wanted = [drawing.drawn.wanted[position] for position in reading.marks]
+        of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, homes[wanted[-1]])
+        deviation = Deviation(_root(squares), _root(squares) / of_mm if of_mm else None)
+        shares = np.bincount(owner, squares, len(hand.slips))
+        found.append(Result(reading.kind, reading.of, deviation, _beside(drawing.scene, reading.kind, deviation.value,
+                                                                        largest), tuple(shares.tolist())))
+    return tuple(found)
+
+
+def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:
+    """What is read from drawn values: each reading with its marks and its value."""
+    wanted = [values[index] for index in drawing.drawn.wanted]
+    for reading in drawing.readings:
+        marks = [wanted[position] for position in reading.marks]
+        yield reading, marks, drawing.value(reading, marks, domain)
+
+
+def _of_mm(kind: str, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
+    """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
+
+    A moment is no vector of a plan.
+    """
+    if kind in RATES:
+        turning = scales.speed if kind == "omega" else scales.acceleration
+        return turning(panel) / math.dist(marks[0], marks[1])
+    if "moment" in kind and len(marks) > 1:
+        return None
+    measures = {"velocity": scales.speed, "acceleration": scales.acceleration, "arm": scales.of}
+    return measures.get(kind.split()[-1], scales.force)(panel)
+
+
+def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
+    """The largest value of each group of kinds; the places of slides' reactions are seen beside the mechanism."""
+    largest = {"place": extent(drawing.scene)}
+    for reading, _, value in readings(drawing, values, Gradients(0)):
+        group, arm = _group(drawing.scene, reading.kind)
+        size = math.hypot(*value) if isinstance(value, tuple) else abs(value)
+        largest[group] = max(largest.get(group, 0.0), arm * size)
+    return largest
+
+
+def _beside(scene: Scene, kind: str, error: float, largest: dict[str, float]) -> float | None:
+    """An error beside the largest value of its kind; nothing where there is none."""
+    group, arm = _group(scene, kind)
+    return arm * error / largest[group] if largest[group] > ROUNDING * arm * error else None
+
+
+def _group(scene: Scene, kind: str) -> tuple[str, float]:
+    """What a kind is seen beside, and at what arm.
+
+    Turnings count with what they make at the mechanism's extent, moments with the force that they are at that arm.
+    """
+    if kind in RATES:
+        return RATES[kind], extent(scene)
+    if kind.endswith(tuple(RATES.values())):
+        return kind.removeprefix("slide "), 1.0
+    if kind == "slide arm":
+        return "place", 1.0
+    return "force", float(metre(scene.units)) / extent(scene) if "moment" in kind else 1.0
+
+
+def _root(squares: Any) -> float:
+    return math.sqrt(float(np.sum(squares)))

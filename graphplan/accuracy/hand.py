@@ -1,0 +1,153 @@
+"""The hand: what each movement adds to the errors of what it reads, as independent slips of known standard deviation.
+
+| what is drawn                                        | slips                                                        |
+|------------------------------------------------------|--------------------------------------------------------------|
+| a point: given, met, laid off by scale or dividers   | in x and in y                                                |
+| a line through two points                            | across it at each of the two                                 |
+| a line by set squares, or in a given direction       | across it where it passes through its point, and its turning |
+| an opening                                           | its length                                                   |
+| an arc                                               | its needle, in x and in y                                    |
+| a trial point, picked on a line                      | across the line: along it any point will do                  |
+| the beginning of a plan                              | none: any place will do                                      |
+
+Points of the pose that coincide are one hole in the paper.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.kernel import kinds
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
+from graphplan.methods.construction import Construction
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.plans import Planes
+
+Slips = tuple[float, ...]
+Errors = Callable[[int], Sequence[Any]]  # the errors of a step, in a number domain
+
+
+@dataclass(frozen=True)
+class Hand:
+    """A program as a hand draws it: `values` are what it should be, `slips` the deviations of each step, in plan
+    units and, of turnings, as tangents."""
+
+    program: Program
+    values: Sequence[Any]
+    slips: Sequence[Slips]
+
+    def draw(self, domain: Domain, errors: Errors) -> list[Any]:
+        """Every step in a number domain, each with its errors, which the later ones then read."""
+        drawn: list[Any] = []
+        for step in self.program.steps:
+            drawn.append(self.made(step, domain, drawn, errors))
+        return drawn
+
+    def made(self, step: Step, domain: Domain, drawn: Sequence[Any], errors: Errors) -> Any:
+        """One step, from what it reads as it is drawn; it fails as its rule does."""
+        hole = self._holes.get(step.index, step.index)
+        if hole < step.index:
+            return drawn[hole]
+        exact = step.op.rule(domain, *[drawn[arg] for arg in step.args], **step.params)
+        return self.slipped(step, domain.whole(exact), errors(step.index))
+
+    @cached_property
+    def _holes(self) -> dict[int, int]:
+        """For each point of the pose the first one that lies where it does."""
+        first: dict[Any, int] = {}
+        return {step.index: first.setdefault(self.values[step.index], step.index)
+                for step in self.program.steps if step.op.name == "given"}
+
+    def slipped(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
+        """What a step makes, off by its errors."""
+        steady = self.values[step.index]
+        match step.op.gives, step.op.name:
+            case _, "begin":
+                return exact
+            case _, "pick":
+                a, b = _unit(self.values[step.args[0]])
+                return exact[0] + a * errors[0], exact[1] + b * errors[0]
+            case kinds.LINE, _:
+                return self._swung(step, exact, *errors)
+            case kinds.OPENING, _:
+                return (exact[0] + 2 * math.sqrt(steady[0]) * errors[0] + errors[0] * errors[0],)
+        return exact[0] + errors[0], exact[1] + errors[1], *exact[2:]
+
+    def _swung(self, step: Step, exact: Any, offset: Any, other: Any) -> Any:
+        """A line moved across by an offset at its first point, and turned by its second error.
+
+        With (a, b) turned to (a - t b, b + t a) about (x, y), c grows by t (b x - a y).
+        """
+        a, b, c = exact
+        (x, y), *rest = places(self.program, self.values, step)
+        line = self.values[step.index]
+        turn = (other - offset) / _along(line, (x, y), rest[0]) if rest else other
+        return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _size(exact) * offset
+
+
+def hand(drawing: Construction, scales: Scales, pencil: Pencil) -> Hand:
+    """The hand that draws a construction on its sheet with this pencil."""
+    return hand_at(drawing, scales.of, pencil)
+
+
+def hand_at(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
+    """The hand that draws a construction with this pencil; `unit` is the length of a millimetre on a plan, by name."""
+    homes = Planes(drawing).homes
+    slips = [_slips(drawing, step, unit(homes[step.index]), pencil) for step in drawing.drawn.steps]
+    return Hand(drawing.drawn, drawing.values, slips)
+
+
+def _slips(drawing: Construction, step: Step, unit: float, pencil: Pencil) -> Slips:
+    """The standard deviations of one step; `unit` is the plan's length of a millimetre."""
+    point, edge = unit * pencil.point, unit * pencil.edge
+    match step.op.gives, step.op.name:
+        case _, "begin":
+            return ()
+        case _, "pick":
+            return (point,)
+        case kinds.LINE, _:
+            laid_at_two = len(places(drawing.drawn, drawing.values, step)) > 1
+            return edge, edge if laid_at_two else pencil.slope
+        case kinds.OPENING, _:
+            return (unit * pencil.opening,)
+    return point, point
+
+
+def places(program: Program, values: Sequence[Any], step: Step) -> list[Any]:
+    """Where a line is laid: at the points that it is drawn through; at none, abreast of the middle of what it reads."""
+    points = {arg for arg in step.args if program.steps[arg].op.gives == kinds.POINT}
+    on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
+    through = [values[arg] for arg in on if arg in points]
+    return through[:2] or [_abreast(values[step.index], [values[arg] for arg in sorted(points)])]
+
+
+def _abreast(line: Any, points: Sequence[Any]) -> Any:
+    """The foot on a line of the middle of some points."""
+    x, y = (sum(point[i] for point in points) / len(points) for i in (0, 1))
+    a, b, c = line
+    off = (a * x + b * y + c) / (a * a + b * b)
+    return x - a * off, y - b * off
+
+
+def _unit(line: Any) -> tuple[float, float]:
+    """The unit normal of a line."""
+    size = math.hypot(line[0], line[1])
+    return line[0] / size, line[1] / size
+
+
+def _size(line: Any) -> Any:
+    """The length of a line's normal, without errors of first order."""
+    a, b = (getattr(part, "value", part) for part in line[:2])
+    return (a * a + b * b) ** 0.5
+
+
+def _along(line: Any, P: Any, Q: Any) -> float:
+    """How far Q lies beyond P the way a line runs."""
+    a, b = _unit(line)
+    return float(b * (Q[0] - P[0]) - a * (Q[1] - P[1]))

@@ -1,0 +1,155 @@
+"""Which form to draw: every form that there is, drawn and weighed by its operations and by its pencil error."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from graphplan.accuracy.drafted import Drafted, drafted, percent
+from graphplan.accuracy.pencil import Pencil
+from graphplan.errors import ConstructionError, GraphplanError, Refused
+from graphplan.kernel.kinds import FAILURES
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import METHODS
+from graphplan.methods.construct import construct as unchecked
+from graphplan.methods.construction import Construction
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+from graphplan.sheet.layout.paper import sheet_size
+
+Constructing = Callable[..., Construction]
+
+FORMS = ("", *METHODS)  # first the one that the pose chooses
+NAMES = {"": phrase("pose's own"), "auxiliary": phrase("auxiliary"), "trial": phrase("trial"), "poles": phrase("poles")}
+
+
+def called(methods: Sequence[str]) -> Said:
+    """What the form is called to which these methods lead."""
+    return said("every method") if tuple(methods) == FORMS else joined(NAMES[method]() for method in methods)
+
+
+def reason(refusal: GraphplanError) -> str:
+    """Why a form cannot be drawn, without what to do about it: there are other forms."""
+    match refusal:
+        case ConstructionError():
+            return said("step {0}: {1}", refusal.step, FAILURES[refusal.code][0])
+        case Refused():
+            return joined((refusal.what, refusal.why), ": ")
+    return str(refusal)
+
+
+@dataclass(frozen=True)
+class Form:
+    """One drawing, by all the methods that lead to it; or a method that does not, and why."""
+
+    methods: tuple[str, ...]
+    drafted: Drafted | None
+    refusal: GraphplanError | None = None
+
+    @property
+    def name(self) -> Said:
+        """What it is called."""
+        return called(self.methods)
+
+    @property
+    def told(self) -> Said:
+        """What speaks for it, or against it, in words."""
+        if self.drafted is None:
+            assert self.refusal is not None
+            return said("{0}: cannot be drawn: {1}", self.name, reason(self.refusal))
+        told = said("{0}: {1} operations, error {2}", self.name, self.drafted.operations, percent(self.drafted.error))
+        return arranged("{0} ({1})", told, self.drafted.worst.named) if self.drafted.worst else told
+
+
+@dataclass(frozen=True)
+class Preference:
+    """The form preferred, by the name of its method, and what is told of the choice: a line each."""
+
+    method: str
+    told: tuple[Said, ...] = ()
+
+
+def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
+          paper: str | None = None, construct: Constructing = unchecked) -> list[Form]:
+    """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
+    found: list[Form] = []
+    for method in FORMS:
+        try:
+            drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
+            same = next((form for form in found if form.drafted and _same(form.drafted.drawing, drawing)), None)
+            if same is not None:
+                found[found.index(same)] = replace(same, methods=(*same.methods, method))
+            else:
+                found.append(Form((method,), drafted(drawing, pencil, paper)))
+        except GraphplanError as refusal:
+            found.append(Form((method,), None, refusal))
+    return found
+
+
+def _same(one: Construction, other: Construction) -> bool:
+    """Whether two constructions are drawn by the same steps."""
+    return [step.key for step in one.drawn.steps] == [step.key for step in other.drawn.steps]
+
+
+def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",
+              strict: bool = False, inertia: str = "couple", paper: str | None = None,
+              construct: Constructing = unchecked) -> Preference:
+    """The form that is quickest, most accurate or, by the product of both beside the best of each, balanced.
+
+    Fails with `Refused` where a method is named as well, and as the pose's own form does where none can be drawn.
+    """
+    if prefer not in WEIGHED:
+        raise Refused(f"--prefer {prefer}", "nothing is weighed so", f"one of {', '.join(WEIGHED)}")
+    if method:
+        raise Refused(f"--prefer {prefer}", f"--method {method} names the form already", "leave out one of the two")
+    found = _on_one_paper(forms(scene, pencil, plan=plan, strict=strict, inertia=inertia, paper=paper,
+                                construct=construct))
+    if found[0].refusal is not None and all(form.refusal for form in found):
+        raise found[0].refusal
+    return weighed(found, prefer)
+
+
+def weighed(found: Sequence[Form], prefer: str) -> Preference:
+    """The best of some forms, of which one at least is drawn; of equals the first."""
+    drawn = [(form, form.drafted) for form in found if form.drafted is not None]
+    weigh, word = WEIGHED[prefer]
+    best, on = min(drawn, key=lambda pair: weigh(pair[1]))
+    head = said("{0} form preferred: {1}; weighed on {2}:", word(), best.name, on.paper)
+    return Preference(best.methods[0], (head, *(form.told for form in found)))
+
+
+def _on_one_paper(found: list[Form]) -> list[Form]:
+    """The same forms, all on the largest of their sheets: a larger one would make any form more accurate."""
+    papers = [form.drafted.paper for form in found if form.drafted is not None]
+    largest = max(papers, key=lambda paper: sheet_size(paper)[0] * sheet_size(paper)[1], default="")
+    return [_moved(form, form.drafted, largest) if form.drafted is not None else form for form in found]
+
+
+def _moved(form: Form, one: Drafted, paper: str) -> Form:
+    """A form drawn on another sheet, or why it cannot be."""
+    if one.paper == paper:
+        return form
+    try:
+        return Form(form.methods, drafted(one.drawing, one.pencil, paper))
+    except Refused as refusal:
+        return Form(form.methods, None, refusal)
+
+
+def _quick(one: Drafted) -> tuple[float, ...]:
+    """Fewest operations first."""
+    return one.operations, one.error
+
+
+def _accurate(one: Drafted) -> tuple[float, ...]:
+    """Smallest pencil error first."""
+    return one.error, one.operations
+
+
+def _balanced(one: Drafted) -> tuple[float, ...]:
+    """Smallest product of both first: so each counts beside the best of its kind."""
+    return one.operations * one.error, one.operations
+
+
+WEIGHED: dict[str, tuple[Callable[[Drafted], tuple[float, ...]], Phrase]] = {
+    "quick": (_quick, phrase("quick")), "accurate": (_accurate, phrase("accurate")),
+    "balanced": (_balanced, phrase("balanced")),
+}  # fmt: skip

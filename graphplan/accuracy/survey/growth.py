@@ -1,0 +1,72 @@
+"""Growth: the time of each stage of the work, and the number of steps, from four links to a thousand.
+
+Times are told in single poses of the four-link chain that the analytic solver solves in the same round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.survey.chains import chain
+from graphplan.accuracy.survey.timing import ROUNDS, ratios
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.planner import Planner
+from graphplan.solver import poses, solve
+
+LINKS = (4, 10, 20, 50, 100, 200, 500, 1000)
+POSES = 1000  # evaluated at once
+LONG = 50  # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
+STAGES = ("planning", "construction", "first replay", "pose in blocks", "pose by replay")
+UNIT = "four links solved"
+
+
+@dataclass(frozen=True)
+class Stage:
+    """One stage for a chain of so many links: its time, between quartiles, and the steps of the program."""
+
+    links: int
+    steps: int
+    stage: str
+    time: float
+    low: float
+    high: float
+
+
+def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS) -> Iterator[Stage]:
+    """Every stage of every chain; an even number of links each, four at least."""
+    four = poses.posed(chain(1), {}, {})
+    for count in links:
+        runs, steps = _runs(chain(count // 2 - 1))
+        times = ratios({**runs, UNIT: (lambda: solve(four), 1)}, UNIT, rounds)
+        for stage in runs:
+            low, middle, high = times[stage]
+            yield Stage(count, steps, stage, middle, low, high)
+
+
+def _runs(scene: Scene) -> tuple[dict[str, tuple[Callable[[], Any], int]], int]:
+    """What is done in each stage, for how many poses, and the steps of the program.
+
+    A replay is written down at its first pose: a copy of the construction has none yet.
+    """
+    drawing = construct(scene)
+    places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    many = {name: np.full(POSES, z) for name, z in places.items()}
+    drawing.evaluate(many)
+    drawing.replay(places)
+    done: tuple[tuple[Callable[[], Any], int], ...] = (
+        (lambda: Planner(Network(scene), "").plan(), 1), (lambda: construct(scene), 1),
+        (lambda: replace(drawing).replay(places), 1), (lambda: drawing.evaluate(many), POSES),
+        (lambda: drawing.replay(places), 1))
+    return dict(zip(STAGES, done, strict=True)), len(drawing.program) - drawing.program.givens
+
+
+def exponent(rows: Sequence[Stage], stage: str) -> float:
+    """The power of the number of links with which the time of a stage grows, fitted where chains are long."""
+    long = [row for row in rows if row.stage == stage and row.links >= LONG]
+    return float(np.polyfit(np.log([row.links for row in long]), np.log([row.time for row in long]), 1)[0])

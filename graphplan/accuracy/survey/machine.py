@@ -1,0 +1,268 @@
+"""The machine's board: time for a pose against error, of every form in every arithmetic, beside the analytic solver.
+
+Times are told in poses that LAPACK solves in the same run, many at once; errors are the largest in some sampled poses,
+beside the largest value of their kind, measured against what is true of these very binary numbers. The poses are the
+scene's own, enlarged by up to a fiftieth: as good a mechanism each, and other roundings.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property, partial
+from importlib.util import find_spec
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.preference import FORMS, called
+from graphplan.accuracy.survey.binary import binary, placed, truth
+from graphplan.accuracy.survey.stability import error_of
+from graphplan.accuracy.survey.timing import ratios
+from graphplan.errors import GraphplanError, Refused
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
+from graphplan.solver import Rates, poses, solve
+
+POSES = 4096  # at once
+SAMPLED = 5
+LARGER = 1.02
+DIGITS_IN_BITS = 164  # 30 digits, with bits to spare as `solve --digits` takes
+PLANS = ("orthogonal", "polar")
+
+SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
+COMPILED = "loop compiled by numba"
+
+Results = dict[str, dict[str, Any]]
+Key = tuple[str, str, str]  # form, plan and arithmetic
+
+
+@dataclass(frozen=True)
+class Measure:
+    """One form in one arithmetic: the time for a pose in LAPACK's, between quartiles, and the largest error; or why
+    there is none. The solver has no form and no plan."""
+
+    scene: str
+    form: str
+    plan: str
+    arithmetic: str
+    time: float | None
+    low: float | None
+    high: float | None
+    error: float | None
+    why: str = ""
+
+
+@dataclass(frozen=True)
+class Run:
+    """One arithmetic at work: what is called, for how many poses, and its results in the sampled pose of a number."""
+
+    call: Callable[[], Any]
+    count: int
+    read: Callable[[Any, int], Results]
+
+
+class Setting:
+    """A scene's motion in many poses, some of them sampled."""
+
+    def __init__(self, scene: Scene):
+        self.scene = binary(scene)
+        factors = np.linspace(1.0, LARGER, POSES)
+        self.points = {name: complex(*map(float, at)) * factors for name, at in self.scene.points.items()}
+        self.places = [round(k) for k in np.linspace(0, POSES - 1, SAMPLED)]
+
+    @cached_property
+    def sampled(self) -> list[dict[str, complex]]:
+        """The points in the sampled poses."""
+        return [{name: complex(z[k]) for name, z in self.points.items()} for k in self.places]
+
+    @cached_property
+    def truths(self) -> list[Rates]:
+        """What is true in the sampled poses."""
+        return [truth(placed(self.scene, pose)) for pose in self.sampled]
+
+    def given(self, drawing: Construction, lift: Callable[[float], Any]) -> list[dict[str, dict[str, Any]]]:
+        """The coordinates of the sampled poses, as a construction is given them."""
+        names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
+        return [{name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
+                for pose in self.sampled]
+
+
+def measures(scene: Scene, compiled: bool = True) -> Iterator[Measure]:
+    """Every form of a scene in every arithmetic, and the solver; without `compiled` numba is left out, and says so."""
+    setting = Setting(scene)
+    runs, errors = dict[Key, Run](), dict[Key, float]()
+    for key, made in _offered(setting, compiled):
+        try:
+            run = made()
+            errors[key] = _error(setting, run)
+            runs[key] = run
+        except GraphplanError as refusal:
+            yield Measure(scene.name, *key, None, None, None, None, refusal.lines[0])
+    times = ratios({key: (run.call, run.count) for key, run in runs.items()}, ("", "", LAPACK))
+    for key, (low, middle, high) in times.items():
+        yield Measure(scene.name, *key, middle, low, high, errors[key])
+
+
+def _error(setting: Setting, run: Run) -> float:
+    """The largest error in the sampled poses."""
+    found = run.call()
+    return max(error_of(run.read(found, j), true) for j, true in enumerate(setting.truths))
+
+
+def _offered(setting: Setting, compiled: bool) -> Iterator[tuple[Key, Callable[[], Run]]]:
+    """Everything that is measured: the solver's runs, then those of every form."""
+    for name, solver in SOLVERS.items():
+        yield ("", "", name), partial(solver, setting)
+    for form, plan, drawn in forms(setting.scene):
+        for name, arithmetic in ARITHMETICS.items():
+            if isinstance(drawn, GraphplanError):
+                yield (form, plan, name), partial(_refused, drawn)
+            elif name == COMPILED and not compiled:
+                yield (form, plan, name), partial(_refused, Refused(COMPILED, "compiling takes seconds a form",
+                                                                    "name the scene with --scenes"))
+            else:
+                yield (form, plan, name), partial(arithmetic, setting, drawn)
+
+
+def _refused(refusal: GraphplanError) -> Run:
+    raise refusal
+
+
+def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanError]]:
+    """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
+    for plan in PLANS:
+        found: list[tuple[list[str], Construction | GraphplanError]] = []
+        for method in FORMS:
+            one = _constructed(scene, method, plan)
+            same = next((names for names, other in found if _alike(one, other)), None)
+            if same is None:
+                found.append(([method], one))
+            else:
+                same.append(method)
+        for names, one in found:
+            yield called(names), plan, one
+
+
+def _constructed(scene: Scene, method: str, plan: str) -> Construction | GraphplanError:
+    try:
+        return construct(scene, method=method, plan=plan)
+    except GraphplanError as refusal:
+        return refusal
+
+
+def _alike(one: Construction | GraphplanError, other: Construction | GraphplanError) -> bool:
+    """Whether two methods lead to the same program, or to the same refusal."""
+    if isinstance(one, GraphplanError) or isinstance(other, GraphplanError):
+        return str(one) == str(other)
+    return [step.key for step in one.program.steps] == [step.key for step in other.program.steps]
+
+
+# ---- the construction's arithmetics ----------------------------------------------------------------------------
+
+
+def _walked(domain: Callable[[], Domain], lift: Callable[[float], Any], setting: Setting,
+            drawing: Construction) -> Run:
+    """The rules, one pose after the other."""
+    given = setting.given(drawing, lift)
+    return Run(lambda: [drawing.read(domain(), numbers) for numbers in given], SAMPLED, lambda found, j: found[j])
+
+
+def _replayed(setting: Setting, drawing: Construction) -> Run:
+    """The replay that was written down from the tape, one pose after the other."""
+    return Run(lambda: [drawing.replay(pose) for pose in setting.sampled], SAMPLED, lambda found, j: found[j])
+
+
+def _by_rules(setting: Setting, drawing: Construction) -> Run:
+    """The rules, on arrays of all poses."""
+    names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
+    given = {name: {"x": z.real.copy(), "y": z.imag.copy()} for name, z in setting.points.items() if name in names}
+    return Run(lambda: drawing.read(Arrays(), given), POSES, partial(_pairs_at, setting))
+
+
+def _pairs_at(setting: Setting, found: Results, j: int) -> Results:
+    """The vectors of one pose from pairs of arrays, or of numbers that are the same in all poses."""
+    k = setting.places[j]
+    return {kind: {name: tuple(float(np.broadcast_to(x, POSES)[k]) for x in found[kind][name])
+                   for name in found.get(kind, {})} for kind in ("velocity", "acceleration")}
+
+
+def _in_blocks(machine: bool, setting: Setting, drawing: Construction) -> Run:
+    """The tape on blocks of poses, by numpy or compiled."""
+    def read(found: Results, j: int) -> Results:
+        parts = {kind: {name: (z.real, z.imag) for name, z in found.get(kind, {}).items()}
+                 for kind in ("velocity", "acceleration")}
+        return _pairs_at(setting, parts, j)
+
+    return Run(lambda: drawing.evaluate(setting.points, machine=machine).results, POSES, read)
+
+
+def _enclosed(setting: Setting, drawing: Construction) -> Run:
+    """The rules between proven bounds; the error is that of the farther bound."""
+    if find_spec("flint") is None:
+        raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
+    from graphplan.kernel.numbers.enclosures import Enclosures, precision
+
+    given = setting.given(drawing, Fraction)
+
+    def call() -> list[Results]:
+        with precision(DIGITS_IN_BITS):
+            return [drawing.read(Enclosures(), numbers) for numbers in given]
+
+    return Run(call, SAMPLED, lambda found, j: _farthest(found[j], setting.truths[j]))
+
+
+def _farthest(found: Results, true: Rates) -> Results:
+    """The bounds of all vectors that are farther from the truth."""
+    return {kind: {name: tuple(x.middle + (x.error if x.middle >= t else -x.error)
+                               for x, t in zip(value, getattr(true, kind)[name], strict=True))
+                   for name, value in found.get(kind, {}).items()} for kind in ("velocity", "acceleration")}
+
+
+ARITHMETICS: dict[str, Callable[[Setting, Construction], Run]] = {
+    "rules, floats": partial(_walked, Floats, float),
+    "replay, floats": _replayed,
+    "rules, arrays": _by_rules,
+    "replay, arrays in blocks": partial(_in_blocks, False),
+    COMPILED: partial(_in_blocks, True),
+    "rules, enclosures of 30 digits": _enclosed,
+    "rules, fractions": partial(_walked, Fractions, Fraction),
+}
+
+
+# ---- the solver's -----------------------------------------------------------------------------------------------
+
+
+def _rates(setting: Setting, rates: Rates) -> Results:
+    """The solver's answer for what is asked."""
+    find = setting.scene.find
+    return {"velocity": {name: rates.velocity[name] for name in find.velocity},
+            "acceleration": {name: rates.acceleration[name] for name in find.acceleration}}
+
+
+def _solved(setting: Setting) -> Run:
+    scenes = [poses.posed(setting.scene, pose, {}) for pose in setting.sampled]
+    return Run(lambda: [solve(scene) for scene in scenes], SAMPLED, lambda found, j: _rates(setting, found[j]))
+
+
+def _solved_at_once(setting: Setting) -> Run:
+    scene = poses.posed(setting.scene, setting.points, {})
+    return Run(lambda: poses.solve(scene, POSES), POSES,
+               lambda found, j: _pairs_at(setting, _rates(setting, found), j))
+
+
+def _solved_exactly(setting: Setting) -> Run:
+    scenes = [placed(setting.scene, pose) for pose in setting.sampled]
+    return Run(lambda: [solve(scene, exact=True) for scene in scenes], SAMPLED,
+               lambda found, j: _rates(setting, found[j]))
+
+
+SOLVERS: dict[str, Callable[[Setting], Run]] = {
+    SOLVER: _solved, LAPACK: _solved_at_once, EXACT_SOLVER: _solved_exactly,
+}

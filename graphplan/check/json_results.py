@@ -1,0 +1,137 @@
+"""What `graphplan solve` prints: the results of a report as plain data, after the contract."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any
+
+from graphplan.check.compared import Compared
+from graphplan.check.report import Report
+from graphplan.errors import ConstructionError
+from graphplan.mechanism.model import Scene, Slide
+from graphplan.methods.results import balances
+
+if TYPE_CHECKING:
+    from graphplan.check.forces import Held
+
+
+def data(found: Report, each: bool = False) -> dict[str, Any]:
+    """What `graphplan solve` prints, with the bound of each number where that is asked for."""
+    scene = found.scene
+    return {
+        "title": scene.title,
+        "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
+        "points": _merged(found, scene.points, velocity="velocity", acceleration="acceleration"),
+        "links": _merged(found, scene.moving, omega="omega", alpha="alpha"),
+        "slides": _merged(found, (s.name for s in scene.slides), velocity="slide velocity",
+                               acceleration="slide acceleration"),
+        **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
+        **_forces(found),
+        **_protocol(found, each),
+    }
+
+
+def _protocol(found: Report, each: bool) -> dict[str, Any]:
+    """How it is drawn, how well that agrees, and in how many steps; only how well where no pencil could draw it."""
+    bounds = _plain(found.bounds) | ({"each": _each(found)} if each else {})
+    proof = {"check": _plain(found.check), "bounds": bounds, "arithmetic": found.arithmetic}
+    if found.fault is not None:
+        why = f"analytic solver alone, as nothing can be drawn in this pose: {found.fault.why}"
+        return {"method": {kind: [why] for kind in found.bounds}, **proof, "check": {}}
+    try:
+        steps = len(found.drawing.drawn) - found.drawing.drawn.givens
+    except ConstructionError:
+        return proof
+    return {"method": found.drawing.method, **proof, "steps": steps}
+
+
+def _plain(values: dict[Any, Any]) -> dict[Any, Any]:
+    return {kind: _number(value) if value else 0 for kind, value in values.items()}
+
+
+def _each(found: Report) -> dict[str, Any]:
+    """The bounds of all printed numbers, by kind and name; those of a vector's components as a list."""
+    def bounds(value: Any, vector: tuple[Compared, ...]) -> Any:
+        told = list(_plain(dict(enumerate(number.beside("bound") for number in vector))).values())
+        return told if isinstance(value, tuple) else told[0]
+
+    return {part: {name: bounds(value, found.numbers[part][name]) for name, value in named.items()}
+            for part, named in found.results.items() if part in found.numbers}
+
+
+def _forces(found: Report) -> dict[str, Any]:
+    """Balance and reactions; nothing where there are no loads."""
+    if found.held is None:
+        return {}
+    told = _balances(found, balances(found.scene, found.results))
+    entries: list[dict[str, Any]] = []
+    for point, link, pin in found.held.asked:
+        force = _number(found.results["reaction"][f"{link} at {point}"])
+        entries.append({"at": point, "on": link, "from": pin, "force": force})
+    for slide in found.scene.slides:
+        if slide.name in found.results.get("slide reaction", {}):
+            entries.append(_slide(found, slide))
+    kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
+    return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.held)}
+
+
+def _indeterminate(scene: Scene) -> dict[str, Any]:
+    """The pairs whose reactions are asked for, though equilibrium does not tell them."""
+    asked = scene.find.reactions
+    names = [name for name in scene.indeterminate_pairs
+             if asked is None or name in asked or name.rpartition(" at ")[2] in asked]
+    return {"indeterminate": names} if names else {}
+
+
+def _slide(found: Report, slide: Slide) -> dict[str, Any]:
+    """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
+    x, y = found.scene.points[slide.at]
+    arm = found.results.get("slide arm", {}).get(slide.name)
+    return {
+        "slide": slide.name, "on": slide.link, "from": slide.along,
+        "force": _number(found.results["slide reaction"][slide.name]),
+        "moment": _number(found.results["slide moment"][slide.name]),
+        **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
+    }
+
+
+def _friction(found: Report, held: Held) -> dict[str, Any]:
+    """The balances with friction and the efficiency: as drawn, in so many rounds, and where further rounds stand."""
+    if not held.rubbed:
+        return {}
+    told = {"balance": _balances(found, held.rubbed), "efficiency": _efficiency(held.efficiency),
+            "rounds": held.rounds}
+    if held.rough is None:
+        told["stands"] = {"balance": _balances(found, held.named(held.standing.balances)),
+                          "efficiency": _efficiency(held.standing.efficiency)}
+    return {"friction": told}
+
+
+def _efficiency(value: Any) -> Any:
+    return None if value is None else _number(value)
+
+
+def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:
+    """Readings of several kinds by name, as JSON takes them."""
+    table = {}
+    for name in names:
+        entry = {k: _number(found.results[kind][name]) for k, kind in kinds.items()
+                 if name in found.results.get(kind, {})}
+        if entry:
+            table[name] = entry
+    return table
+
+
+def _balances(found: Report, values: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Balances by name as JSON takes them: a moment on a link, or a force at a point of it."""
+    named = found.scene.loads.named_balances if found.scene.loads else {}
+    return [{"force": _number(value), "link": named[name].link, "at": named[name].at} if named[name].at
+            else {"moment": _number(value), "link": named[name].link} for name, value in values.items()]
+
+
+def _number(value: Any) -> Any:
+    """A number as JSON takes it: floats as they are, fractions as a string p/q."""
+    if isinstance(value, tuple):
+        return [_number(part) for part in value]
+    return str(value) if isinstance(value, Fraction) else value + 0.0

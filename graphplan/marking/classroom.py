@@ -1,0 +1,167 @@
+"""The drawings of a class: a line for each, what went wrong most often, and where."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from statistics import fmean
+from typing import Any
+
+from graphplan.marking.judge.findings import Called, called, complaint
+from graphplan.marking.judge.score import NOTHING, Score
+from graphplan.marking.judge.verdict import Judgement
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+
+NOT_JUDGED = phrase("Not judged")
+MISTAKEN: Mapping[str, Phrase] = {  # the kinds of mistake, as they are told of a class
+    "perpendicular missed": phrase("parallel instead of perpendicular"),
+    "parallel missed": phrase("perpendicular instead of parallel"),
+    "wrong line": phrase("parallel or perpendicular to the wrong line"),
+    "wrong point": phrase("drawn through the wrong point"),
+    "wrong crossing": phrase("the wrong lines crossed"),
+    "wrong side": phrase("the other of the two crossings"),
+    "mirrored figure": phrase("the figure is mirrored"),
+    "reversed": phrase("the vector has the wrong sense"),
+    "turned the wrong way": phrase("the vector is a quarter turn off"),
+    "wrong scale": phrase("a vector of the wrong length"),
+    "wrong start": phrase("laid off from the wrong point"),
+    "wrong vector": phrase("the wrong vector carried over"),
+    "wrong centre": phrase("struck about the wrong centre"),
+    "wrong opening": phrase("struck with the wrong opening"),
+    "exchanged coordinates": phrase("coordinates exchanged, or of the wrong sign"),
+}
+
+
+@dataclass(frozen=True)
+class Marked:
+    """A drawing that was judged."""
+
+    judgement: Judgement
+    score: Score
+
+    @property
+    def file(self) -> str:
+        """The name of its file."""
+        return self.judgement.name
+
+    @property
+    def guilty(self) -> Called | None:
+        """The step to blame for the first wrong one; None where no step is wrong."""
+        index = self.judgement.guilty
+        return None if index is None else called(self.judgement.drawing.drawn, index)
+
+    @property
+    def faultless(self) -> bool:
+        """Whether something could be judged, and no step is wrong."""
+        return self.score.total is not None and self.judgement.first is None
+
+
+@dataclass(frozen=True)
+class Unread:
+    """A file that could not be judged, and why."""
+
+    file: str
+    why: str
+
+
+@dataclass(frozen=True)
+class Row:
+    """A drawing in one line: its score, its first wrong step, if there is one, the verdict in words, its mistake."""
+
+    file: str
+    score: float | None
+    step: Called | None
+    told: Said
+    mistake: Said | None
+
+
+@dataclass(frozen=True)
+class Classroom:
+    """All drawings of a class, in the order of their files; each is judged by the construction that it follows."""
+
+    title: str
+    marked: tuple[Marked, ...]
+    unread: tuple[Unread, ...] = ()
+
+    @property
+    def rows(self) -> list[Row]:
+        """A line for every drawing."""
+        return [_row(one) for one in self.marked]
+
+    @property
+    def mean(self) -> float | None:
+        """The mean score; none where nothing could be judged."""
+        totals = [total for one in self.marked if (total := one.score.total) is not None]
+        return fmean(totals) if totals else None
+
+    @property
+    def histogram(self) -> dict[Called, int]:
+        """How many drawings have each step for their first wrong one, by what it is called, in drawing order."""
+        firsts = (first for one in self.marked if (first := one.guilty) is not None)
+        return dict(sorted(Counter(firsts).items()))
+
+    @property
+    def mistakes(self) -> dict[str, int]:
+        """How many drawings go wrong by each kind of mistake, the most frequent first."""
+        kinds = (first.kind for one in self.marked if (first := one.judgement.first) is not None and first.kind)
+        return dict(sorted(Counter(kinds).items(), key=lambda found: (-found[1], found[0])))
+
+    @property
+    def hardest(self) -> Called | None:
+        """The step that is wrong first most often, the earlier of equals."""
+        found = self.histogram
+        return max(found, key=found.__getitem__, default=None)  # the first of equals
+
+    def findings(self) -> Iterator[Said]:
+        """What there is to say of the class."""
+        faultless = sum(one.faultless for one in self.marked)
+        yield said("Drawings: {0}, of which {1} have no wrong step.", len(self.marked), faultless)
+        if self.mean is not None:
+            yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
+        if self.mistakes:
+            kind, count = next(iter(self.mistakes.items()))
+            yield said("Most frequent mistake: {0} ({1}).", mistaken(kind), count)
+        if self.hardest is not None:
+            yield said("Most frequent first wrong step: {0} ({1}).", self.hardest.told,
+                       self.histogram[self.hardest])
+        if self.unread:
+            yield arranged("{0}: {1}.", NOT_JUDGED(), len(self.unread))
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """The same as data."""
+        hardest = self.hardest
+        kind = next(iter(self.mistakes), None)
+        return {
+            "title": self.title,
+            "drawings": [{"file": row.file, "score": row.score, "first_wrong": row.step and row.step.number,
+                          "mistake": None if row.mistake is None else str(row.mistake)} for row in self.rows],
+            "not_judged": [{"file": one.file, "why": one.why} for one in self.unread],
+            "mean_score": self.mean,
+            "most_frequent_mistake": kind,
+            "most_frequent_first_wrong": hardest and hardest.number,
+            "mistakes": self.mistakes,
+            "first_wrong_steps": [{"step": step.number, "mark": step.mark, "drawings": count}
+                                  for step, count in self.histogram.items()],
+        }  # fmt: skip
+
+
+def mistaken(kind: str) -> Said:
+    """A kind of mistake in words."""
+    return MISTAKEN[kind]()
+
+
+def _row(one: Marked) -> Row:
+    first, total = one.judgement.first, one.score.total
+    if first is None:
+        return Row(one.file, total, None, said("no wrong step") if one.faultless else NOTHING(), None)
+    return Row(one.file, total, one.guilty, complaint(one.judgement, first), first.mistake)
+
+
+def lines(found: Classroom) -> Iterator[Said]:
+    """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
+    for row in found.rows:
+        points = [] if row.score is None else [said("{0} of 100", f"{row.score:.0f}")]
+        yield arranged("{0}: {1}", row.file, joined((*points, row.told), "; "))
+    yield from found.findings()

@@ -1,0 +1,1 @@
+"""Drawing programs' files, read as traces."""

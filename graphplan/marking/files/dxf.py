@@ -1,0 +1,205 @@
+"""Drawings in DXF, of any CAD program: points, lines and circles in mm, blocks opened, with their letters."""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.files.curves import bow, curved, full, pieces, reach
+from graphplan.marking.files.drawing import NO_DRAWING, drawing, same_paper
+from graphplan.marking.files.labels import Lettering, lettering
+from graphplan.marking.files.safe import MB, TRACES, Budget, contents
+from graphplan.marking.traces import Frame, Handed, Spot, Trace
+from graphplan.sheet.lettering.lettering import CAPS
+
+LARGEST = 8 * MB
+LINES, ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
+DEEPEST = 8  # blocks within each other
+OWN = "GRAPHPLAN"  # whose extended data our own sheets have
+BASE_LINES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
+STEPS = 48  # spots of an ellipse
+
+
+def read_dxf(path: Path, frames: Mapping[str, Frame], size: tuple[float, float] | None = None) -> Handed:
+    """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
+    frames say."""
+    document = _document(path)
+    try:
+        reader = _Reader(path, document)
+        reader.read(document.modelspace(), 0)
+        reader.endless()
+        known = frames if reader.own and same_paper(reader.size, size) else {}
+    except Refused:
+        raise
+    except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
+        raise Refused(f"{path}", f"the drawing is damaged ({_line(error)})", "save it anew") from None
+    return drawing(path, reader.traces, reader.words, known)
+
+
+def _document(path: Path) -> Any:
+    """The file as ezdxf has it, repaired where it must be."""
+    try:
+        import ezdxf
+        from ezdxf.filemanagement import dxf_stream_info
+        from ezdxf.recover import read
+    except ModuleNotFoundError:
+        raise Refused(f"{path}", "reading DXF needs ezdxf", "pip install 'graphplan[dxf]'") from None
+    data = _bounded(path, contents(path, LARGEST))
+    try:
+        coding = dxf_stream_info(io.StringIO(data.decode("latin-1"))).encoding
+        return ezdxf.read(io.StringIO(data.decode(coding, "surrogateescape")))
+    except Exception:  # whatever it stumbles over, recovery may not
+        try:
+            return read(io.BytesIO(data))[0]
+        except Exception as error:
+            raise Refused(f"{path}", f"the drawing is damaged ({_line(error)})", "save it anew") from None
+
+
+def _bounded(path: Path, data: bytes) -> bytes:
+    """The data, if they are a DXF as text that is read in a short time."""
+    if data.startswith(b"AutoCAD Binary DXF"):
+        raise Refused(f"{path}", "it is a binary DXF", "save it as DXF in text (ASCII)")
+    if b"SECTION" not in data[:4096]:
+        raise Refused(f"{path}", "this is no DXF", "give a DXF drawing")
+    for pattern, most, things in ((rb"\n", LINES, "lines"), (rb"\n *0\r?\n", ENTITIES, "entities")):
+        if sum(1 for _ in re.finditer(pattern, data)) > most:
+            raise Refused(f"{path}", f"it has more than {most} {things}", "a file of the drawing alone")
+    return data
+
+
+def _line(error: Exception) -> str:
+    """What an error says, short and on one line."""
+    return " ".join(f"{type(error).__name__} {error}".split())[:80]
+
+
+class _Reader:
+    """Reads one document, block by block."""
+
+    def __init__(self, path: Path, document: Any):
+        from ezdxf.units import MM, conversion_factor
+
+        self.path, self.own = path, OWN in document.appids
+        self.limits = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
+        self.mm = conversion_factor(document.units, MM) if document.units else 1.0
+        self.traces: list[Trace] = []
+        self.words: list[Lettering] = []
+        self.lines: list[tuple[complex, complex]] = []
+        self.budget = Budget(path, 2 * TRACES, "entities")
+        self.hidden = {layer.dxf.name for layer in document.layers if layer.is_off() or layer.is_frozen()}
+
+    def read(self, entities: Iterable[Any], depth: int) -> None:
+        """All that entities show, those of blocks among them."""
+        for entity in entities:
+            self.budget.spend()
+            layer = entity.dxf.get("layer", "0")
+            if layer in self.hidden or entity.dxf.get("invisible", 0):
+                continue
+            if entity.dxftype() == "INSERT":
+                self._block(entity, depth)
+            elif entity.dxftype() in ("TEXT", "MTEXT", "ATTRIB"):
+                self._lettered(entity)
+            elif not (self.own and layer.partition("-")[0] in NO_DRAWING):
+                found = list(self._traces(entity))
+                self.budget.spend(len(found))
+                self.traces += found
+
+    def _block(self, insert: Any, depth: int) -> None:
+        """A block where it is put, each of its copies."""
+        if depth >= DEEPEST:
+            raise Refused(f"{self.path}", f"blocks are nested more than {DEEPEST} deep", "explode the blocks")
+        self.budget.spend(max(0, insert.mcount - 1))
+        for copy in insert.multi_insert() if insert.mcount > 1 else [insert]:
+            self.read(copy.virtual_entities(), depth + 1)
+            self.read(copy.attribs, depth + 1)
+
+    def _traces(self, entity: Any) -> Iterator[Trace]:
+        """What an entity shows on paper."""
+        match entity.dxftype():
+            case "POINT":
+                yield Trace(POINT, (self._spot(entity.dxf.location),))
+            case "LINE":
+                yield from pieces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)])
+            case "XLINE" | "RAY":
+                start, along = entity.dxf.start, entity.dxf.unit_vector
+                self.lines.append((complex(start.x, start.y) * self.mm, complex(along.x, along.y)))
+            case "CIRCLE":
+                yield full(self._spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius * self.mm)
+            case "ARC":
+                yield self._arc(entity)
+            case "ELLIPSE":
+                ends = entity.dxf.start_param, entity.dxf.end_param
+                sweep = (ends[1] - ends[0]) % math.tau or math.tau
+                at = [ends[0] + sweep * i / STEPS for i in range(STEPS + 1)]
+                yield from _one(curved([self._spot(vertex) for vertex in entity.vertices(at)]))
+            case "LWPOLYLINE" | "POLYLINE":
+                yield from self._polyline(entity)
+            case "SPLINE":
+                self.budget.spend(len(entity.control_points) + len(entity.fit_points))
+                yield from _one(curved([self._spot(v) for v in entity.construction_tool().approximate(STEPS)]))
+
+    def _arc(self, arc: Any) -> Trace:
+        """An arc by its rim, also where it is seen from behind."""
+        centre, radius = self._spot(arc.ocs().to_wcs(arc.dxf.center)), arc.dxf.radius * self.mm
+        start, end = arc.dxf.start_angle, arc.dxf.end_angle
+        if arc.dxf.extrusion.z < 0:
+            start, end = 180 - end, 180 - start
+        return Trace(CIRCLE, bow(centre, radius, start, end))
+
+    def _polyline(self, polyline: Any) -> Iterator[Trace]:
+        """Straight pieces together, bulges as arcs."""
+        self.budget.spend(len(polyline))
+        chain: list[Spot] = []
+        for part in polyline.virtual_entities():
+            if part.dxftype() == "LINE":
+                ends = [self._spot(part.dxf.start), self._spot(part.dxf.end)]
+                if chain and chain[-1] != ends[0]:
+                    yield from pieces(chain)
+                    chain = []
+                chain += ends[len(chain) > 0 :]
+            elif part.dxftype() == "ARC":
+                yield self._arc(part)
+        yield from pieces(chain)
+
+    def endless(self) -> None:
+        """Lines without ends, as far as they lie beside the rest."""
+        spots = [spot for trace in self.traces for spot in trace.spots]
+        for at, along in self.lines:
+            if ends := reach(at, along, spots):
+                self.traces.append(Trace(LINE, ends))
+
+    def _lettered(self, entity: Any) -> None:
+        """Letters, by the place and the height that they have on paper."""
+        if entity.dxftype() == "MTEXT":
+            text, high = entity.plain_text().strip(), entity.dxf.char_height * self.mm
+            column, row = (entity.dxf.attachment_point - 1) % 3 / 2, (entity.dxf.attachment_point - 1) // 3
+            x, y = self._spot(entity.dxf.insert)
+            place, part = (x, y - high * (1 - row / 2)), column
+        else:
+            text, high = entity.plain_text().strip(), entity.dxf.height * self.mm
+            align, first, second = entity.get_placement()
+            part = next((part for name, part in BASE_LINES.items() if align.name.endswith(name)), 0.0)
+            x, y = self._spot(second if part and second is not None else first)
+            lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
+            place = x, y - lower * high
+        if high > 0 and "\n" not in text:
+            self.words.append(lettering(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """The width and height of the sheet, in mm, which stay when something is drawn beyond it."""
+        (left, bottom, *_), (right, top, *_) = self.limits
+        return (right - left) * self.mm, (top - bottom) * self.mm
+
+    def _spot(self, vector: Any) -> Spot:
+        return vector[0] * self.mm, vector[1] * self.mm
+
+
+def _one(found: Trace | None) -> Iterator[Trace]:
+    if found is not None:
+        yield found

@@ -1,0 +1,127 @@
+"""Drawings of GeoGebra (.ggb): points, lines and circles with their labels; a unit of its plane is a mm on the sheet.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.files.curves import bow, full, reach
+from graphplan.marking.files.drawing import drawing
+from graphplan.marking.files.geogebra_objects import CIRCLES, LINES, Objects, finite
+from graphplan.marking.files.geogebra_terms import Ray, Round, Vector
+from graphplan.marking.files.safe import MB, contents, tree, unpacked
+from graphplan.marking.spelling import greek, mark
+from graphplan.marking.traces import Handed, Spot, Trace
+
+LARGEST = 16 * MB
+MEMBER = "geogebra.xml"
+CAPTION = "3"  # the mode in which a caption is shown as label
+ARCS = {"CircleArc", "CircularArc", "Arc"}
+
+
+def read_ggb(path: Path) -> Handed:
+    """The things that are to be seen in a GeoGebra file, and hidden points that are named as marks."""
+    root = tree(path, unpacked(path, contents(path, LARGEST), MEMBER, LARGEST))
+    construction = root.find("construction")
+    if root.tag != "geogebra" or construction is None:
+        raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")
+    try:
+        return drawing(path, _traces(Objects(construction)), (), {})
+    except (ValueError, ArithmeticError) as error:
+        raise Refused(f"{path}", f"the drawing is damaged ({error})", "save it anew") from None
+
+
+def _traces(objects: Objects) -> list[Trace]:
+    """Points first, as lines without ends go as far as these do."""
+    points = [trace for label in objects.elements for trace in _point(objects, label)]
+    box = _corners([trace.spots[0] for trace in points])
+    return points + [trace for label in objects.elements for trace in _curve(objects, label, box)]
+
+
+def _corners(spots: list[Spot]) -> list[Spot]:
+    """The corners of what spots cover: no line without ends is seen farther."""
+    if not spots:
+        return []
+    xs, ys = zip(*spots, strict=True)
+    return [(x, y) for x in (min(xs), max(xs)) for y in (min(ys), max(ys))]
+
+
+def _point(objects: Objects, label: str) -> Iterator[Trace]:
+    element, value = objects.elements[label], objects.values.get(label)
+    name = mark(_letters(label, element))
+    if element.get("type") == "point" and isinstance(value, complex) and (name or _seen(element)):
+        yield Trace(POINT, ((value.real, value.imag),), name)
+
+
+def _curve(objects: Objects, label: str, box: list[Spot]) -> Iterator[Trace]:
+    """A line or circle that is seen; its label is a name where it is a Greek letter or a number, as others are given
+    by GeoGebra."""
+    element, value = objects.elements[label], objects.values.get(label)
+    if not _seen(element):
+        return
+    letters = mark(_letters(label, element))
+    name = letters if greek(letters) or letters.isdigit() else ""
+    if element.get("type") in CIRCLES:
+        yield from _round(objects, label, name)
+    elif element.get("type") in LINES:
+        ends = _ends(objects, label) or (reach(value.at, value.along, box) if isinstance(value, Ray) else None)
+        if ends is not None:
+            yield Trace(LINE, ends, name)
+
+
+def _round(objects: Objects, label: str, name: str) -> Iterator[Trace]:
+    """A circle, or as much of it as an arc has."""
+    command, inputs, _ = objects.commands.get(label, ("", [], 0))
+    circle = objects.values.get(label)
+    arc = [spot for term in inputs if (spot := objects.point(term)) is not None] if command in ARCS else []
+    if len(arc) == 3 and arc[0] != arc[1]:
+        centre, *ends = arc
+        angles = [math.degrees(math.atan2((end - centre).imag, (end - centre).real)) for end in ends]
+        yield Trace(CIRCLE, bow((centre.real, centre.imag), abs(ends[0] - centre), *angles), name)
+    elif isinstance(circle, Round) and circle.radius > 0:
+        found = full((circle.at.real, circle.at.imag), circle.radius)
+        yield Trace(found.kind, found.spots, name)
+
+
+def _ends(objects: Objects, label: str) -> tuple[Spot, Spot] | None:
+    """The ends of a segment, a polygon's side or a vector; None where there are none, or they are not known."""
+    command, inputs, place = objects.commands.get(label, ("", [], 0))
+    if command == "Polygon" and 0 < place <= len(inputs):
+        start, end = objects.point(inputs[place - 1]), objects.point(inputs[place % len(inputs)])
+    elif command in ("Segment", "Vector") and len(inputs) == 2:
+        start, end = objects.point(inputs[0]), objects.point(inputs[1])
+    else:
+        start, end = _vector(objects, label)
+    if start is None or end is None or start == end:
+        return None
+    return (start.real, start.imag), (end.real, end.imag)
+
+
+def _vector(objects: Objects, label: str) -> tuple[complex | None, complex | None]:
+    """The ends of a vector that begins where it is put, else at the origin."""
+    value, begin = objects.values.get(label), objects.elements[label].find("startPoint")
+    if not isinstance(value, Vector):
+        return None, None
+    start: complex | None = 0j
+    if begin is not None:
+        start = objects.point(begin.get("exp", "")) if "exp" in begin.attrib else complex(
+            finite(begin.get("x", "0")), finite(begin.get("y", "0")))
+    return start, None if start is None else start + value.z
+
+
+def _letters(label: str, element: Element) -> str:
+    """What stands beside an object: its caption where this is shown or the label is no mark's, else its label."""
+    mode, caption = element.find("labelMode"), element.find("caption")
+    said = "" if caption is None else caption.get("val", "")
+    captioned = not mark(label) or (mode is not None and mode.get("val") == CAPTION)
+    return said if captioned and mark(said) else label
+
+
+def _seen(element: Element) -> bool:
+    show = element.find("show")
+    return show is None or show.get("object") != "false"

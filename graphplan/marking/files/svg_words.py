@@ -1,0 +1,78 @@
+"""Texts of an SVG file as they stand on paper: their lines, subscripts among them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from xml.etree.ElementTree import Element
+
+from graphplan.marking.files.labels import Lettering, lettering
+from graphplan.marking.files.svg_looks import Look, Looks, inherited
+from graphplan.marking.files.svg_space import Affine, Window, length
+
+ANCHORS = {"middle": 0.5, "end": 1.0}
+SIZE = "16"  # px, unless it is said
+
+
+@dataclass
+class _Line:
+    """A line of letters while it is read; `drop` is how far the pen is below its base, in user units."""
+
+    at: complex
+    size: float
+    anchor: float
+    drop: float = 0.0
+    low: bool = False
+    letters: list[str] = field(default_factory=list)
+
+    def add(self, text: str | None, low: bool) -> None:
+        """Letters on the base line, or set lower."""
+        letters = " ".join((text or "").split())
+        if letters:
+            self.letters += ["_"] * (low and not self.low and bool(self.letters)) + [letters]
+            self.low = low
+
+
+def words(element: Element, onto: Affine, window: Window, look: Look, looks: Looks) -> Iterator[Lettering]:
+    """The lines of a text element; `look` is what it has inherited, and its own."""
+    size, anchor = length(look.get("font-size", SIZE)), ANCHORS.get(look.get("text-anchor", ""), 0.0)
+    line = _Line(_at(element, window, 0j), size, anchor)
+    line.add(element.text, False)
+    lines = [line]
+    for span in element:
+        if span.tag == "tspan":
+            _spanned(span, lines, window, look, looks, False)
+        lines[-1].add(span.tail, lines[-1].drop > 0)
+    for line in lines:
+        if line.letters:
+            yield lettering("".join(line.letters), onto(line.at), line.size * onto.size, line.anchor)
+
+
+def _spanned(span: Element, lines: list[_Line], window: Window, look: Look, looks: Looks,
+             low: bool) -> None:
+    """A span: it goes on in the line, lower or not, or begins another at its own place."""
+    own = looks.of(span)
+    look = inherited(own, look)
+    size = length(look.get("font-size", SIZE))
+    if span.get("x") is not None:
+        anchor = ANCHORS.get(look.get("text-anchor", ""), 0.0)
+        lines.append(_Line(_at(span, window, lines[-1].at), size, anchor))
+    else:
+        lines[-1].drop += length(_first(span.get("dy")), window.high)
+    line = lines[-1]
+    low = low or line.drop > 0.05 * line.size or own.get("baseline-shift", "").startswith(("sub", "-"))
+    line.add(span.text, low)
+    for inner in span:
+        if inner.tag == "tspan":
+            _spanned(inner, lines, window, look, looks, low)
+        lines[-1].add(inner.tail, low)
+
+
+def _at(element: Element, window: Window, otherwise: complex) -> complex:
+    x = length(_first(element.get("x")), window.wide, otherwise.real)
+    return complex(x, length(_first(element.get("y")), window.high, otherwise.imag))
+
+
+def _first(written: str | None) -> str | None:
+    """The first of several lengths: letters may have one each."""
+    return written.replace(",", " ").split()[0] if written and written.strip(" ,") else None

@@ -1,0 +1,62 @@
+"""Which step a label on a student's sheet speaks of: the letters of the sheet, or the number of the step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.program import Program
+from graphplan.marking.spelling import spelled
+from graphplan.marking.traces import Trace
+from graphplan.phrases import Said
+
+
+def labelled(program: Program, homes: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
+    """For each step that a trace is labelled as, the place of that trace; the first of several.
+
+    A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
+    """
+    names = _names(program, homes)
+    found: dict[int, int] = {}
+    for place, trace in enumerate(traces):
+        numbered = not sure(trace) and trace.label.isdigit()
+        step = _step(names, trace) if trace.label and not numbered else None
+        if step is not None and program.steps[step].op.gives == trace.kind:
+            found.setdefault(step, place)
+    return found
+
+
+def sure(trace: Trace) -> bool:
+    """Whether a label is certainly that of its trace: beside a line of a drawing may stand the letter of another."""
+    return trace.kind == POINT or bool(trace.panel)
+
+
+def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None:
+    """The step of a trace by its label as it stands, or else more loosely read."""
+    label = spelled(trace.label.replace(" ", ""))
+    for text in (label, label.replace("_", ""), label.replace("_", "").casefold()):
+        for panel in dict.fromkeys((trace.panel, "")):
+            if (trace.kind, panel, text) in names:
+                return names[trace.kind, panel, text]
+    return None
+
+
+def _names(program: Program, homes: Sequence[str]) -> dict[tuple[str, str, str], int]:
+    """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
+    found: dict[tuple[str, str, str], int] = {}
+    loose: dict[tuple[str, str, str], set[int]] = {}
+    for step in program.steps:
+        kind, text = step.op.gives, program.text(step.index)
+        letters = [spelled(step.name), "" if isinstance(text, Said) else spelled(text)]
+        number = str(program.number(step.index))
+        for panel in (homes[step.index], ""):
+            for letter in filter(None, letters):
+                found.setdefault((kind, panel, letter), step.index)
+                for less in (letter.replace("_", ""), letter.replace("_", "").casefold()):
+                    loose.setdefault((kind, panel, less), set()).add(step.index)
+            for called in (number, f"#{number}", f"{kind}{number}") if step.op.name != "given" else ():
+                loose.setdefault((kind, panel, called), set()).add(step.index)
+    for spelling, steps in loose.items():
+        if len(steps) == 1:  # what may be said of two is said of neither
+            found.setdefault(spelling, *steps)
+    return found

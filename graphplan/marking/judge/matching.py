@@ -1,0 +1,301 @@
+"""One way through a construction beside a student's drawing: every step finds its trace, and is judged by it.
+
+Two drawings are kept: the student's own, which goes on from every mark as it was drawn, and the mended one, which
+goes on from where a wrong mark should have been. A later mark is right if it follows from either; so one slip is
+held against one step.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphplan.errors import Undrawable
+from graphplan.kernel.kinds import LINE, OPENING, POINT
+from graphplan.kernel.program import Step
+from graphplan.marking.judge.evidence import ASSUMED, FAINT, FILED, GONE, SHARED, THERE, weighed
+from graphplan.marking.judge.image_search import Sought, Way
+from graphplan.marking.judge.labels import sure
+from graphplan.marking.judge.mistakes import Slip
+from graphplan.marking.judge.student_sheet import Board, Deviation, plain
+from graphplan.marking.judge.unlabelled import Loose
+from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
+from graphplan.marking.traces import Trace
+
+NEAREST = 6  # how many loose traces are tried as what a step should make
+REACH = 25.0  # standard deviations of a point within which a picture is searched
+FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
+ASIDE = 3.0  # mm that a line may end before a point that it goes through
+UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
+ASTRAY = 60.0  # mm: no mark is sought further off
+
+
+@dataclass(frozen=True)
+class Rules:
+    """By what is judged: how seldom a faultless mark may be called wrong, and what the drawing could show."""
+
+    chance: float
+    shows: frozenset[str]
+
+
+@dataclass(frozen=True)
+class Taken:
+    """What a step was taken for: its state, where it should have been, and the trace, or the slip that it must have
+    been, with how far off that is; and what that speaks for the way."""
+
+    step: Step
+    state: str
+    expected: Any
+    place: int | None = None
+    deviation: Deviation | None = None
+    slip: Slip | None = None
+    weight: float = 0.0
+
+
+class Walk:
+    """The drawing as far as it has been gone through."""
+
+    def __init__(self, board: Board, rules: Rules, traces: list[Trace], labels: Mapping[int, int], loose: Loose,
+                 sought: Sought | None = None):
+        self.board, self.rules, self.traces, self.labels, self.loose = board, rules, traces, labels, loose
+        self.sought = sought  # what is found by seeking it is added to the traces
+        self.own: list[Any] = []
+        self.mended: list[Any] = []
+        self.taken: list[Taken] = []
+        self.used: set[int] = set()
+        self.over: set[int] = set()  # what is drawn over print
+        self.erred = False
+        self.found: Mapping[int, int | Slip] = {}  # what some steps are taken for
+        self.dead: set[int] = set()  # the steps that nobody could draw from what is there
+        self.weight = 0.0  # what speaks for this way
+        self._now: list[tuple[Any, Sequence[Any]]] | None = None  # what the next step should make
+
+    def fork(self) -> Walk:
+        """Another one that goes on from here."""
+        return self.moved(self)
+
+    def moved(self, other: Walk) -> Walk:
+        """Another one that goes on from here in the frames of the other, which differ only in plans to come."""
+        moved = Walk(other.board, self.rules, self.traces, self.labels, other.loose, other.sought)
+        moved.own, moved.mended = list(self.own), list(self.mended)
+        moved.taken, moved.erred = list(self.taken), self.erred
+        moved.used, moved.over = set(self.used), set(self.over)
+        moved.weight, moved.found, moved.dead = self.weight, self.found, set(self.dead)
+        return moved
+
+    @property
+    def steps(self) -> Sequence[Step]:
+        return self.board.drawing.drawn.steps
+
+    @property
+    def next(self) -> Step:
+        return self.steps[len(self.own)]
+
+    def through(self, found: Mapping[int, int | Slip] | None = None) -> Walk:
+        """Go to the end, taking every trace that fits, what steps were found to be mistaken for, and no others."""
+        return self.until(len(self.steps), found)
+
+    def until(self, end: int, found: Mapping[int, int | Slip] | None = None) -> Walk:
+        """Go on so before the step of this place."""
+        self.found = found or {}
+        while len(self.own) < end:
+            self.go(self.found.get(len(self.own)))
+        return self
+
+    def go(self, found: int | Slip | None) -> Walk:
+        """Take the next step for what it was found to be, else for what fits it."""
+        if isinstance(found, Slip):
+            return self.slip(found)
+        place = self.find() if found is None else found
+        return self.take(None if place == UNMARKED else place)
+
+    def repeat(self, other: Walk) -> bool:
+        """Take the next step as another way did, if nothing differs that it follows from and its trace is free."""
+        step, taken = self.next, other.taken[len(self.own)]
+        if any(mine[arg] is not its[arg] for arg in step.args
+               for mine, its in ((self.own, other.own), (self.mended, other.mended))):
+            return False
+        if taken.place is not None and (
+                taken.weight == SHARED or not self.used.isdisjoint({taken.place, *self.loose.twins(taken.place)})):
+            return False
+        self.dead |= other.dead & {step.index}
+        self._go_on(taken, other.own[step.index], other.mended[step.index])
+        return True
+
+    # ---- one step --------------------------------------------------------------------------------------------------
+
+    def find(self) -> int | None:
+        """The trace of the next step: the one that bears its label, else a loose one that fits."""
+        step = self.next
+        lettered = self.labels.get(step.index)
+        if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
+            return lettered
+        if step.op.name == "begin" and self.sought:
+            return None  # it is printed
+        for expected, drawn in self._asked(step):
+            best = self._drawn(step, expected, drawn)
+            if best is not None:
+                return best
+        return lettered
+
+    def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+        """What is drawn about an expected value, and fits it."""
+        best = self._fitting(step, expected, drawn)
+        if not self.sought or step.op.gives == OPENING:
+            return best
+        if best is None:
+            best = self._seeking(step, expected, drawn, self.sought)
+        if best is None or self.sought.share(step, expected, self._way(drawn)) is not None:
+            return best
+        off = self.deviation(step, expected, best, drawn)  # where most is printed already, pieces tell little
+        if step.op.gives != LINE and off.square < len(off.off) + 1:
+            return best
+        self.over.add(best)
+        return None
+
+    def _fits(self, step: Step, place: int) -> bool:
+        """Whether a trace is as a step should have made it."""
+        return any(self.deviation(step, expected, place, drawn).fits(self.rules.chance)
+                   for expected, drawn in self._asked(step))
+
+    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any], sought: Sought) -> int | None:
+        """What a picture shows about an expected value, if it fits it."""
+        if step.op.name == "given" or step.op.gives == OPENING:
+            return None
+        trace = sought.trace(step, expected, self._way(drawn), REACH * self.board.pencil.point)
+        if trace is None or not self.board.deviation(
+                step, expected, self.board.spots(step.index, trace), drawn).fits(self.rules.chance):
+            return None
+        if trace not in self.traces:
+            self.traces.append(trace)
+        return self.traces.index(trace)
+
+    def _way(self, drawn: Sequence[Any]) -> Way:
+        """What is known of the marks to come."""
+        return Way(drawn, {index: one for index, one in self.found.items() if isinstance(one, Slip)})
+
+    def _fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+        """The loose trace that fits an expected value best, if any does."""
+        places, off = self.loose.near(step.op.gives, self.board.homes[step.index], plain(expected))
+        best: tuple[bool, bool, float, int] | None = None
+        for k in np.argsort(off)[:NEAREST] if len(places) else ():
+            if not off[k] < ASTRAY:
+                break
+            deviation = self.deviation(step, expected, places[k], drawn)
+            if deviation.fits(self.rules.chance):  # rather one that is free yet, and that reaches its marks
+                found = places[k] in self.used, not self._reaches(step, places[k]), deviation.square, places[k]
+                best = min(best, found) if best else found
+            elif off[k] > FARTHER * deviation.tolerance(self.rules.chance):
+                break
+        return best[3] if best else None
+
+    def _reaches(self, step: Step, place: int) -> bool:
+        """Whether a line was drawn as far as to the points that it goes through."""
+        if step.op.gives != LINE:
+            return True
+        board, frame = self.board, self.board.fits[self.board.homes[step.index]].frame
+        start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
+        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / board.mm(board.homes[step.index])
+        on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
+        along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
+        return all(-spare <= far <= abs(end - start) + spare for far in along)
+
+    def _asked(self, step: Step) -> Sequence[tuple[Any, Sequence[Any]]]:
+        """What the next step should make of the student's own marks, and once they erred, of the mended ones."""
+        if self._now is None:
+            self._now = []
+            for drawn in (self.own, self.mended) if self.erred else (self.own,):
+                with suppress(Undrawable):
+                    self._now.append((self.board.expected(step, drawn), drawn))
+        return self._now
+
+    def deviation(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Deviation:
+        """How far a trace is from what is expected."""
+        return self.board.deviation(step, expected, self.board.spots(step.index, self.traces[place]), drawn)
+
+    def take(self, place: int | None) -> Walk:
+        """Take a trace, or none, for what the next step made, and judge it."""
+        step = self.next
+        asked = list(self._asked(step)) or [(self.board.drawing.values[step.index], self.board.drawing.values)]
+        own, mended = asked[0][0], asked[-1][0]
+        if place is None:
+            shown = step.op.gives in self.rules.shows and step.op.name not in ("given", "begin")
+            return self._go_on(Taken(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
+        spots = self.board.spots(step.index, self.traces[place])
+        found = [self.board.deviation(step, value, spots, drawn) for value, drawn in asked]
+        fits = [step.op.name == "begin" or deviation.fits(self.rules.chance) for deviation in found]
+        state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
+        by = fits.index(True) if any(fits) else 0
+        seen = self.board.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
+        weight = self._weighed(place, found[by] if any(fits) else None, seen)
+        if not (any(fits) or self.labels.get(step.index) == place or all(map(self._clearly, found))):
+            weight = -math.inf
+        return self._go_on(Taken(step, state, asked[by][0], place, found[by], weight=weight),
+                           seen, seen if fits[-1] else mended)
+
+    def slip(self, slip: Slip) -> Walk:
+        """Take a slip for what was done at the next step: what is drawn where it leads, or a mark that is not to be
+        seen, but from which others follow."""
+        step, asked = self.next, self._asked(self.next)
+        made = self.board.hand.slipped(step, slip.value(self.board.domain, self.own), self.board.errors(step.index))
+        mended = asked[0][0] if asked else made
+        place = self._drawn(step, made, self.own)
+        if place is None:
+            weight = self._missed(made) + ASSUMED
+            unclear = step.op.gives == POINT and not self._clearly(
+                self.board.deviation(step, mended, [made], self.own))
+            if unclear or not self.dead.isdisjoint(step.args):
+                weight = -math.inf
+            return self._go_on(Taken(step, WRONG, mended, slip=slip, weight=weight), made, mended)
+        spots = self.board.spots(step.index, self.traces[place])
+        off = self.board.deviation(step, mended, spots, self.own)
+        seen = self.board.seen(step, made, spots, steady=not self.traces[place].blur)
+        weight = self._weighed(place, self.board.deviation(step, made, spots, self.own), seen) or ASSUMED
+        if not self._clearly(off):
+            weight = -math.inf
+        return self._go_on(Taken(step, WRONG, mended, place, off, slip, weight), seen, mended)
+
+    def _weighed(self, place: int, deviation: Deviation | None, seen: Any) -> float:
+        """What a trace speaks for this way; one that is wrong is as far off as it is."""
+        kind = self.traces[place].kind
+        if not self.used.isdisjoint({place, *self.loose.twins(place)}):
+            return SHARED
+        if not self.sought:
+            return weighed(FILED[kind], GONE[kind], deviation)
+        share = self.sought.share(self.next, seen, self._way(self.own)) if kind != POINT else None
+        most = (THERE if place < self.loose.seen else FAINT)[kind]
+        return weighed(most, GONE[kind], deviation, 1.0 if share is None else share)
+
+    def _clearly(self, deviation: Deviation) -> bool:
+        """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
+        return deviation.size > CLEARLY * deviation.tolerance(self.rules.chance)
+
+    def _missed(self, expected: Any) -> float:
+        """What it speaks against this way that nothing is found."""
+        step = self.next
+        asked = self._asked(step)
+        if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
+            self.dead.add(step.index)
+            return 0.0
+        if step.op.name == "given" or step.op.gives == OPENING or (step.op.name == "begin" and self.sought):
+            return 0.0
+        if self.sought:
+            if self.sought.beyond(step, expected):
+                self.dead.add(step.index)
+            return 0.0 if self.sought.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
+        return GONE[step.op.gives] if step.op.gives in self.rules.shows else 0.0
+
+    def _go_on(self, taken: Taken, own: Any, mended: Any) -> Walk:
+        self.taken.append(taken)
+        self.own.append(own)
+        self.mended.append(mended)
+        self.erred = self.erred or taken.state == WRONG
+        if taken.place is not None:
+            self.used |= {taken.place} | self.loose.twins(taken.place)
+        self.weight, self._now = self.weight + taken.weight, None
+        return self

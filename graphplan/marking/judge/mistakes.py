@@ -1,0 +1,229 @@
+"""The mistakes that are made on drawing boards: each is a step that is drawn in the place of another.
+
+A mistake of the table says at which operations it can be made, and which slips it is. A slip is a step like any other:
+another operation, other marks read, a vector turned or too long; so its rule gives what it makes, in any domain of
+numbers. The same table finds the mistake that a drawing shows, and seeds the drawings that the finding is tested on.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
+from graphplan.phrases import Said, said
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.plates.laid_off import root
+
+FACTORS = (2.0, 0.5, 10.0, 0.1, 1.5)  # the scales that are mistaken for each other
+
+
+@dataclass(frozen=True)
+class Slip:
+    """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, or the radius, is
+    multiplied by `factor`; a point is mirrored in the line of two marks."""
+
+    kind: str
+    told: Said
+    step: Step
+    factor: complex = 1.0
+    mirror: tuple[int, int] | None = None
+
+    def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
+        """What it makes of these marks; fails as the step's rule does."""
+        made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
+        if self.mirror:
+            return _mirrored(domain, made, *(values[arg] for arg in self.mirror))
+        if self.factor == 1.0:
+            return made
+        if self.step.op.gives == CIRCLE:
+            return *made[:2], made[2] * abs(self.factor) ** 2
+        start = values[_root(self.step)]
+        dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real, self.factor.imag
+        return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
+
+
+def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
+    """A point on the other side of the line PQ."""
+    u, w = (Q[0] - P[0], Q[1] - P[1]), (point[0] - P[0], point[1] - P[1])
+    size = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
+    along = (u[0] * w[0] + u[1] * w[1]) / size
+    return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
+
+
+def _root(step: Step) -> int:
+    start = root(step)
+    assert start is not None, f"{step.op.name} lays nothing off"
+    return start
+
+
+@dataclass(frozen=True)
+class Occasion:
+    """A step of a program, where a mistake can be made; `homes` is the plan of every step."""
+
+    program: Program
+    step: Step
+    homes: Sequence[str]
+
+    def text(self, place: int) -> str:
+        """What the step reads at a place, by its letters."""
+        return self.program.text(self.step.args[place])
+
+    def instead(self, place: int, kind: str) -> Iterator[tuple[str, Step]]:
+        """The step with another mark of the same plan read at a place, by the name of that mark."""
+        step, home = self.step, self.homes[self.step.args[place]]
+        for other in self.program.steps[:step.index]:
+            if other.op.gives == kind and self.homes[other.index] == home and other.index not in step.args:
+                args = (*step.args[:place], other.index, *step.args[place + 1:])
+                yield self.program.text(other.index), replace(step, args=args)
+
+
+Rule = Callable[[Occasion], Iterator[Slip]]
+
+
+@dataclass(frozen=True)
+class Mistake:
+    """One kind of mistake: at which operations it can be made, and as which slips."""
+
+    kind: str
+    ops: frozenset[str]
+    rule: Rule
+
+
+MISTAKES: dict[str, Mistake] = {}
+
+
+def mistake(kind: str, *ops: str) -> Callable[[Rule], Rule]:
+    """Enter the decorated rule in the table."""
+
+    def enter(rule: Rule) -> Rule:
+        MISTAKES[kind] = Mistake(kind, frozenset(ops), rule)
+        return rule
+
+    return enter
+
+
+def slips(program: Program, step: Step, homes: Sequence[str]) -> Iterator[Slip]:
+    """All the slips of the table that can be made at a step."""
+    for entry in MISTAKES.values():
+        if step.op.name in entry.ops:
+            yield from entry.rule(Occasion(program, step, homes))
+
+
+LAID_OFF = ("transfer", "step_off", "step_across", "quarter", "lay_along", "lay_off", "balance", "couple",
+            "inertia_pair", "touch")
+ROUND = {"left": "right", "right": "left", "on": "back", "back": "on"}
+
+
+@mistake("perpendicular missed", "perpendicular")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    yield Slip("perpendicular missed", said("parallel to {0}, not perpendicular", occasion.text(0)),
+               replace(occasion.step, op=TABLE["parallel"]))
+
+
+@mistake("parallel missed", "parallel")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    yield Slip("parallel missed", said("perpendicular to {0}, not parallel", occasion.text(0)),
+               replace(occasion.step, op=TABLE["perpendicular"]))
+
+
+@mistake("wrong side", "circles_meet", "line_meets_circle")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    params = {name: ROUND[way] for name, way in occasion.step.params.items()}
+    yield Slip("wrong side", said("the other of the two crossings"), replace(occasion.step, params=params))
+
+
+@mistake("mirrored figure", "meet")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    """The third corner of a similar figure, on the other side of the line of two."""
+    lines = [occasion.program.steps[arg] for arg in occasion.step.args]
+    through = [line.args[-1] for line in lines if line.op.name in ("parallel", "perpendicular")]
+    if len(set(through)) == 2 and lines[0].op.name == lines[1].op.name:
+        yield Slip("mirrored figure", said("the figure is mirrored"), occasion.step, mirror=(through[0], through[1]))
+
+
+@mistake("reversed", *LAID_OFF)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    why = occasion.step.why.key if isinstance(occasion.step.why, Said) else ""
+    if why.startswith("the relative normal acceleration"):
+        told = said("the normal acceleration points away from the centre")
+    elif why.startswith("the Coriolis acceleration"):
+        told = said("the Coriolis acceleration is reversed")
+    else:
+        told = said("the vector has the wrong sense")
+    yield Slip("reversed", told, occasion.step, -1.0)
+
+
+@mistake("turned the wrong way", *LAID_OFF)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for factor in (1j, -1j):
+        yield Slip("turned the wrong way", said("the vector is a quarter turn off"), occasion.step, factor)
+
+
+@mistake("wrong scale", *LAID_OFF)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for factor in FACTORS:
+        told = said("the vector is {0} times as long as it should be", digits(factor, 2))
+        yield Slip("wrong scale", told, occasion.step, factor)
+
+
+@mistake("wrong line", "parallel", "perpendicular")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for other, step in occasion.instead(0, LINE):
+        told = (said("parallel to {0} instead of {1}", other, occasion.text(0)) if step.op.name == "parallel"
+                else said("perpendicular to {0} instead of {1}", other, occasion.text(0)))
+        yield Slip("wrong line", told, step)
+
+
+@mistake("wrong point", "parallel", "perpendicular", "line", "foot")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for place, kind in enumerate(occasion.step.op.reads):
+        for other, step in occasion.instead(place, POINT) if kind == POINT else ():
+            yield Slip("wrong point", said("drawn through {0} instead of {1}", other, occasion.text(place)), step)
+
+
+@mistake("wrong crossing", "meet", "line_meets_circle", "circles_meet")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for place, kind in enumerate(occasion.step.op.reads):
+        for other, step in occasion.instead(place, kind):
+            yield Slip("wrong crossing", said("marked on {0} instead of {1}", other, occasion.text(place)), step)
+
+
+@mistake("wrong start", *LAID_OFF)
+def _(occasion: Occasion) -> Iterator[Slip]:
+    place = occasion.step.args.index(_root(occasion.step))
+    for other, step in occasion.instead(place, POINT):
+        yield Slip("wrong start", said("laid off from {0} instead of {1}", other, occasion.text(place)), step)
+
+
+@mistake("wrong vector", "transfer", "quarter", "midpoint")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for place in (0, 1):
+        for other, step in occasion.instead(place, POINT):
+            yield Slip("wrong vector", said("taken from {0} instead of {1}", other, occasion.text(place)), step)
+
+
+@mistake("wrong centre", "circle")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for other, step in occasion.instead(0, POINT):
+        yield Slip("wrong centre", said("struck about {0} instead of {1}", other, occasion.text(0)), step)
+
+
+@mistake("wrong opening", "circle")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    for factor in (2.0, 0.5):
+        told = said("the radius is {0} times as large as it should be", digits(factor, 2))
+        yield Slip("wrong opening", told, occasion.step, factor)
+    for other, step in occasion.instead(1, OPENING):
+        yield Slip("wrong opening", said("struck with {0} instead of {1}", other, occasion.text(1)), step)
+
+
+@mistake("exchanged coordinates", "given")
+def _(occasion: Occasion) -> Iterator[Slip]:
+    x, y = (occasion.step.params[name] for name in "xy")
+    for told, (u, v) in ((said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
+                         (said("y has the wrong sign"), (x, -y))):
+        yield Slip("exchanged coordinates", told, replace(occasion.step, params={"x": u, "y": v}))

@@ -1,0 +1,262 @@
+"""Where the plans of a construction lie on a student's sheet, whatever its origin, direction and scale.
+
+The mechanism is laid on its given points. Any other plan begins where its beginning is, and is taken to run and to be
+scaled as on the task's sheet, unless so many of its steps would then be wrong that another frame explains them better.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations, permutations
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.judge.fits import SIGMAS, Fit, Pair, best
+from graphplan.marking.judge.matching import Walk
+from graphplan.marking.judge.student_sheet import plain
+from graphplan.marking.traces import Frame, Handed, Spot
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates.laid_off import root
+from graphplan.sheet.plates.plans import Planes
+
+SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
+RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
+VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one origin; how many heaps are looked at
+ORIGINS = 5  # how many origins are tried
+BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
+RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
+
+
+@dataclass(frozen=True)
+class Rival:
+    """A frame that a plan may have, and what it weighs that it is not the expected one."""
+
+    fit: Fit
+    weight: float
+
+
+class Register:
+    """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
+
+    def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
+                 labels: Mapping[int, int]):
+        self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
+        self.homes, self.labels, self.taken = Planes(drawing).homes, labels, set(labels.values())
+        self.values: tuple[Sequence[Any], ...] = (drawing.values,)
+
+    @property
+    def panels(self) -> list[str]:
+        return Planes(self.drawing).panels
+
+    def mechanism(self) -> Fit:
+        """Where the mechanism lies; refused where its points are not found."""
+        if MECHANISM in self.handed.frames:
+            return Fit(self.handed.frames[MECHANISM])
+        steps = self.drawing.drawn.steps
+        given = [pair for index, pair in self._pairs(MECHANISM) if steps[index].op.name == "given"]
+        found = best(given, self.pencil.point) or best([pair for _, pair in self._pairs(MECHANISM)], self.pencil.point)
+        found = found or self._sought([complex(*self.drawing.values[step.index]) for step in steps[:len(
+            self.drawing.scene.points)] if step.op.name == "given"])
+        if found is None:
+            names = ", ".join(list(self.drawing.scene.points)[:4])
+            raise Refused(f"{self.handed.name}: mechanism", "not two of its points are there, so it lies nowhere",
+                          f"label them, as {names}")
+        return found
+
+    def follow(self, walk: Walk) -> None:
+        """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""
+        self.taken |= walk.used
+        self.values = self.drawing.values, [plain(value) for value in walk.own]
+
+    def expected(self, panel: str, mechanism: Fit) -> list[Fit]:
+        """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
+        no mark is labelled, the frames that loose marks agree on."""
+        if panel in self.handed.frames:
+            return [Fit(self.handed.frames[panel])]
+        unit = mechanism.frame.unit * float(self.scales.multiples.get(panel, 1))
+        pairs = self._pairs(panel)
+        begins = [pair for index, pair in pairs if self.drawing.drawn.steps[index].op.name == "begin"]
+        if pairs:
+            plan, sheet = begins[0] if begins else pairs[0][1]
+            return [self._tied(sheet - unit * plan, unit)]
+        return [replace(self._tied(origin, unit), shift=2 * self.pencil.point) for origin in self._voted(panel, unit)]
+
+    def rivals(self, panel: str, walk: Walk) -> Iterator[Rival]:
+        """Other frames of a plan, laid on its beginning: those in which some of the vectors that were carried over to
+        it are as they should be.
+
+        Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
+        """
+        expected = walk.board.fits[panel]
+        begin = next((pair for index, pair in self._pairs(panel) if walk.steps[index].op.name == "begin"), None)
+        units = list(self._carried(panel, walk))
+        plan, sheet = begin or (self._pairs(panel)[0][1] if units else (0j, 0j))
+        for unit, sigma in _agreed(units):
+            along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
+            yield Rival(Fit(Frame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED)
+
+    def _carried(self, panel: str, walk: Walk) -> Iterator[tuple[complex, float]]:
+        """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
+        spots = dict(self._pairs(panel))
+        for index, (_, end) in spots.items():
+            start = root(walk.steps[index])
+            if start in spots:
+                vector = walk.board.laid_off(walk.steps[index], start, walk.own)
+                if vector is not None and vector[0]:
+                    unit = (end - spots[start][1]) / vector[0]
+                    yield unit, vector[1] / abs(vector[0])
+
+    def _tied(self, origin: complex, unit: complex) -> Fit:
+        return Fit(Frame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
+
+    def _pairs(self, panel: str) -> list[tuple[int, Pair]]:
+        """The labelled points of a plan, by step: where each truly is, and where on the sheet."""
+        return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.handed.traces[place].spots[0])))
+                for index, place in sorted(self.labels.items())
+                if self.homes[index] == panel and self.handed.traces[place].kind == POINT]
+
+    # ---- unlabelled sheets -----------------------------------------------------------------------------------------
+
+    def _loose(self) -> list[complex]:
+        """The spots that may be marks: unlabelled points, and the ends of lines."""
+        taken = set(self.labels.values())
+        spots: list[Spot] = []
+        for place, trace in enumerate(self.handed.traces):
+            if place not in taken and trace.kind in (POINT, LINE):
+                spots += trace.spots[:2]
+        return _apart(complex(*spot) for spot in spots)[:ANCHORS]
+
+    def _points(self) -> list[complex]:
+        """The unlabelled points of a sheet that are not yet known."""
+        return [complex(*trace.spots[0]) for place, trace in enumerate(self.handed.traces)
+                if place not in self.taken and trace.kind == POINT]
+
+    def _crossings(self) -> list[complex]:
+        """The points of a sheet, or where it has none but labelled ones, where its lines cross."""
+        if points := self._points():
+            return points
+        loose = [trace for place, trace in enumerate(self.handed.traces) if place not in self.taken]
+        lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in loose if trace.kind == LINE]
+        return [z for one, two in combinations(lines, 2) if (z := _crossing(one, two)) is not None]
+
+    def _sought(self, given: Sequence[complex]) -> Fit | None:
+        """The frame in which most of the given points have a loose spot."""
+        loose, points = np.array(self._loose()), np.array(list(dict.fromkeys(given)))
+        if len(loose) < 2 or len(points) < 2:
+            return None
+        found: tuple[int, float, list[Pair]] = (1, 0.0, [])
+        sigma = 4 * self.pencil.point
+        for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[:6]:
+            apart = points[j] - points[i]
+            units = (loose[None, :] - loose[:, None]) / apart
+            for k, l in permutations(range(len(loose)), 2):
+                unit = units[k, l]
+                if not abs(unit):
+                    continue
+                there = loose[k] + unit * (points - points[i])
+                off = np.abs(there[:, None] - loose[None, :])
+                near = off.min(axis=1)
+                count = int(np.sum(near < sigma))
+                if (count, -float(near[near < sigma].sum())) > (found[0], found[1]) and count >= min(3, len(points)):
+                    found = count, -float(near[near < sigma].sum()), [
+                        (complex(point), complex(loose[place])) for point, place, far in
+                        zip(points, off.argmin(axis=1), near, strict=True) if far < sigma]
+        chance = 6 * len(loose) ** 2 * _filled(loose, sigma) ** (found[0] - 2)
+        return best(found[2], self.pencil.point) if found[2] and chance < BY_CHANCE else None
+
+    def _voted(self, panel: str, unit: complex) -> list[complex]:
+        """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
+        plan begins."""
+        steps = [step for step, home in zip(self.drawing.drawn.steps, self.homes, strict=True)
+                 if home == panel and step.op.gives == POINT]
+        loose = np.array(self._crossings())
+        if not len(loose):
+            return [0j]
+        begin = next((step for step in steps if step.op.name == "begin"), None)
+        marks = [np.array([complex(*values[step.index][:2]) for step in steps]) for values in self.values]
+        if begin is None or not self._points():
+            return self._heaped((loose[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
+        origins = loose - unit * complex(*self.drawing.values[begin.index][:2])
+        votes = np.max([sum(self._met(origins + unit * mark, loose) for mark in plan) for plan in marks], axis=0)
+        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
+
+    def _met(self, spots: Any, loose: Any) -> Any:
+        """Which spots have a loose one near."""
+        return np.abs(spots[:, None] - loose[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+
+    def _heaped(self, origins: Any) -> list[complex]:
+        """The origins that most marks vote for."""
+        cell = VOTES * self.pencil.point
+        heaps = sorted((heap for wide in (cell, 3 * cell) for heap in _heaps(origins, wide)), reverse=True)
+        told: list[complex] = []
+        for _, x, y in heaps:
+            if all(abs(complex(x, y) - other) > 4 * cell for other in told):
+                told.append(complex(x, y))
+        return told[:ORIGINS]
+
+    def begins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
+        """The loose points that are the beginnings of plans, by step."""
+        found = {}
+        points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.handed.traces)
+                  if trace.kind == POINT and place not in self.labels.values()]
+        for step in self.drawing.drawn.steps:
+            if step.op.name == "begin" and step.index not in self.labels and points:
+                here = fits[self.homes[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
+                place, spot = min(points, key=lambda point: abs(point[1] - here))
+                if abs(spot - here) < VOTES * self.pencil.point:
+                    found[step.index] = place
+        return found
+
+
+def _heaps(spots: Any, cell: float) -> Iterator[tuple[int, float, float]]:
+    """The cells of a grid with some spots in them: how many, and where their middle is."""
+    for shift in (0, 0.5 + 0.5j, 0.5, 0.5j):  # a heap may lie across the cells of one grid
+        cells = np.floor(spots.real / cell + shift.real) + 1j * np.floor(spots.imag / cell + shift.imag)
+        _, where, counts = np.unique(cells, return_inverse=True, return_counts=True)
+        for heap in np.argsort(counts)[-HEAPS:]:
+            here = spots[where == heap]
+            yield int(counts[heap]), float(np.median(here.real)), float(np.median(here.imag))
+
+
+def _filled(spots: Any, sigma: float) -> float:
+    """The part of the sheet on which a spot would be taken for one of these."""
+    wide, high = np.ptp(spots.real) + sigma, np.ptp(spots.imag) + sigma
+    return float(min(1.0, len(spots) * math.pi * sigma**2 / (wide * high)))
+
+
+def _apart(spots: Iterable[complex]) -> list[complex]:
+    """Spots that do not fall together."""
+    return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())
+
+
+def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
+    """Where two lines cross, unless they are almost parallel."""
+    u, v = one[1] - one[0], two[1] - two[0]
+    sine = (u.conjugate() * v).imag
+    if abs(sine) < 0.05 * abs(u) * abs(v):
+        return None
+    return one[0] + ((two[0] - one[0]).conjugate() * v).imag / sine * u
+
+
+def _agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[complex, float]]:
+    """Units on which some of those proposed agree, each weighed by how sure it is; of most first."""
+    groups = []
+    for unit, sigma in units:
+        group = [(u, s) for u, s in units if abs(u - unit) < SIGMAS * math.hypot(sigma, s) * abs(unit)]
+        weights = [1 / s**2 for _, s in group]
+        mean = sum(w * u for w, (u, _) in zip(weights, group, strict=True)) / sum(weights)
+        groups.append((len(group), mean, sum(weights) ** -0.5))
+    groups.sort(key=lambda group: -group[0])
+    told: list[complex] = []
+    for _, unit, sigma in groups:
+        if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < RIVALS:
+            told.append(unit)
+            yield unit, sigma

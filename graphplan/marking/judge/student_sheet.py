@@ -1,0 +1,265 @@
+"""A construction in first order as a student draws it: where each plan lies, what shakes, how far off a mark may be.
+
+Everything is reckoned with its derivatives by every slip of the hand, every reading of the sheet and every frame. So a
+mark's deviation from what the student's own earlier marks ask for comes with its own covariance; what all marks of a
+plan have in common, such as the frame they were read in, falls out by itself.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cache, cached_property
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.hand import Hand, hand_at
+from graphplan.accuracy.pencil import Pencil
+from graphplan.errors import Undrawable
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.numbers.gradients import Gradients
+from graphplan.kernel.program import Step
+from graphplan.marking.judge.fits import Fit
+from graphplan.marking.traces import Trace
+from graphplan.methods.construction import Construction
+from graphplan.sheet.plates.plans import Planes
+
+FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a trace: each of up to three spots
+SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
+FLAT = 1e-9  # of the largest variance: a smaller one is none
+NONE = np.finfo(float).tiny
+
+SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n squares is larger than x
+    1: lambda x: math.erfc(math.sqrt(x / 2)),
+    2: lambda x: math.exp(-x / 2),
+    3: lambda x: math.erfc(math.sqrt(x / 2)) + math.sqrt(2 * x / math.pi) * math.exp(-x / 2),
+}
+
+
+@cache
+def bound(freedoms: int, chance: float) -> float:
+    """The sum of as many squares of normal deviates that is only so seldom surpassed."""
+    low, high = 0.0, 1000.0
+    while high - low > 1e-6:
+        middle = (low + high) / 2
+        low, high = (middle, high) if SURVIVAL[freedoms](middle) > chance else (low, middle)
+    return high
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far a trace is from a thing, spot by spot in mm, with the covariance of that."""
+
+    off: Any
+    covariance: Any
+
+    @cached_property
+    def _parts(self) -> tuple[Any, Any]:
+        """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
+        variances, axes = np.linalg.eigh(self.covariance)
+        return np.maximum(variances, max(FLAT * variances[-1], NONE)), axes.T @ self.off
+
+    @property
+    def square(self) -> float:
+        """The sum of squares of the deviation in its own standard deviations."""
+        variances, parts = self._parts
+        with np.errstate(over="ignore"):  # what has no tolerance is off without end
+            return float(np.sum(parts**2 / variances))
+
+    @property
+    def size(self) -> float:
+        """How far off it is at most, in mm; of a point's two coordinates their distance."""
+        return float(np.max(np.abs(self.off)))
+
+    def tolerance(self, chance: float) -> float:
+        """How far off it might be this way, in mm; of no deviation, on the average."""
+        most, square = bound(len(self.off), chance), self.square
+        if square > FLAT and self.size > 0:
+            return self.size * math.sqrt(most / square)
+        return math.sqrt(most * float(np.mean(self._parts[0])))
+
+    def fits(self, chance: float) -> bool:
+        return self.square <= bound(len(self.off), chance)
+
+
+class PointDeviation(Deviation):
+    """Of a point: its two coordinates."""
+
+    @property
+    def size(self) -> float:
+        return float(np.hypot(*self.off)) if len(self.off) == 2 else float(abs(self.off[0]))
+
+
+@dataclass(frozen=True)
+class Board:
+    """A construction on a student's sheet: `fits` say where its plans lie there."""
+
+    drawing: Construction
+    fits: Mapping[str, Fit]
+    pencil: Pencil
+
+    @cached_property
+    def homes(self) -> list[str]:
+        """The plan of every step."""
+        return Planes(self.drawing).homes
+
+    @cached_property
+    def marks_on(self) -> Mapping[int, tuple[int, ...]]:
+        """The marks that lie on each line and arc."""
+        return Planes(self.drawing).marks_on
+
+    @cached_property
+    def hand(self) -> Hand:
+        """The hand that draws it at the scales of the sheet."""
+        return hand_at(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)
+
+    def mm(self, panel: str) -> float:
+        """The mm of a plan unit."""
+        return abs(self.fits[panel].frame.unit)
+
+    @cached_property
+    def _starts(self) -> list[int]:
+        """Where the errors of each step begin: the hand's slips, then its trace's."""
+        counts = [len(slips) + SPOT_ERRORS for slips in self.hand.slips]
+        return np.concatenate(([0], np.cumsum(counts))).tolist()  # type: ignore[no-any-return]
+
+    @cached_property
+    def domain(self) -> Gradients:
+        return Gradients(self._starts[-1] + FRAME_ERRORS * len(self.fits))
+
+    def errors(self, index: int) -> list[Any]:
+        """The slips of the hand at a step."""
+        start = self._starts[index]
+        return [self.domain.error(start + i, size) for i, size in enumerate(self.hand.slips[index])]
+
+    def _frame_error(self, panel: str, place: int, size: float) -> Any:
+        start = self._starts[-1] + FRAME_ERRORS * list(self.fits).index(panel)
+        return self.domain.error(start + place, size)
+
+    def expected(self, step: Step, drawn: Sequence[Any]) -> Any:
+        """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
+        return self.hand.made(step, self.domain, drawn, self.errors)
+
+    def laid_off(self, step: Step, start: int, drawn: Sequence[Any]) -> tuple[complex, float] | None:
+        """The vector that a step lays off from a mark, and its standard deviation; None where it cannot be drawn."""
+        try:
+            end = self.expected(step, drawn)
+        except Undrawable:
+            return None
+        parts = [end[i] - drawn[start][i] for i in (0, 1)]
+        partials = np.array([self.domain.partials(part) for part in parts])
+        return complex(*plain(parts)), float(np.sqrt(np.sum(partials**2) / 2))
+
+    # ---- what is seen ----------------------------------------------------------------------------------------------
+
+    def spots(self, index: int, trace: Trace) -> list[tuple[Any, Any]]:
+        """The spots of a step's trace on its plan, with the errors of the frame and of reading them."""
+        panel = self.homes[index]
+        fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
+        lead = fit.tied or panel
+        turn = [self._frame_error(lead, i, self.fits[lead].turn) for i in (0, 1)]
+        shift = [self._frame_error(panel, 2 + i, fit.shift / self.mm(panel)) for i in (0, 1)]
+        found = []
+        for k, spot in enumerate(sampled(trace)):
+            z = fit.frame.back(complex(*spot))
+            arm = z - fit.centre
+            blur = [self.domain.error(first + 2 * k + i, trace.blur / self.mm(panel)) for i in (0, 1)]
+            x = z.real + turn[0] * arm.real - turn[1] * arm.imag + shift[0] + blur[0]
+            y = z.imag + turn[0] * arm.imag + turn[1] * arm.real + shift[1] + blur[1]
+            found.append((x, y))
+        return found
+
+    def deviation(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Deviation:
+        """How far a trace is from what a step should make."""
+        domain, kind = self.domain, step.op.gives
+        if step.op.name == "pick":  # any point of the line will do
+            line = drawn[step.args[0]]
+            parts = [_off_line(domain, line, spots[0]) - _off_line(domain, line, expected)]
+        elif kind == POINT:
+            parts = [spots[0][0] - expected[0], spots[0][1] - expected[1]]
+        elif kind == LINE:
+            parts = [_off_line(domain, expected, spot) for spot in spots]
+        else:
+            parts = [_off_circle(domain, expected, spot) for spot in spots]
+        scale = self.mm(self.homes[step.index])
+        partials = np.array([domain.partials(part) for part in parts]) * scale
+        off = np.array([_plain(part) for part in parts]) * scale
+        return (PointDeviation if kind == POINT else Deviation)(off, partials @ partials.T)
+
+    def seen(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], steady: bool) -> Any:
+        """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough
+        to tell, a short arc has the centre that it should."""
+        if step.op.gives == POINT:
+            return spots[0]
+        if step.op.gives == LINE:
+            return _line(expected, *spots)
+        told = steady or _span(expected, spots) > SHORT_ARC
+        return _around(*spots) if told and len({plain(spot) for spot in spots}) == 3 else _about(expected, spots)
+
+
+def sampled(trace: Trace) -> tuple[tuple[float, float], ...]:
+    """The spots by which a trace is measured: of an arc its ends and its middle."""
+    if trace.kind == CIRCLE:
+        return trace.spots[0], trace.spots[len(trace.spots) // 2], trace.spots[-1]
+    return trace.spots[:2] if trace.kind == LINE else trace.spots[:1]
+
+
+def apart(kind: str, value: Sequence[float], spots: Sequence[complex]) -> float:
+    """How far some spots are from a thing at most, on its plan."""
+    if kind == POINT:
+        return abs(spots[0] - complex(value[0], value[1]))
+    if kind == LINE:
+        a, b, c = value
+        return max(abs(a * z.real + b * z.imag + c) for z in spots) / (math.hypot(a, b) or math.inf)
+    return max(abs(abs(z - complex(value[0], value[1])) - math.sqrt(max(value[2], 0.0))) for z in spots)
+
+
+def plain(value: Sequence[Any]) -> tuple[float, ...]:
+    """A value without its errors."""
+    return tuple(map(_plain, value))
+
+
+def _plain(number: Any) -> float:
+    return float(getattr(number, "value", number))
+
+
+def _off_line(domain: Gradients, line: Any, spot: tuple[Any, Any]) -> Any:
+    a, b, c = line
+    return (a * spot[0] + b * spot[1] + c) / domain.sqrt(a * a + b * b, "", "")
+
+
+def _off_circle(domain: Gradients, circle: Any, spot: tuple[Any, Any]) -> Any:
+    x, y, r2 = circle
+    u, v = spot[0] - x, spot[1] - y
+    return domain.sqrt(u * u + v * v, "", "") - domain.sqrt(r2, "", "")
+
+
+def _line(expected: Any, P: tuple[Any, Any], Q: tuple[Any, Any]) -> Any:
+    """The line through two spots, running as the expected one does."""
+    a, b = P[1] - Q[1], Q[0] - P[0]
+    if _plain(a) * _plain(expected[0]) + _plain(b) * _plain(expected[1]) < 0:
+        a, b = -a, -b
+    return a, b, -(a * P[0] + b * P[1])
+
+
+def _span(circle: Any, spots: Sequence[tuple[Any, Any]]) -> float:
+    """The angle between the outer spots, seen from a centre."""
+    ways = [complex(*plain(spot)) - complex(*plain(circle[:2])) for spot in (spots[0], spots[-1])]
+    return abs(cmath.phase(ways[0].conjugate() * ways[1]))
+
+
+def _about(circle: Any, spots: Sequence[tuple[Any, Any]]) -> Any:
+    """The circle about a known centre that passes best through some spots."""
+    x, y = circle[:2]
+    return x, y, sum((u - x) * (u - x) + (v - y) * (v - y) for u, v in spots) / len(spots)
+
+
+def _around(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
+    """The circle through three spots."""
+    u, v = (Q[0] - P[0], Q[1] - P[1]), (R[0] - P[0], R[1] - P[1])
+    uu, vv, cross = u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1], 2 * (u[0] * v[1] - u[1] * v[0])
+    p, q = (uu * v[1] - vv * u[1]) / cross, (vv * u[0] - uu * v[0]) / cross
+    return P[0] + p, P[1] + q, p * p + q * q

@@ -1,0 +1,35 @@
+"""Traces that a step may have made by a mistake that no table has: they keep one of the places that it claims."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.program import Step
+from graphplan.marking.judge.matching import ASTRAY, Walk
+from graphplan.marking.judge.student_sheet import apart, plain
+
+KEPT = 4.0  # standard deviations within which a claim is kept
+
+
+def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
+    """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
+    lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
+    board, kind = walk.board, step.op.gives
+    mm = board.mm(board.homes[step.index])
+    on = [plain(walk.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
+    for place in walk.loose.of(kind) if kind in (POINT, LINE) else ():
+        if place in walk.used or walk.traces[place].panel not in ("", board.homes[step.index]):
+            continue
+        spots = board.spots(step.index, walk.traces[place])
+        value = plain(board.seen(step, walk.own[step.index], spots, steady=True))
+        off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
+        far = apart(POINT, value, [complex(*plain(walk.own[step.index]))]) * mm if kind == POINT else 0.0
+        if off < KEPT * max(board.pencil.point, board.pencil.edge) and far < ASTRAY:
+            yield place, value
+
+
+def _off(kind: str, value: Sequence[float], thing: Sequence[float]) -> float:
+    """How far a point and a line, one of which is a step's, are from each other."""
+    line, point = (value, thing) if kind == LINE else (thing, value)
+    return apart(LINE, line, [complex(*point[:2])])

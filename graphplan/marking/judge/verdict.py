@@ -1,0 +1,95 @@
+"""What is said of a student's drawing, step by step."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from graphplan.marking.traces import Frame, Number, Trace
+from graphplan.methods.construction import Construction
+from graphplan.phrases import Said, phrase
+from graphplan.sheet.layout.composition import Composition
+
+RIGHT, FOLLOWS, WRONG, MISSING, UNSEEN = "right", "follows", "wrong", "missing", "unseen"
+STATES = {
+    RIGHT: phrase("correct"),
+    FOLLOWS: phrase("correct after an earlier slip"),
+    WRONG: phrase("wrong"),
+    MISSING: phrase("missing"),
+    UNSEEN: phrase("not to be seen"),  # of a kind that the drawing does not show: what follows from it tells
+}
+NOT_NEEDED = phrase("not needed")
+
+
+@dataclass(frozen=True)
+class Ellipse:
+    """The tolerance of a point about where it should be: half axes in mm of paper, and the first one's angle in the
+    plan, in degrees."""
+
+    major: float
+    minor: float
+    angle: float
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What is said of one drawn step, by its place in the drawn program; lengths are mm of paper.
+
+    `off` is how far what was drawn is from what the student's own earlier marks ask for, `tolerance` how far it may
+    be in that direction, `astray` how far it is from the true drawing, which errors that went before explain where
+    the step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen. `own`
+    is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what was probably
+    done, at the step `guilty`, which may be an earlier one that is not to be seen.
+    """
+
+    step: int
+    state: str
+    off: float = 0.0
+    tolerance: float = 0.0
+    astray: float = 0.0
+    trace: Trace | None = None
+    own: tuple[float, ...] = ()
+    ellipse: Ellipse | None = None
+    mistake: Said | None = None
+    kind: str = ""
+    guilty: int | None = None
+
+
+@dataclass(frozen=True)
+class NumberVerdict:
+    """What is said of one number of the table: `off` and `tolerance` in the scene's units, and the true value."""
+
+    number: Number
+    state: str
+    off: float
+    tolerance: float
+    true: tuple[float, ...]
+    mistake: Said | None = None
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Judgement:
+    """All that is said of a drawing.
+
+    `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for.
+    """
+
+    name: str
+    drawing: Construction
+    composition: Composition
+    frames: Mapping[str, Frame]
+    verdicts: tuple[Verdict, ...]
+    spare: tuple[Trace, ...] = ()
+    numbers: tuple[NumberVerdict, ...] = ()
+
+    @property
+    def first(self) -> Verdict | None:
+        """The first wrong step; None where there is none."""
+        return next((verdict for verdict in self.verdicts if verdict.state == WRONG), None)
+
+    @property
+    def guilty(self) -> int | None:
+        """The step that is probably to blame for the first wrong one, by its place in the drawn program."""
+        first = self.first
+        return None if first is None else first.step if first.guilty is None else first.guilty

@@ -1,0 +1,110 @@
+"""A sheet without its marks: found by its frame, the largest dark rectangle, which way up by all that is printed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.marking.scans.image import Grey
+from graphplan.marking.scans.printed_ink import Light, pieces
+from graphplan.marking.scans.warp import Spots, Warp, enclosed
+from graphplan.sheet.plates.display import Rect, Sheet
+
+SIDE = 2400  # pixels of the picture's longer side, in which a frame is searched
+LEAST, MOST = 0.15, 4  # of the picture, that a frame covers; how many rectangles are tried
+HALF, OFF = 0.35, 0.02  # of a side: how much of it about its middle tells where it is, and how far off it may be
+SAME = 0.002  # of the picture, by which the two rims of one line are apart
+COARSE = 1.0  # pixels per mm at which print is compared
+
+
+def by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
+    """The planes in which the printed frame may be seen, the largest first, each turned so that the print fits."""
+    import cv2
+
+    wide, high = round(sheet.width * COARSE), round(sheet.height * COARSE)
+    small = cv2.resize(light, (wide, high), interpolation=cv2.INTER_AREA)
+    ideal = np.asarray(cv2.GaussianBlur(small, (0, 0), COARSE), np.float32)
+    size = sheet.width, sheet.height
+    found = []
+    for rim in _rectangles(image):
+        tried = [Warp(np.asarray(cv2.findHomography(corners, np.roll(rim, turn, axis=0))[0], float), size)
+                 for corners in _outlines(sheet) for turn in range(4)]
+        found.append(max(tried, key=lambda warp: _alike(image, warp, ideal)))
+    return found
+
+
+def _outlines(sheet: Sheet) -> list[Spots]:
+    """The frame's corners, and those of all straight print, which may go beyond it."""
+    ink = pieces(sheet)
+    half = ink.along * ink.halves[:, None]
+    ends = np.concatenate([ink.middles - half, ink.middles + half])
+    (left, bottom), (right, top) = ends.min(axis=0), ends.max(axis=0)
+    return [np.array(sheet.frame.corners), np.array(Rect(left, bottom, right, top).corners)]
+
+
+def _rectangles(image: Grey) -> Iterator[Spots]:
+    """The largest four-sided rims in the picture, in pixels, in the sense in which a frame's corners go round."""
+    import cv2
+
+    shrink = min(1.0, SIDE / max(image.shape))
+    small = cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+    dark = cv2.adaptiveThreshold(small, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 41, 12)
+    rims, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
+    large = sorted((rim for rim in rims if cv2.contourArea(rim) > LEAST * small.size), key=cv2.contourArea)
+    known: list[Spots] = []
+    for rim in large[::-1]:
+        hull = cv2.convexHull(rim)
+        four = cv2.approxPolyDP(hull, 0.02 * cv2.arcLength(rim, True), True).reshape(-1, 2).astype(float)
+        corners = _sharp(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
+        if corners is None or any(np.abs(corners - other).max() < SAME * SIDE for other in known):
+            continue
+        known.append(corners)
+        yield (corners + 0.5) / shrink - 0.5
+        if len(known) == MOST:
+            return
+
+
+def _sharp(hull: Spots, four: Spots) -> Spots | None:
+    """The corners of a rectangle, in the sense in which a frame's go round, from the middles of its sides: whatever
+    its corners themselves have lost."""
+    around = four if enclosed(four) < 0 else four[::-1]
+    around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
+    rim = _every_pixel(hull)
+    sides = [_side(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
+    if any(side is None for side in sides):
+        return None
+    lines = np.array(sides)
+    return np.array([np.linalg.solve([one[:2], two[:2]], [one[2], two[2]])
+                     for one, two in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
+
+
+def _every_pixel(hull: Spots) -> Spots:
+    """Spots all along a closed rim."""
+    closed = np.vstack([hull, hull[:1]])
+    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
+    return np.column_stack([np.interp(np.arange(0, way[-1]), way, closed[:, i]) for i in range(2)])
+
+
+def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:
+    """The line along the middle of a side: its unit normal, and how far it is from the origin."""
+    long = np.hypot(*(two - one))
+    ahead = (two - one) / long
+    along, off = (rim - one) @ ahead / long, (rim - one) @ np.array([-ahead[1], ahead[0]])
+    middle = rim[(np.abs(along - 0.5) < HALF) & (np.abs(off) < OFF * long)]
+    if len(middle) < 2:
+        return None
+    at = middle.mean(axis=0)
+    normal = np.linalg.eigh((middle - at).T @ (middle - at))[1][:, 0]
+    return float(normal[0]), float(normal[1]), float(normal @ at)
+
+
+def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
+    """The correlation of a picture, straightened, with the print."""
+    import cv2
+
+    columns, rows = warp.maps(COARSE)
+    seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0), COARSE).astype(np.float32)
+    seen -= cv2.GaussianBlur(seen, (0, 0), 20 * COARSE)
+    return float(np.corrcoef(seen.ravel(), ideal.ravel())[0, 1])

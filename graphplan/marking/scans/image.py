@@ -1,0 +1,141 @@
+"""A picture of a sheet from its file, in shades of grey: PNG, JPEG, or a page of a PDF.
+
+What a file says of its size is read before anything is unpacked, so that a small file cannot fill the memory.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.errors import Refused
+from graphplan.marking.files.safe import MB, contents
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Grey = NDArray[np.uint8]
+HEAVIEST, MOST, FEWEST = 96 * MB, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
+BLANK = 30  # shades of grey between paper and print, at least
+DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
+PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
+SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments of a JPEG that say its size
+DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
+
+
+def pictures(path: Path) -> Iterator[Grey]:
+    """The picture in a file, or those of a document's pages, one by one.
+
+    Fails with `Refused` where there is none, or where it is too large to be opened.
+    """
+    data = contents(path, HEAVIEST)
+    if data.startswith(PDF):
+        yield from _pages(path, data)
+    elif data.startswith(PNG):
+        yield _decoded(path, data, _png_size(data))
+    elif data.startswith(JPEG):
+        yield _decoded(path, data, _jpeg_size(data))
+    else:
+        raise Refused(f"{path}", "this is no PNG, JPEG or PDF", DO)
+
+
+def _bounded(path: Path, size: tuple[int, int] | None) -> None:
+    """Refuse a picture that is too large, too small, or does not say how large it is."""
+    if size is None:
+        raise Refused(f"{path}", "the picture is broken: it does not say how large it is", DO)
+    if size[0] * size[1] > MOST:
+        raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are more than {MOST // 10**6} megapixels", DO)
+    if min(size) < FEWEST:
+        raise Refused(f"{path}", f"{size[0]} by {size[1]} pixels are too few to see pencil lines", DO)
+
+
+def _png_size(data: bytes) -> tuple[int, int] | None:
+    """What the header of a PNG says."""
+    if data[12:16] != b"IHDR" or len(data) < 24:
+        return None
+    return int.from_bytes(data[16:20]), int.from_bytes(data[20:24])
+
+
+def _jpeg_size(data: bytes) -> tuple[int, int] | None:
+    """What the frame header of a JPEG says, found from segment to segment."""
+    at = 2
+    while at + 9 < len(data) and data[at] == 0xFF:
+        if data[at + 1] == 0xFF:  # filling
+            at += 1
+        elif SIZED.match(data, at + 1):
+            return int.from_bytes(data[at + 7 : at + 9]), int.from_bytes(data[at + 5 : at + 7])
+        else:
+            at += 2 + int.from_bytes(data[at + 2 : at + 4])
+    return None
+
+
+def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
+    """The picture itself, upright as the camera was held."""
+    import cv2
+
+    _bounded(path, size)
+    try:
+        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+    except cv2.error:
+        image = None
+    if image is None:
+        raise Refused(f"{path}", "the picture is broken", DO)
+    return np.asarray(image, np.uint8)
+
+
+def _pages(path: Path, data: bytes) -> Iterator[Grey]:
+    """The pages of a document, each drawn in turn."""
+    pdfium = _pdfium(path)
+    try:
+        document = pdfium.PdfDocument(data)
+    except pdfium.PdfiumError as error:
+        raise Refused(f"{path}", "the document is broken, or locked by a password", DO) from error
+    try:
+        for number in range(min(len(document), PAGES)):
+            yield _drawn(path, pdfium, document, number)
+    finally:
+        document.close()
+
+
+def _drawn(path: Path, pdfium: Any, document: Any, number: int) -> Grey:
+    """One page of a document, whose pictures are not too large either."""
+    try:
+        page = document[number]
+        scale = DPI / POINTS
+        _bounded(path, (round(page.get_width() * scale), round(page.get_height() * scale)))
+        for picture in page.get_objects(filter=[pdfium.raw.FPDF_PAGEOBJ_IMAGE], max_depth=2):
+            wide, high = picture.get_px_size()
+            _bounded(path, (max(wide, FEWEST), max(high, FEWEST)))
+        return np.array(page.render(scale=scale, grayscale=True).to_numpy(), np.uint8).squeeze()
+    except pdfium.PdfiumError as error:
+        raise Refused(f"{path}", f"page {number + 1} is broken", DO) from error
+
+
+def _pdfium(path: Path) -> Any:
+    try:
+        import pypdfium2
+    except ImportError as error:
+        raise Refused(f"{path}", "pages of a PDF are opened by pypdfium2, which is not installed",
+                      "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
+    return pypdfium2
+
+
+def contrast(image: Grey, name: str) -> None:
+    """Refuse a picture on which nothing is dark, or nothing light."""
+    dark, light = np.percentile(image[::4, ::4], [0.2, 90])
+    if light - dark < BLANK:
+        raise Refused(name, "the picture is blank", DO)
+
+
+def smaller(image: Grey, pixels: float) -> Grey:
+    """The picture with no more than so many pixels."""
+    import cv2
+
+    shrink = (pixels / image.size) ** 0.5
+    if shrink >= 1:
+        return image
+    return np.asarray(cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA), np.uint8)

@@ -1,0 +1,235 @@
+"""A straightened page that can be asked: what was drawn on it, and whether something is drawn near where it belongs.
+
+Faint lines, of which there is too little to be found in the whole page, are found where they are expected.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.scans.dots import DARK, MAYBE, SURE, dots, marked, smoothed
+from graphplan.marking.scans.lines import FEW, Row, line
+from graphplan.marking.scans.pencil_pixels import Ink
+from graphplan.marking.scans.ridges import CLEAR, Ridges, clear
+from graphplan.marking.scans.rims import Rim, grown
+from graphplan.marking.scans.runs import Run, runs
+from graphplan.marking.scans.strokes import Strokes
+from graphplan.marking.traces import Spot, Trace
+
+Values = NDArray[np.float64]
+ASKEW = 20.0  # degrees by which a crest's own direction is unsure
+CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far its crests are off it
+BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
+SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
+TURNED = 40.0  # degrees of a rim from which on it tells its own centre
+LEAST = 2.0  # mm of a rim
+PARTS = 40  # places along a line, at which its darkness is read off
+ABOUT, BESIDE = 0.35, 0.8  # mm about a dot, in which its darkest spot is, and no print, whose rest it might be
+HIDDEN = 0.6  # the share of a stroke that print may hide
+
+
+@dataclass(frozen=True)
+class Page:
+    """The pencil on a page, its crests, and how unsure their places are, as a standard deviation in mm."""
+
+    ink: Ink
+    found: Ridges
+    error: float
+
+    @cached_property
+    def traces(self) -> tuple[Trace, ...]:
+        """Everything that is found without knowing what is expected."""
+        sure = marked(self._dots, self._drawn, self._darkness, SURE)
+        alone = (dot for dot in sure if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any())
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *alone))
+
+    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+        """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
+        it leaves hardly any."""
+        far = (self._from_dots if kind == POINT else self._from_crests)[self.ink.cells(np.array(spots))]
+        seen = far[far >= 0]
+        return float((seen < within).mean()) if len(seen) > (1 - HIDDEN) * len(far) else None
+
+    def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
+        """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
+        more than this angle, in degrees."""
+        ends = np.array([one, two], float)
+        long = math.dist(one, two)
+        way = (ends[1] - ends[0]) / long
+        normal, middle = np.array([-way[1], way[0]]), ends.mean(axis=0)
+        out = self.found.spots - middle
+        along, off = out @ way, out @ normal
+        steep = math.tan(math.radians(angle))
+        near = np.flatnonzero((np.abs(along) < long / 2 + BEYOND) & (np.abs(off) < within + np.abs(along) * steep)
+                              & (np.abs(self.found.normals @ normal) > math.cos(math.radians(ASKEW + angle))))
+        lying = _aligned(along[near], off[near], self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        turned = math.atan(slope)
+        ahead = way * math.cos(turned) + normal * math.sin(turned)
+        aside = normal * math.cos(turned) - way * math.sin(turned)
+        at = middle + level * normal
+        own = near[which]
+        crests = Row(at, ahead, aside, own, (self.found.spots[own] - at) @ ahead, (self.found.spots[own] - at) @ aside)
+        run = _whole(crests, self.ink, long / 2)
+        return None if run is None else self._blurred(line(crests, run))
+
+    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+        """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
+        middle, at = np.array(centre), np.asarray(spots, float)
+        aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
+        out = self.found.spots - middle
+        far = np.maximum(np.hypot(out[:, 0], out[:, 1]), 1e-9)
+        along, reach = (_turns(out, aim) * radius, np.abs(_turns(at - middle, aim)).max() * radius + BEYOND)
+        square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far
+        near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
+        steep = within / max(reach, within)
+        lying = _aligned(along[near], far[near] - radius, self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        own = near[which]
+        if np.ptp(along[own]) > math.radians(TURNED) * radius:
+            rim = grown(self.found, near, own, self.ink)
+        else:
+            rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
+        return None if rim is None or rim.run.long < LEAST else self._blurred(rim.trace())
+
+    def dot(self, spot: Spot, within: float) -> Trace | None:
+        """The dot nearest to where one is expected."""
+        off = np.abs(self._spots - complex(*spot))
+        return self._faint[int(off.argmin())] if off.min(initial=math.inf) < within else None
+
+    @cached_property
+    def _from_crests(self) -> NDArray[np.float32]:
+        """How far every pixel is from the next strong crest."""
+        return self._away(self.found.spots[self.found.strength > CLEAR])
+
+    @cached_property
+    def _from_dots(self) -> NDArray[np.float32]:
+        """How far every pixel is from the next dot."""
+        return self._away(np.column_stack([self._spots.real, self._spots.imag]))
+
+    def _away(self, spots: Values) -> NDArray[np.float32]:
+        """How far every pixel is from the next of some spots, in mm; less than nothing where print hides it."""
+        import cv2
+
+        bare = np.ones(self.ink.dark.shape, np.uint8)
+        bare[self.ink.cells(spots)] = 0
+        far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
+        far[self.ink.hidden] = -1.0
+        return far
+
+    @cached_property
+    def _drawn(self) -> list[Trace]:
+        """The lines and rims."""
+        return Strokes.of(clear(self.found, self.ink), self.ink).traces()
+
+    @cached_property
+    def _smooth(self) -> NDArray[np.float32]:
+        return smoothed(self.ink)
+
+    @cached_property
+    def _usual(self) -> float:
+        """How dark the blurred lines are."""
+        ends = [np.array(trace.spots) for trace in self._drawn if trace.kind == LINE]
+        spots = [one + (two - one) * part for one, two in ends for part in np.linspace(0.05, 0.95, PARTS)]
+        dark = float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
+        return max(dark, DARK)
+
+    def _darkness(self, spot: Spot) -> float:
+        """How much darker it is near a spot than along the lines."""
+        return float(self._about(self._smooth, spot, ABOUT).max()) / self._usual
+
+    def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
+        """The piece of a picture about a spot, so many mm to each side."""
+        (row,), (column,) = self.ink.cells(np.array([spot]))
+        far = math.ceil(reach * self.ink.scale)
+        return picture[max(0, row - far) : row + far + 1, max(0, column - far) : column + far + 1]
+
+    @cached_property
+    def _spots(self) -> NDArray[np.complex128]:
+        return np.array([complex(*dot.spots[0]) for dot in self._faint], np.complex128)
+
+    @cached_property
+    def _faint(self) -> list[Trace]:
+        """The dots that may be points."""
+        return [self._blurred(dot) for dot in marked(self._dots, self._drawn, self._darkness, MAYBE)]
+
+    @cached_property
+    def _dots(self) -> list[Trace]:
+        return dots(self.ink, self._smooth, self._usual)
+
+    def _blurred(self, trace: Trace) -> Trace:
+        """With what the page itself is unsure by."""
+        return replace(trace, blur=math.hypot(trace.blur, self.error))
+
+
+def _aligned(along: Values, off: Values, strength: Values, within: float,
+             steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
+    """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
+    if len(along) < FEW:
+        return None
+    reach = max(float(np.abs(along).max()), 1.0)
+    slopes = np.linspace(-steep, steep, 2 * math.ceil(steep * reach / CELL) + 1)
+    count = math.ceil(within / CELL)
+    cells = np.rint((off - np.outer(slopes, along)) / CELL).astype(int) + count
+    inside = (cells >= 0) & (cells <= 2 * count)
+    flat = (np.arange(len(slopes))[:, None] * (2 * count + 1) + cells)[inside]
+    weight = np.broadcast_to(np.minimum(strength, 12.0), cells.shape)[inside]
+    counted = np.bincount(flat, weight, len(slopes) * (2 * count + 1)).reshape(len(slopes), -1)
+    votes = np.asarray(counted, np.float64)
+    votes[:, 1:-1] += (votes[:, :-2] + votes[:, 2:]) / 2
+    best, cell = divmod(int(votes.argmax()), votes.shape[1])
+    slope, level = float(slopes[best]), (cell - count) * CELL
+    which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    for _ in range(2):
+        if len(which) < FEW or np.ptp(along[which]) < 1.0:
+            return None
+        slope, level = (float(value) for value in np.polyfit(along[which], off[which], 1))
+        which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    return slope, level, which
+
+
+def _whole(crests: Row, ink: Ink, half: float) -> Run | None:
+    """All the stretches of a row between the expected ends as one, where enough of it is seen."""
+    drawn = [run for run in runs(crests.along, lambda along: ink.crossed(crests.spots(along)))
+             if run.seen >= SEEN and run.long >= 1.0 and run.start < half and run.end > -half]
+    if sum(run.long for run in drawn) < SHORTEST:
+        return None
+    whole = Run(drawn[0].start, drawn[-1].end, 1.0)
+    return replace(whole, seen=sum(run.long * run.seen for run in drawn) / whole.long)
+
+
+def _turns(out: Values, aim: float) -> Values:
+    """Angles of spots about a centre, from the side at which it is looked."""
+    return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - aim + math.pi) % (2 * math.pi) - math.pi)
+
+
+def _short(page: Page, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
+           level: float) -> Rim | None:
+    """A short arc: it is as far off the expected one, and as askew, as its crests are."""
+    turned = math.atan(slope)
+    side = np.array([math.cos(aim), math.sin(aim)])
+    across = np.array([-side[1], side[0]])
+    moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
+
+    def hidden(at: Values) -> NDArray[np.bool_]:
+        turns = aim + at / radius
+        return page.ink.crossed(centre + (radius + level) * np.column_stack([np.cos(turns), np.sin(turns)]))
+
+    drawn = [run for run in runs(along, hidden) if run.seen >= SEEN]
+    if not drawn:
+        return None
+    run = max(drawn, key=lambda run: run.long)
+    rough = float(np.std(off - slope * along - level))
+    return Rim(moved, radius + level, aim, run, np.arange(len(along)), rough)

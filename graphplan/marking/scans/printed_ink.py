@@ -1,0 +1,126 @@
+"""What was printed on a sheet, as a picture and as straight pieces: what is there before the student draws."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import Pen
+
+Light = NDArray[np.float32]
+SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
+SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
+MARKS = "corner marks"
+
+
+@dataclass(frozen=True)
+class Pieces:
+    """Straight pieces of print: where their middles are, their directions, and half their lengths, in mm."""
+
+    middles: NDArray[np.float64]
+    along: NDArray[np.float64]
+    halves: NDArray[np.float64]
+
+
+def picture(sheet: Sheet, scale: float) -> Light:
+    """The sheet without its words, lightness 0..1, so many pixels per mm, seen from above: the top is the first row."""
+    import cv2
+
+    fine = scale * SMOOTHING
+    canvas = np.full((round(sheet.height * fine), round(sheet.width * fine)), 255, np.uint8)
+    for item in sheet.items:
+        _draw(canvas, item, sheet.height, fine)
+    small = cv2.resize(canvas, (round(sheet.width * scale), round(sheet.height * scale)), interpolation=cv2.INTER_AREA)
+    return np.asarray(small, np.float32) / np.float32(255)
+
+
+def words(sheet: Sheet, scale: float) -> NDArray[np.bool_]:
+    """Where words are printed."""
+    mask = np.zeros((round(sheet.height * scale), round(sheet.width * scale)), bool)
+    for box in (item.box for item in sheet.items if isinstance(item, Text)):
+        rows = slice(max(0, int((sheet.height - box.top) * scale)), math.ceil((sheet.height - box.bottom) * scale))
+        mask[rows, max(0, int(box.left * scale)) : math.ceil(box.right * scale)] = True
+    return mask
+
+
+def pieces(sheet: Sheet) -> Pieces:
+    """The straight lines of print, cut short."""
+    cut = [piece for item in sheet.items if item.layer != MARKS for one, two in _edges(item)
+           for piece in _cut(one, two)]
+    ends = np.array(cut, float).reshape(-1, 2, 2)
+    way = ends[:, 1] - ends[:, 0]
+    long = np.hypot(way[:, 0], way[:, 1])
+    return Pieces(ends.mean(axis=1), way / long[:, None], long / 2)
+
+
+def _edges(item: Item) -> Iterator[tuple[Spot, Spot]]:
+    """The straight lines of an item."""
+    if isinstance(item, Polyline):
+        yield from pairwise(item.spots)
+    elif isinstance(item, Polygon):
+        yield from zip(item.spots, (*item.spots[1:], item.spots[0]), strict=True)
+
+
+def _cut(one: Spot, two: Spot) -> Iterator[tuple[Spot, Spot]]:
+    """A line in pieces that are neither short nor long."""
+    long = math.dist(one, two)
+    count = math.ceil(long / LONG) if long >= SHORT else 0
+    ends = [(one[0] + (two[0] - one[0]) * i / count, one[1] + (two[1] - one[1]) * i / count)
+            for i in range(count + 1)] if count else []
+    return pairwise(ends)
+
+
+# ---- drawn ---------------------------------------------------------------------------------------------------------
+
+
+def _draw(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) -> None:
+    """One item in ink; words are not drawn."""
+    match item:
+        case Polyline(spots=spots):
+            _stroke(canvas, item.pen, spots, False, height, scale)
+        case Polygon(spots=spots):
+            _fill(canvas, item.pen, spots, height, scale)
+            _stroke(canvas, item.pen, spots, True, height, scale)
+        case Circle(centre=centre, radius=radius):
+            rim = Arc(item.pen, item.layer, item.step, centre, radius, 0.0, 360.0).spots()
+            _fill(canvas, item.pen, rim, height, scale)
+            _stroke(canvas, item.pen, rim, True, height, scale)
+        case Arc():
+            _stroke(canvas, item.pen, item.spots(), False, height, scale)
+        case Arrow(start=start, end=end):
+            _stroke(canvas, item.pen, (start, end), False, height, scale)
+            _fill(canvas, item.pen.filled(item.pen.colour), item.barbs, height, scale)
+
+
+def _stroke(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], closed: bool, height: float,
+            scale: float) -> None:
+    import cv2
+
+    if pen.width:
+        cv2.polylines(canvas, [_pixels(spots, height, scale)], closed, _light(pen.colour),
+                      max(1, round(pen.width * scale)), cv2.LINE_AA, PARTS)
+
+
+def _fill(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], height: float, scale: float) -> None:
+    import cv2
+
+    if pen.fill != "none":
+        cv2.fillPoly(canvas, [_pixels(spots, height, scale)], _light(pen.fill), cv2.LINE_AA, PARTS)
+
+
+def _pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[np.int32]:
+    """Spots in parts of pixels, whose middles have whole numbers."""
+    at = np.array([(x, height - y) for x, y in spots]) * scale - 0.5
+    return np.rint(at * (1 << PARTS)).astype(np.int32).reshape(-1, 1, 2)
+
+
+def _light(colour: str) -> tuple[int]:
+    """How light a colour is to a scanner, 0..255."""
+    red, green, blue = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+    return (round(0.299 * red + 0.587 * green + 0.114 * blue),)

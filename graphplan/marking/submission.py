@@ -1,0 +1,95 @@
+"""What a student hands in, read by the kind of its file."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Mapping
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from graphplan.errors import Refused
+from graphplan.marking.traces import Frame, Handed
+
+if TYPE_CHECKING:
+    from graphplan.sheet.plates.display import Sheet
+
+Size = tuple[float, float] | None  # width and height in mm, where they are known
+Reader = Callable[[Path, Collection[str], Mapping[str, Frame], Size], Handed]
+IMAGES = (".png", ".jpg", ".jpeg", ".pdf")
+
+
+def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
+         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Handed:
+    """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
+
+    A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
+    marks. `size` is its width and height in mm: on paper of another size plans lie elsewhere.
+
+    Fails with `Refused` where the file is none that can be read, or says nothing, and tells what to do.
+    """
+    suffix = path.suffix.casefold()
+    if suffix in IMAGES:
+        return _scanned(path, frames, printed, code)
+    if suffix not in READERS:
+        kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
+        raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
+                      f"give one of {' '.join([*READERS, *IMAGES])}")
+    found = READERS[suffix](path, panels, frames, size)
+    if not found.traces and not found.numbers:
+        raise Refused(f"{path}", "nothing is measured in it, no mark and no result", "fill it in")
+    return found
+
+
+def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Sheet] | None, code: int | None) -> Handed:
+    """A scan or photo."""
+    if printed is None:
+        raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
+                      "measured points or a CAD file")
+    from graphplan.marking.scans.scan import read_scan
+
+    return read_scan(path, printed(), frames, code)
+
+
+def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+    """Measured points or results: the names of the columns tell."""
+    from graphplan.marking.tables.table_rows import columns
+
+    names = columns(path)
+    if {"mark", "x", "y"} <= set(names):
+        from graphplan.marking.tables.points import read_table
+
+        return read_table(path, panels)
+    if "quantity" in names:
+        from graphplan.marking.tables.results import read_results
+
+        return read_results(path)
+    raise Refused(f"{path}", "its first line names no columns that are read",
+                  "mark,x,y for measured points or quantity,of,x,y,unit for results")
+
+
+def _toml(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+    from graphplan.marking.tables.points import read_toml
+
+    return read_toml(path, panels)
+
+
+def _svg(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+    from graphplan.marking.files.svg import read_svg
+
+    return read_svg(path, frames, size)
+
+
+def _dxf(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+    from graphplan.marking.files.dxf import read_dxf
+
+    return read_dxf(path, frames, size)
+
+
+def _ggb(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+    from graphplan.marking.files.ggb import read_ggb
+
+    return read_ggb(path)
+
+
+READERS: dict[str, Reader] = {
+    ".csv": _table, ".toml": _toml, ".svg": _svg, ".dxf": _dxf, ".ggb": _ggb,
+}  # fmt: skip

@@ -1,0 +1,1 @@
+"""Tables of measured points and of results."""

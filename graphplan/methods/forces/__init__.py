@@ -1,0 +1,1 @@
+"""How forces are drawn: force plans, Zhukovsky's lever, friction."""

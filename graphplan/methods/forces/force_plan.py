@@ -1,0 +1,359 @@
+"""Force plans: how the moves of statics are drawn, one force polygon for each group.
+
+The loads of a group's links stand in one chain, link after link; the reactions close it. Tangential parts come from
+moments, lines of action from the mechanism plan, and the corner that is looked for is where two lines meet, as on the
+drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import Balance, Slide
+from graphplan.methods.forces.free_bodies import Part, Parts
+from graphplan.methods.forces.letters import pair_letter, reaction_letter
+from graphplan.methods.forces.loading import Acting
+from graphplan.methods.forces.reactions import Known, Pair, Shown, Span, signed
+from graphplan.methods.forces.statics import (
+    About,
+    Along,
+    AlongLine,
+    Assume,
+    AtPoint,
+    Close,
+    Fact,
+    Found,
+    Pin,
+    Polygon,
+    StaticMove,
+    Where,
+)
+from graphplan.methods.forces.unknown_forces import Joint, Site
+from graphplan.methods.panels import MECHANISM, listed
+from graphplan.phrases import said
+
+TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
+
+
+class ForcePlan(Parts):
+    """Draws the moves of one group on a panel of its own, and enters the reactions in `forces`."""
+
+    # ---- moves -------------------------------------------------------------------------------------------------
+
+    def draw(self, moves: Iterable[StaticMove]) -> None:
+        for move in moves:
+            links = tuple(move.part) if not isinstance(move, Pin) else (move.site.link,)
+            with self.board.on(self.panel, tuple(link for link in self.group.links if link in links)):
+                self._draw(move)
+
+    def _draw(self, move: StaticMove) -> None:
+        match move:
+            case Fact(part, site, about):
+                self.known[site] = self._told(part, site, about)
+            case Found(part, site, about):
+                self._found(part, site, about)
+            case Polygon(part, one, two):
+                self._close_two(part, one, two)
+            case Close(part, site):
+                self._close(part, site)
+            case Pin(site):
+                self._pin(site)
+            case Assume():
+                self._trial(move)
+
+    def _told(self, part: Part, site: Site, about: About) -> Known:
+        """What a part's equilibrium about a point tells of a force."""
+        sign = self.sign(part, site)
+        if isinstance(about, Along | AlongLine):
+            return self._across(part, site, about, sign)
+        if isinstance(site, Slide):
+            return self._slide_line(part, site, about, sign)
+        X = self.seat(site)
+        line = self._line_to(about, X)
+        load = self._moments(part, site, about, X, sign)
+        return Known(load, line, X)
+
+    def _line_to(self, about: About, X: Mark) -> Mark:
+        """The line of action through a point and the point that moments are taken about."""
+        with self.board.on(MECHANISM):
+            if isinstance(about, AtPoint):
+                return self.board.side(self.pose.points[about.point], X)
+            assert isinstance(about, Where)
+            return self.board.towards(*self._lines(about), X, names=self._letters(about))
+
+    def _lines(self, about: Where) -> Span:
+        one, two = (self.known[site].line for site in (about.one, about.two))
+        assert one is not None
+        assert two is not None
+        return one, two
+
+    def _letters(self, about: Where) -> dict[str, str]:
+        return {"Q": self.pose.letter(" ".join(sorted((about.one.link, about.two.link))))}
+
+    def _moments(self, part: Part, site: Site, about: About, X: Mark, sign: int,
+                 base: Mark | None = None) -> Span | None:
+        """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
+
+        Where the part begins the group's chain it is laid off backwards, so that it ends where the chain starts.
+        """
+        backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
+        start, end = self.polygon(part) if base is None else (base, base)
+        mark = first = start if backwards else end
+        why = self._why(part, about)
+        for force in self.acting(part, self.others(part, site), site):
+            if force.at is self._about_mark(about):
+                continue
+            span = signed((force.tail, force.head), -sign if backwards else sign)
+            mark = self._weighed(about, X, force.at, span, mark, why)
+        if mark is first:
+            return None
+        return (mark, first) if backwards else (first, mark)
+
+    def _about_mark(self, about: About) -> Mark | None:
+        return self.pose.points[about.point] if isinstance(about, AtPoint) else None
+
+    def _why(self, part: Part, about: About) -> str:
+        """The law: of which links, and about what, the moments are taken."""
+        links = [link for link in self.group.links if link in part]
+        where = self.pose.spoken(about.point) if isinstance(about, AtPoint) else said("the auxiliary point")
+        return said("moments of {0} about {1}", listed(links), where)
+
+    def _weighed(self, about: About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
+        if isinstance(about, AtPoint):
+            return self.board.balance(self.pose.points[about.point], X, C, *force, mark, why=why)
+        assert isinstance(about, Where)
+        return self.board.weigh(*self._lines(about), X, C, *force, mark, names=self._letters(about), why=why)
+
+    def _slide_line(self, part: Part, slide: Slide, about: About, sign: int) -> Known:
+        """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
+        Y = self._mark_of(about)
+        with self.board.on(MECHANISM):
+            line = self.board.perpendicular(self.pose.guide(slide), Y)
+        return Known(None, line, Y, self._pair(part, slide, Y, sign))
+
+    def _mark_of(self, about: About) -> Mark:
+        """The point that moments are taken about, as a mark."""
+        if isinstance(about, AtPoint):
+            return self.pose.points[about.point]
+        assert isinstance(about, Where)
+        with self.board.on(MECHANISM):
+            return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
+
+    def _pair(self, part: Part, site: Site, Y: Mark, sign: int) -> Pair | None:
+        """The couple that balances all known forces on the part about a point, as a pair of forces there."""
+        assert isinstance(site, Slide | Balance)
+        R = self._arm_beside(site, Y)
+        mark = first = self.polygon(part)[1]
+        for force in self.acting(part, self.others(part, site), site):
+            if force.at is not Y:
+                mark = self.board.balance(Y, R, force.at, *signed((force.tail, force.head), sign), mark)
+        return None if mark is first else (Acting(R, first, mark), Acting(Y, mark, first))
+
+    def _arm_beside(self, site: Slide | Balance, Y: Mark) -> Mark:
+        """A point at which a pair with Y has a good arm."""
+        one, two = self.loading.arm(site.link)
+        return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
+
+    def _across(self, part: Part, site: Site, about: About, sign: int) -> Known:
+        """No moments: what the forces along a direction leave unknown is told by those across it."""
+        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
+        with self.board.on(MECHANISM):
+            if isinstance(about, Along):
+                guide = self.pose.guide(about.slide)
+                line = self.board.perpendicular(guide, self.pose.points[about.slide.at])
+            else:
+                assert isinstance(about, AlongLine)
+                known_line = self.known[about.site].line
+                assert known_line is not None
+                line = known_line
+        if isinstance(site, Slide):
+            return self._slide_size(site, line, start, end, sign)
+        X = self.seat(site)
+        with self.board.on(MECHANISM):
+            through = self.board.parallel(line, X)
+        return Known(None if start is end else signed((end, start), sign), through, X)
+
+    def _slide_size(self, slide: Slide, line: Mark, start: Mark, end: Mark, sign: int) -> Known:
+        """A slide's reaction closes the polygon with a force of known direction; where it acts is not told."""
+        with self.board.on(MECHANISM):
+            normal = self.board.perpendicular(self.pose.guide(slide), self.pose.points[slide.at])
+        corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
+        return Known(signed((end, corner), sign), None, None)
+
+    def _found(self, part: Part, site: Site, about: About) -> None:
+        """A force of known line, from moments about a point that its line does not pass; or a couple."""
+        sign = self.sign(part, site)
+        known = self.known.get(site)
+        if isinstance(site, Balance) and not site.at:
+            self.pairs[site] = self._pair(part, site, self._mark_of(about), sign)
+            return
+        assert known is not None
+        if known.line is None:
+            self._couple_found(part, site, known, self._mark_of(about))
+            return
+        if isinstance(about, Along | AlongLine):
+            told = self._across(part, site, about, sign)
+            if told.line is None:
+                assert told.part is not None
+                self._enter(site, told.part)
+                return
+            base = told.part[0] if told.part else self.polygon(part)[1]
+            second = told.line, told.part
+        else:
+            base = known.part[0] if known.part else self.polygon(part)[1]
+            second = self._line_to(about, self.acts_at(site, known)), self._moments(
+                part, site, about, self.acts_at(site, known), sign, base)
+        assert second[0] is not None
+        corner = self.board.meet(self._locus(known.line, known.part, base), self._locus(second[0], second[1], base))
+        self._enter(site, (base, corner))
+
+    def _locus(self, line: Mark, part: Span | None, base: Mark) -> Mark:
+        """Where the head of a force lies that is laid off from `base`: its part across the line is known."""
+        head = base if part is None else part[1] if part[0] is base else self.board.transfer(*part, base)
+        return self.board.parallel(line, head)
+
+    def _tail_locus(self, line: Mark, part: Span | None, corner: Mark) -> Mark:
+        """Where the tail of a force lies that ends in `corner`."""
+        tail = corner if part is None else part[0] if part[1] is corner else self.board.transfer(*part[::-1], corner)
+        return self.board.parallel(line, tail)
+
+    def _enter(self, site: Site, span: Span) -> None:
+        """A force is found; a slide's acts where its line says, with the pair known besides."""
+        self.ends[site] = span
+        for mark in span:
+            self.numbered(mark)
+        known = self.known.get(site)
+        if isinstance(site, Slide):
+            if known is not None and known.at is not None:
+                self.seats[site] = known.at
+                self.pairs[site] = known.pair
+            else:
+                self.seats[site] = self.pose.points[site.at]
+
+    def _close_two(self, part: Part, one: Site, two: Site) -> None:
+        """The corner between two forces of known lines."""
+        start, end = self.polygon(part)
+        first, last = self.known[one], self.known[two]
+        signs = self.sign(part, one), self.sign(part, two)
+        assert first.line is not None
+        assert last.line is not None
+        tails = first.part and signed(first.part, signs[0])
+        heads = last.part and signed(last.part, signs[1])
+        corner = self.board.meet(self._tail_locus(first.line, tails, start), self._locus(last.line, heads, end))
+        self._enter(one, signed((corner, start), signs[0]))
+        self._enter(two, signed((end, corner), signs[1]))
+
+    def _close(self, part: Part, site: Site) -> None:
+        """The last force of a part closes its polygon; of a slide, and of a couple, the moment too."""
+        sign = self.sign(part, site)
+        known = self.known.get(site)
+        if isinstance(site, Balance) and not site.at:
+            one = self.loading.arm(site.link)[0]
+            self.pairs[site] = self._pair(part, site, one, sign)
+            return
+        if known is not None and known.line is None and known.part is not None:
+            assert isinstance(site, Slide)
+            self._couple_found(part, site, known, self.pose.points[site.at])
+            return
+        start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
+        self._enter(site, signed((end, start), sign))
+        if isinstance(site, Slide) and site not in self.pairs:
+            Y = self.pose.points[site.at]
+            self.pairs[site] = self._pair(part, site, Y, sign)
+
+    def _couple_found(self, part: Part, site: Site, known: Known, Y: Mark) -> None:
+        """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
+        assert isinstance(site, Slide)
+        assert known.part is not None
+        self.pairs[site] = self._pair(part, site, Y, self.sign(part, site))
+        self.ends[site], self.seats[site] = known.part, self.pose.points[site.at]
+
+    def _pin(self, site: Joint) -> None:
+        """The forces on the links of a joint balance."""
+        mark = first = self.origin
+        spans = [self.ends[Joint(site.point, link)] for link in self.group.members(site.point) if link != site.link]
+        spans += [self.forces.joints[site.point, link] for link in self.group.scene.links_of[site.point]
+                  if link in self.group.done]
+        for tail, head in spans:
+            mark = self.board.transfer(tail, head, mark)
+        self.ends[site] = mark, first
+
+    # ---- trials ------------------------------------------------------------------------------------------------
+
+    def _trial(self, move: Assume) -> None:
+        """Two forces assumed on the known line, the false position, then the true force by the same moves."""
+        known = self.known[move.site]
+        assert known.line is not None
+        base = known.part[0] if known.part else self.polygon(move.part)[1]
+        locus = self._locus(known.line, known.part, base)
+        size = self.board.transfer(*self.loading.arm(self.group.links[0]), base)
+        before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
+        trials: list[Mark] = []
+        for ratio in TRIAL_RATIOS:
+            start = self.board.pick(locus, base, size, ratio=ratio)
+            self._enter(move.site, (base, start))
+            self.draw(move.moves)
+            trials += [start, *self._missed(move)]
+            self.known, self.ends = dict(before[0]), dict(before[1])
+            self.pairs, self.seats = dict(before[2]), dict(before[3])
+        A1, Z1, l1, A2, Z2, l2 = trials
+        self._enter(move.site, (base, self.board.false_position(A1, A2, Z1, l1, Z2, l2)))
+        self.draw(move.moves)
+
+    def _missed(self, move: Assume) -> Span:
+        """The head of a force found by a trial, and the line on which it should lie."""
+        told = self._told(move.part, move.end, move.about)
+        assert told.line is not None
+        tail, head = self.ends[move.end]
+        return head, self._locus(told.line, told.part, tail)
+
+    # ---- what is found -----------------------------------------------------------------------------------------
+
+    def rest(self) -> None:
+        """All reactions are nothing."""
+        for part in self.group.parts:
+            for site, _ in self.group.boundary(part):
+                self._enter(site, (self.origin, self.origin))
+                self.pairs[site] = None
+
+    def enter(self) -> None:
+        """Tell the groups that follow what was found here."""
+        with self.board.on(self.panel, self.group.links):
+            for point in self.group.points:
+                for link in self.group.members(point):
+                    self.forces.joints[point, link] = self._at_joint(point, link)
+        for site, span in self.ends.items():
+            self.forces.shown.append(Shown("balance" if isinstance(site, Balance) else "reaction",
+                                           self._letter(site), *span))
+            part = self.known[site].part if site in self.known else None
+            if part is not None and self.known[site].line is not None:
+                self.forces.shown.append(Shown("part", "T" + self._letter(site)[1:], *part))
+            if isinstance(site, Slide):
+                self.forces.slides[site] = span
+                self.forces.pairs[site], self.forces.seats[site] = self.pairs.get(site), self.seats[site]
+            elif isinstance(site, Balance) and site.at:
+                self.forces.balances[site] = span
+        for site, pair in self.pairs.items():
+            if isinstance(site, Balance) and not site.at:
+                self.forces.moments[site] = pair
+                if pair is not None:
+                    self.forces.shown.append(Shown("balance", f"T_{site.link}", pair[0].tail, pair[0].head))
+
+    def _letter(self, site: Site) -> str:
+        """The letter of a site's force: that of the force of one link on another, or of the balance."""
+        if isinstance(site, Joint):
+            return reaction_letter(self.forces.scene, site.point, site.link)
+        return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
+
+    def _at_joint(self, point: str, link: str) -> Span:
+        """The force on a link at a joint, from the pin: found, or what is left by the others there."""
+        if Joint(point, link) in self.ends:
+            return self.ends[Joint(point, link)]
+        spans = [(force.tail, force.head) for force in self.from_done(point)]
+        spans += [self.ends[Joint(point, other)][::-1] for other in self.group.members(point) if other != link]
+        mark = first = spans[0][0]
+        for tail, head in spans:
+            mark = head if tail is mark else self.board.transfer(tail, head, mark)
+        return first, mark

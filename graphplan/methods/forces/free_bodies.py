@@ -1,0 +1,201 @@
+"""What acts on a part of a group: its links' loads in one chain, what solved groups pass on, what is found by now."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import Slide
+from graphplan.methods.forces.letters import pair_letter, reaction_letter
+from graphplan.methods.forces.loading import Acting, Loading
+from graphplan.methods.forces.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
+from graphplan.methods.forces.unknown_forces import Group, Joint, Site
+from graphplan.methods.panels import FORCE_PLAN, MECHANISM, rubbing, spoken
+from graphplan.methods.poses import Pose
+
+Part = frozenset[str]
+
+
+class Parts:
+    """The known forces of one group, drawn on a panel of its own."""
+
+    def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
+        self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
+        self.panel = FORCE_PLAN + ", ".join(group.links) + rubbing(forces.number)
+        self.known: dict[Site, Known] = {}
+        self.ends: dict[Site, Span] = {}
+        self.pairs: dict[Site, Pair | None] = {}
+        self.seats: dict[Site, Mark] = {}
+        self.chains: dict[str, list[Acting]] = {}
+        self.couples: dict[str, list[Pair]] = {}
+        with board.on(self.panel, group.links):
+            self.origin = self.numbered(board.begin(plan=spoken(self.panel), number=1))
+            self._chain()
+        for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
+            assert site.direction is not None
+            with board.on(MECHANISM, group.links):
+                at = pose.points[site.at]
+                line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
+            self.known[site] = Known(None, line, at)
+
+    def numbered(self, mark: Mark) -> Mark:
+        """A corner of the polygon, with the next number if it has none."""
+        if not mark.step.name:
+            self.forces.corners += 1
+            self.board.named(mark, str(self.forces.corners))
+        return mark
+
+    # ---- loads -------------------------------------------------------------------------------------------------
+
+    def _chain(self) -> None:
+        """The known forces, link after link, head to tail; couples beside them."""
+        corner = self.origin
+        for link in self.group.links:
+            self.chains[link] = own = self._in_chain(link, corner)
+            corner = own[-1].head if own else corner
+            couples = list(self.loading.couples(link, corner))
+            self._apply(force for pair in couples for force in pair)
+            self.couples[link] = couples + list(self._couples_of_slides(link))
+
+    def _apply(self, loads: Iterable[Acting]) -> None:
+        """Draw loads where they act; once, not again with friction."""
+        if not self.forces.number:
+            self.forces.shown += [applied(self.board, force) for force in loads]
+
+    def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
+        """The forces on one link: its loads, and what solved groups pass on to it."""
+        own = list(self.loading.forces(link, corner))
+        self.forces.shown += [Shown("load", force.name, force.tail, force.head) for force in own]
+        self._apply(own)
+        for force in self._passed_to(link):
+            tail = own[-1].head if own else corner
+            own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail), force.name))
+            self.forces.shown.append(Shown("reaction", force.name, tail, own[-1].head))
+        for force in own:
+            self.numbered(force.head)
+        return own
+
+    def _passed_to(self, link: str) -> Iterator[Acting]:
+        """The reactions of solved groups on one link alone."""
+        for point in self.group.points:
+            if not self.group.rest(point) and self.group.members(point) == (link,):
+                yield from self.from_done(point)
+        for slide in self._solved_slides(link):
+            one, other = (slide.along, slide.link) if slide.link == link else (slide.link, slide.along)
+            span = signed(self.forces.slides[slide], 1 if slide.link == link else -1)
+            yield Acting(self.forces.seats[slide], *span, pair_letter(one, other))
+
+    def _couples_of_slides(self, link: str) -> Iterator[Pair]:
+        """The couples of the slides that join a link to solved groups."""
+        for slide in self._solved_slides(link):
+            pair = self.forces.pairs[slide]
+            if pair is not None:
+                yield signed_pair(pair, 1 if slide.link == link else -1)
+
+    def _solved_slides(self, link: str) -> list[Slide]:
+        """The slides that join a link to solved groups."""
+        ends = {slide: {slide.link, slide.along} for slide in self.group.scene.slides}
+        return [slide for slide, pair in ends.items() if link in pair and pair & self.group.done]
+
+    def from_done(self, point: str) -> Iterator[Acting]:
+        """What the links of solved groups pass on at a joint."""
+        for link in self.group.scene.links_of[point]:
+            if link in self.group.done:
+                tail, head = self.forces.joints[point, link]
+                name = reaction_letter(self.forces.scene, point, self.group.members(point)[0])
+                yield Acting(self.pose.points[point], head, tail, name)
+
+    # ---- a part of the group -----------------------------------------------------------------------------------
+
+    def _solved(self, part: Part) -> Iterator[tuple[Site, int]]:
+        """The sites of a part's boundary whose forces are found, with their signs."""
+        yield from ((site, sign) for site, sign in self.group.boundary(part) if site in self.ends or site in self.pairs)
+
+    def _vectors(self, part: Part, but: Iterable[Site] = ()) -> Iterator[Acting]:
+        """The known forces that act on a part beyond its links' chains."""
+        for point in self.group.passed_on(part):
+            if len(self.group.members(point)) > 1:
+                yield from self.from_done(point)
+        for site, sign in self._solved(part):
+            if site in self.ends and site not in but:
+                yield Acting(self.seat(site), *signed(self.ends[site], sign))
+
+    def seat(self, site: Site) -> Mark:
+        """Where a site's force acts."""
+        if site in self.seats:
+            return self.seats[site]
+        return self.pose.points[site.point if isinstance(site, Joint) else site.at]
+
+    def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[Site] = ()) -> Span:
+        """The open polygon of a part's known forces: where it starts and where it ends."""
+        spans: list[Span] = []
+        for link in self.group.links:
+            if link in part and self.chains[link]:
+                spans.append((self.chains[link][0].tail, self.chains[link][-1].head))
+        if not spans:
+            corner = self._corner(part)
+            spans = [(corner, corner)]
+        start, end = spans[0]
+        for tail, head in (*spans[1:], *((v.tail, v.head) for v in (*self._vectors(part, but), *extra))):
+            if tail is end:
+                end = head
+            elif head is start:
+                start = tail
+            else:
+                end = self.board.transfer(tail, head, end)
+        return start, end
+
+    def _corner(self, part: Part) -> Mark:
+        """The corner of the chain at which the loads of an unloaded part would stand."""
+        corner = self.origin
+        for link in self.group.links:
+            if link in part:
+                break
+            corner = self.chains[link][-1].head if self.chains[link] else corner
+        return corner
+
+    def acting(self, part: Part, facts: Iterable[tuple[Site, int]], but: Site) -> Iterator[Acting]:
+        """Every known force on a part, with couples as pairs, and the known parts of forces with known lines."""
+        for link in self.group.links:
+            if link in part:
+                yield from self.chains[link]
+                for pair in self.couples[link]:
+                    yield from pair
+        yield from self._vectors(part, (but,))
+        for site, sign in self._solved(part):
+            pair_of = self.pairs.get(site)
+            if pair_of is not None and site != but:
+                yield from signed_pair(pair_of, sign)
+        told = [*facts, (but, self.sign(part, but))] if isinstance(but, Slide) else list(facts)
+        yield from self.parts_of(told)
+        for site, sign in told:
+            known = self.known.get(site)
+            if known is not None and known.pair is not None and site not in self.ends:
+                yield from signed_pair(known.pair, sign)
+
+    def acts_at(self, site: Site, known: Known) -> Mark:
+        return known.at if known.at is not None else self.seat(site)
+
+    def sign(self, part: Part, site: Site) -> int:
+        return next(sign for other, sign in self.group.boundary(part) if other == site)
+
+    def others(self, part: Part, site: Site) -> list[tuple[Site, int]]:
+        return [(other, sign) for other, sign in self.group.boundary(part) if other != site]
+
+    def parts_of(self, sites: Iterable[tuple[Site, int]]) -> Iterator[Acting]:
+        """The known parts of forces whose lines are known."""
+        for site, sign in sites:
+            known = self.known.get(site)
+            if known is not None and known.part is not None and site not in self.ends:
+                yield Acting(self.acts_at(site, known), *signed(known.part, sign))
+
+    def idle(self) -> bool:
+        """Whether nothing acts on the group, so that all its reactions are nothing."""
+        return not any(self.chains[link] or self.couples[link] for link in self.group.links) and not any(
+            balance.link in self.group.links for balance in self.loading.loads.balances) and not any(
+            self._passed(point) for point in self.group.points)
+
+    def _passed(self, point: str) -> bool:
+        """Whether solved groups pass anything on at a joint between links of this one."""
+        return not self.group.rest(point) and len(self.group.members(point)) > 1 and any(
+            force.tail is not force.head for force in self.from_done(point))

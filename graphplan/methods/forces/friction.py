@@ -1,0 +1,137 @@
+"""Friction on the drawing board: a journal's force touches its friction circle, a slide's leans by its friction angle.
+
+Which way it does so follows from the force itself. So each round takes the directions of the forces from the last, and
+the first those without friction; then friction is no load, but a pose in which the forces act elsewhere, and a round is
+a force plan like any other (Ozols 1974, 9-1, 12-1 and 12-4). The senses of slides' forces seldom change, and a force
+that is turned a little still touches its circle but for the square of that: few rounds are needed.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import ChainMap
+from collections.abc import Callable, Iterator, Sequence
+from copy import copy
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
+from graphplan.mechanism.order import by_name
+from graphplan.methods.forces.loading import Loading
+from graphplan.methods.forces.reactions import Forces, Span, reaction_on
+from graphplan.methods.motion.time_scale import extent
+from graphplan.methods.motion.velocity import Velocity
+from graphplan.methods.panels import MECHANISM, link_named, slide_named
+from graphplan.methods.poses import Pose
+from graphplan.phrases import said
+
+STANDS = 1e-12  # of the largest force, at the mechanism's extent: how far off its circle or its line a force may be
+SHORT = 1e-9  # of the mechanism's extent: a force that is drawn shorter is nothing
+Valued = Callable[[Sequence[Mark]], list[Any]]
+
+
+@dataclass(frozen=True)
+class Journal:
+    """A journal that rubs: the joint as the scene names it and as the `rough` scene does, the link, and the pin's."""
+
+    friction: Friction
+    point: str
+    link: str
+    pin: str
+
+
+def journals(scene: Scene) -> Iterator[Journal]:
+    """The journals that rub, each of a link in that which carries the pin."""
+    assert scene.loads is not None
+    for friction in sorted(scene.loads.frictions, key=lambda friction: by_name(friction.at)):
+        if friction.at and friction.radius * friction.coefficient:
+            pin, *others = scene.links_of[friction.at]
+            for link in sorted(others, key=by_name):
+                yield Journal(friction, f"{friction.at} of {link}", link, pin)
+
+
+def rough(scene: Scene) -> Scene:
+    """The scene with a joint of two links for each journal that rubs: their forces act at points of their own."""
+    named: dict[str, dict[str, list[str]]] = {}
+    for journal in journals(scene):
+        for link in (journal.link, journal.pin):
+            named.setdefault(journal.friction.at, {}).setdefault(link, []).append(journal.point)
+    points = {name: at for point, at in scene.points.items()
+              for name in (point, *dict.fromkeys(new for own in named.get(point, {}).values() for new in own))
+              for at in (at,)}
+    links = {link: tuple(name for point in own for name in named.get(point, {}).get(link, [point]))
+             for link, own in scene.links.items()}
+    return replace(scene, points=points, links=links)
+
+
+class Rubbed:
+    """The pose in which the forces of one round act, as those of the round before say."""
+
+    def __init__(self, velocity: Velocity, loading: Loading, forces: Forces):
+        self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
+        slides = {(slide.link, slide.along): slide for slide in loading.scene.slides}
+        self.touching = {journal: self._touching(journal) for journal in journals(loading.net.scene)}
+        self.leaning = {slides[friction.slide]: self._leaning(slides[friction.slide], friction)
+                        for friction in loading.loads.frictions if friction.slide and friction.coefficient}
+
+    @property
+    def pose(self) -> Pose:
+        """The pose with the points where journals' forces touch, and with guides that lean."""
+        own = copy(self.loading.pose)
+        own.points = ChainMap({journal.point: mark for journal, mark in self.touching.items()}, own.standing)
+        own.guides = self.leaning
+        return own
+
+    def _touching(self, journal: Journal) -> Mark:
+        """Where a journal's force touches its friction circle."""
+        at, points = journal.friction.at, self.loading.pose.points
+        arm, pair = self._arm(journal), (journal.link, journal.pin)
+        tail, head = self._reaction(journal)
+        if tail is head:
+            return points[at]
+        with self.board.on(MECHANISM, pair):
+            slip = self.velocity.slip(journal.pin, journal.link, arm)
+            return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'",
+                                    radius=journal.friction.radius * journal.friction.coefficient,
+                                    why=said("the friction of the journal {0}, of {1} in {2}", at,
+                                             *map(link_named, pair)))
+
+    def _reaction(self, journal: Journal) -> Span:
+        """The force of a journal, in a round or without friction."""
+        point = journal.point if journal.point in self.forces.scene.points else journal.friction.at
+        return reaction_on(self.forces, self.board, point, journal.link)
+
+    def _arm(self, journal: Journal) -> str:
+        """Another point of the link than the journal."""
+        one, two = self.loading.arm_points(journal.link if journal.link != FRAME else journal.pin)
+        return two if one == journal.friction.at else one
+
+    def _leaning(self, slide: Slide, friction: Friction) -> Mark:
+        """The guide of a slide, turned by the friction angle."""
+        pose = self.loading.pose
+        with self.board.on(MECHANISM, (slide.link, slide.along)):
+            slip = self.velocity.slip(slide.along, slide.link, slide.at)
+            return self.board.lean(pose.guide(slide), pose.points[slide.at], slip, *self.forces.slides[slide],
+                                   coefficient=friction.coefficient,
+                                   why=said("the friction of the slide {0}", slide_named(slide)))
+
+    def stands(self, then: Rubbed, valued: Valued) -> bool:
+        """Whether the forces of this round act as they themselves say: so `then` would have them act.
+
+        Their moments about the points where they should touch, and their parts along the guides that should be square
+        to them, are nothing beside the largest of them.
+        """
+        moved = [mark for journal, T in self.touching.items()
+                 for mark in (T, then.touching[journal], *then._reaction(journal))]
+        leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
+        values = valued([*moved, *leant])
+        size, far = extent(self.loading.scene), [0.0]
+        forces = [values[k + 1 : k + 3] for k in range(len(moved), len(values), 3)]
+        forces += [values[k + 2 : k + 4] for k in range(0, len(moved), 4)]
+        largest = max([SHORT * size, *(math.dist(*force) for force in forces)])
+        for T, new, tail, head in zip(*[iter(values[: len(moved)])] * 4, strict=True):
+            far.append(abs((new[0] - T[0]) * (head[1] - tail[1]) - (new[1] - T[1]) * (head[0] - tail[0])) / size)
+        for (a, b, _), tail, head in zip(*[iter(values[len(moved) :])] * 3, strict=True):
+            far.append(abs((head[0] - tail[0]) * b - (head[1] - tail[1]) * a) / math.hypot(a, b))
+        return max(far) <= STANDS * largest

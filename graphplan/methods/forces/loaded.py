@@ -1,0 +1,306 @@
+"""The construction of a scene with loads: after the motion its forces, by polygons, by the lever, or by both.
+
+Force plans in which errors grow are drawn in other ways, too, and the steadiest is kept; where a slide's reaction acts
+is drawn if it lies near. Imported for scenes with loads alone.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze, needed_steps
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.model import Find, Loads, Scene, TurningDrive
+from graphplan.mechanism.units import metre
+from graphplan.methods.construct import Draughtsman
+from graphplan.methods.construction import Construction
+from graphplan.methods.forces.friction import SHORT, Rubbed
+from graphplan.methods.forces.loading import Loading, force_scale
+from graphplan.methods.forces.groups import (
+    Freed,
+    Plans,
+    Result,
+    Way,
+    arms,
+    levers,
+    reactions,
+    results,
+    with_friction,
+)
+from graphplan.methods.forces.reactions import Forces, Shown
+from graphplan.methods.forces.statics import PREFERENCES
+from graphplan.methods.motion.acceleration import Normal
+from graphplan.methods.motion.alternatives import EQUAL, growth, ways
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.time_scale import extent
+from graphplan.methods.motion.velocity import Velocity
+from graphplan.methods.panels import link_named, slide_named
+from graphplan.methods.results import Reading
+from graphplan.methods.styles import Style
+from graphplan.phrases import Phrase, phrase, said
+
+NEAR = 2.0  # extents of the mechanism: where a slide's reaction acts further away, its line is not drawn
+SMALL = 1e-6  # of the largest reaction: a slide's that is smaller has no line to speak of
+MOST_PICKS = 4  # at how many places a trial of forces may begin
+TEXTBOOK = "polygons", 0
+MOST_FAILURES = 3  # ways of a motion whose forces could not be drawn, before no more are tried
+MOST_ROUNDS = 8  # of friction: near to locking they may never stand
+UNSTEADY = 30.0  # growth of errors from which on force plans are drawn in other ways too, and weighed
+
+
+class Loaded(Draughtsman):
+    """Draws one scene with its forces, its groups planned in one way; `arms` are the slides whose lines are drawn.
+
+    `by_lever` are the pairs whose reactions levers are to find, where no polygons are drawn.
+    """
+
+    def __init__(self, scene: Scene, planner: Planner, style: Style, plans: Plans, way: Way = TEXTBOOK,
+                 arms: tuple[str, ...] = (), by_lever: tuple[str, ...] = ()):
+        super().__init__(scene, planner, style)
+        assert scene.loads is not None
+        self.loads: Loads = scene.loads
+        self.style, self.plans, self.way, self.arms, self.by_lever = style, plans, way, arms, by_lever
+        self.phi = force_scale(scene)
+        self.shown: list[Shown] = []
+        self.notes: list[str] = []
+        self.rounds = 0
+
+    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+        """Motion and forces; the accelerations are drawn for inertia forces, too."""
+        if plan is None and self.loads.masses:
+            plan = self.accelerations(velocity)
+        self._forces(velocity, plan)
+        shown = self._arrows()
+        drawn = super().finished(velocity, plan)
+        drawn.phi, drawn.shown, drawn.rounds = self.phi, shown, self.rounds
+        drawn.notes += self.notes
+        return drawn
+
+    def _forces(self, velocity: Velocity, plan: Normal | None) -> None:
+        """Force plans and lever, as the style says."""
+        loading = Loading(self.board, self.net, self.pose, self.phi, self.tempo.unit, plan, self.style.inertia)
+        loading.apart = frozenset(self._far(loading))
+        if self.style.polygons:
+            self._polygons(velocity, loading)
+        if self.style.lever or self.scene.repeating:
+            self._note(*levers(self.pose, velocity, loading, self.plans))
+            if not self.style.polygons:
+                freed = Freed(self.pose, loading, self.plans).all(self.by_lever)
+                self._note(freed.results, freed.shown)
+                if self.loads.frictions:
+                    self.notes.append(said("friction is left out: force polygons alone have it"))
+
+    def _far(self, loading: Loading) -> Iterator[str]:
+        """The links whose inertia force would be shifted too far, or is nothing beside its couple."""
+        size = extent(self.scene)
+        for link, marks in loading.shifts():
+            try:
+                home, end, P, R, tip = self._valued(marks)
+            except ConstructionError:  # whoever reads the numbers is told
+                return
+            force = math.dist(home, end)
+            couple = abs((R[0] - P[0]) * (tip[1] - end[1]) - (R[1] - P[1]) * (tip[0] - end[0]))
+            if force <= SHORT * size or couple > NEAR * size * force:
+                yield link
+                if couple > SHORT * size * size:
+                    self.notes.append(said("{0}: its inertia force is small beside its couple; they are left apart",
+                                           link_named(link)))
+
+    def _polygons(self, velocity: Velocity, loading: Loading) -> None:
+        """The reactions and the balances, group by group against the motion's order; and once more with friction."""
+        forces = reactions(self.board, self.pose, loading, self.plans, self.way)
+        self._note(results(self.scene, loading, forces, self.board), forces.shown)
+        self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
+        if self.loads.frictions and self._in_motion and not self.scene.repeating:
+            self._rounds(velocity, loading, forces)
+
+    def _rounds(self, velocity: Velocity, loading: Loading, forces: Forces) -> None:
+        """Rounds of friction, as many as are asked for, or until the forces stand."""
+        rubbed, stands = Rubbed(velocity, loading, forces), False
+        asked = self.loads.rounds or MOST_ROUNDS
+        while forces.number < asked and not stands:
+            forces = reactions(self.board, rubbed.pose, loading, self.plans.rough, self.way, forces)
+            rubbed, last = Rubbed(velocity, loading, forces), rubbed
+            self.shown += forces.shown
+            try:
+                stands = not self.loads.rounds and last.stands(rubbed, self._valued)
+            except ConstructionError:  # whoever reads the numbers is told
+                break
+        self._note(with_friction(loading, forces), ())
+        self.rounds = forces.number
+        if self.loads.rounds:
+            self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
+        elif stands:
+            self.notes.append(said("friction: the forces stand after round {0}", forces.number))
+        else:
+            self.notes.append(said("friction: the forces do not stand after {0} rounds", forces.number))
+
+    def _valued(self, marks: Sequence[Mark]) -> list[Any]:
+        """The values of marks in this pose."""
+        program = freeze(self.board, marks)
+        values = evaluate(program, Floats())
+        return [values[index] for index in program.wanted]
+
+    @property
+    def _in_motion(self) -> bool:
+        """Whether any drive moves: at rest friction has no sense."""
+        return any(d.omega if isinstance(d, TurningDrive) else d.speed for d in self.scene.drives)
+
+    def _note(self, found: Iterable[Result], shown: Iterable[Shown]) -> None:
+        """Keep results, and the arrows that show them."""
+        self.shown += shown
+        for kind, of, marks in found:
+            self.read(kind, of, *marks)
+
+    def _arrows(self) -> tuple[Reading, ...]:
+        """The forces drawn as arrows: of those that what is asked for needs."""
+        needed = needed_steps(self.board, self.marks)
+        found = []
+        for force in dict.fromkeys(self.shown):
+            head = force.head if force.of is None else force.of
+            if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
+                start = len(self.marks)
+                self.marks += [force.tail, force.head]
+                found.append(Reading(force.kind, force.label, (start, start + 1)))
+        return tuple(found)
+
+
+def loaded_constructions(scene: Scene, method: str, style: Style) -> Iterator[Construction]:
+    """The constructions of a scene with loads, best first: by the ways through its motion, each with its forces."""
+    forces = Alternatives(scene, style)
+    for best, planner in ways(Network(scene), method, forces.draw):
+        yield forces.steadiest(best, planner)
+
+
+class Alternatives:
+    """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
+
+    def __init__(self, scene: Scene, style: Style):
+        self.scene, self.style, self.plans = scene, style, Plans(scene)
+        self.chosen: dict[Planner, Style] = {}
+        self.wary = False  # a way of the motion has failed: of others the motion is tried first
+        self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could
+
+    def draw(self, planner: Planner) -> Construction:
+        """The first construction that can be drawn in this pose, which says what it leaves out, and why.
+
+        Where there is none it is the first at all; fails with `Refused` where not even that is planned.
+        """
+        if len(self.hopeless) >= MOST_FAILURES:  # another way of the motion is no help
+            found, self.chosen[planner] = self.hopeless[0]
+            return found
+        if self.wary and _singular(motion := self._motion(planner)):
+            return motion
+        first: tuple[Construction, Style] | None = None
+        faults: list[Refused | ConstructionError] = []
+        for style, missing in self._styles():
+            self.chosen[planner] = style
+            try:
+                found = self._drawn(planner, style)
+                if _singular(found) and style.polygons:
+                    found = self._by_best_way(found, planner)[0]
+            except Refused as refused:
+                faults.append(refused)
+                continue
+            singular = _singular(found)
+            if singular is None:
+                found.notes += [missing(faults[-1].why)] if faults else []
+                return found
+            if not faults and _singular(self._motion(planner)):
+                self.wary = True
+                return found
+            first = first or (found, style)
+            faults.append(singular)
+        if first is None:
+            raise faults[0]
+        self.hopeless.append(first)
+        found, self.chosen[planner] = first
+        return found  # whoever reads the numbers is told
+
+    def _motion(self, planner: Planner) -> Construction:
+        """The motion alone: where it cannot be drawn this way no other forces help."""
+        every = tuple(point for point, links in self.scene.links_of.items() if links)
+        bare = replace(self.scene, loads=None, find=Find(every, every))
+        return Draughtsman(bare, planner, self.style).draw()
+
+    def _styles(self) -> Iterator[tuple[Style, Phrase]]:
+        """The style that is asked for, and others in its place, each with what it leaves out."""
+        no_lever, no_polygons = phrase("no lever: {0}"), phrase("no force polygons: {0}")
+        yield self.style, no_lever
+        if self.style.lever:
+            yield replace(self.style, lever=False, polygons=True), no_lever
+        if self.style.polygons:
+            yield replace(self.style, lever=True, polygons=False), no_polygons
+
+    def _drawn(self, planner: Planner, style: Style, way: Way = TEXTBOOK, arms: tuple[str, ...] = ()) -> Construction:
+        return Loaded(self.scene, planner, style, self.plans, way, arms, self._by_lever).draw()
+
+    @property
+    def _by_lever(self) -> tuple[str, ...]:
+        """The pairs whose reactions levers find, where no polygons do: if levers are asked for those that are named."""
+        asked = self.scene.find.reactions
+        if asked is None and self.style.polygons:
+            return (*self.scene.joints, *(slide.name for slide in self.scene.slides))
+        return asked or ()
+
+    def steadiest(self, found: Construction, planner: Planner) -> Construction:
+        """The construction with its force plans, if it has any, drawn well."""
+        style = self.chosen.get(planner)
+        if style is None:  # of a motion that cannot be drawn: whoever reads the numbers is told
+            return self._drawn(planner, self.style)
+        if not style.polygons:
+            return found
+        found, way = self._by_best_way(found, planner)
+        return _with_arms(found, lambda names: self._drawn(planner, style, way, names))
+
+    def _by_best_way(self, found: Construction, planner: Planner) -> tuple[Construction, Way]:
+        """If errors grow in the force plans other ways are weighed against this one; the best, and which it is."""
+        if growth(found.program) < UNSTEADY:
+            return found, TEXTBOOK
+        drawn = {TEXTBOOK: found}
+        for way in ((order, pick) for order in PREFERENCES for pick in range(MOST_PICKS)):
+            if way not in drawn and way[1] < self.plans.options:
+                drawn[way] = self._drawn(planner, self.chosen[planner], way)
+        grown = {way: growth(construction.program) for way, construction in drawn.items()}
+        least = EQUAL * min(grown.values())
+        way = min(drawn, key=lambda way: (max(grown[way], least), len(drawn[way].program)))
+        drawn[way].notes = found.notes
+        return drawn[way], way
+
+
+def _singular(found: Construction) -> ConstructionError | None:
+    """Why the construction cannot be drawn in this pose, if it cannot."""
+    try:
+        found.read(Floats())
+    except ConstructionError as error:
+        return error
+    return None
+
+
+def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Construction]) -> Construction:
+    """The construction with the points where slides' reactions act, as far as they lie near; the others are told."""
+    try:
+        values = found.read(Floats())
+    except ConstructionError:
+        return found
+    slides, moments = values.get("slide reaction", {}), values.get("slide moment", {})
+    sizes = {name: math.hypot(*force) for name, force in slides.items()}
+    least = SMALL * max((math.hypot(*force) for force in (*values.get("reaction", {}).values(), *slides.values())),
+                        default=0.0)
+    size = extent(found.scene)
+    least, reach = max(least, SHORT * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
+    near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
+    drawn = draw(near) if near else found
+    drawn.notes = found.notes + [
+        said("slide {0}: its reaction is small beside its moment; it is told as a force and a couple, not by its line",
+             slide_named(slide))
+        for slide in found.scene.slides
+        if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach]
+    return drawn

@@ -1,0 +1,259 @@
+"""Loads on the drawing board: weights, given forces, inertia forces and couples of each link as drawn vectors.
+
+A force is drawn `phi` lengths of the mechanism plan long for each unit of force. The inertia force is -m a, from the
+acceleration plan; a couple becomes a pair of forces at two points of its link (Ozols 1974, 9-2 and 10-6).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from typing import Protocol
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
+from graphplan.mechanism.order import by_name, ordered
+from graphplan.mechanism.units import inertia, metre, weight
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.time_scale import extent, round_number, tempo
+from graphplan.methods.panels import MECHANISM, link_named
+from graphplan.methods.poses import Pose
+from graphplan.phrases import said
+
+
+@dataclass(frozen=True)
+class Acting:
+    """A drawn force: the mark at which it acts, its tail and its head; `name` is how it is spoken of."""
+
+    at: Mark
+    tail: Mark
+    head: Mark
+    name: str = ""
+
+    @property
+    def reversed(self) -> Acting:
+        """The force that answers it."""
+        return Acting(self.at, self.head, self.tail, self.name)
+
+
+Lay = Callable[[Mark], Acting]
+
+
+class Motion(Protocol):
+    """The acceleration plan, as far as loads need it: of a link's point the mark in its figure, and the end."""
+
+    def figure(self, link: str, point: str) -> Mark: ...
+    def end_in(self, link: str, point: str) -> Mark: ...
+
+
+class Loading:
+    """The loads of each link, laid off from any mark of a force plan.
+
+    Reads the plan of accelerations where links have masses, and `phi` and `unit` (of angular velocity), by which forces
+    and rates are drawn. `inertia` names the form of inertia forces: at the centre with a couple, shifted so that it
+    needs none, or as those of two points that replace the link; those of the links `apart` are not to be shifted.
+    """
+
+    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Motion | None,
+                 inertia: str = "couple"):
+        self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
+        self.inertia, self.apart = inertia, frozenset[str]()
+        self.scene: Scene = ordered(net.scene)
+        assert self.scene.loads is not None
+        self.loads: Loads = self.scene.loads
+
+    def forces(self, link: str, start: Mark) -> Iterator[Acting]:
+        """The forces on a link, one after the other from `start`."""
+        for _, lay in self.each(link):
+            force = lay(start)
+            yield force
+            start = force.head
+
+    def each(self, link: str) -> Iterator[tuple[str, Lay]]:
+        """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
+        for nth, force in enumerate((f for f in self.loads.forces if f.on == link), 1):
+            if any(force.value):
+                name = f"P_{link}" + "'" * (nth - 1)
+                why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
+                yield force.at, partial(self._given, force.at, force.value, name, why)
+        mass = self.loads.masses.get(link)
+        if mass and mass.mass:
+            heaviness = tuple(mass.mass * g * weight(self.scene.units) for g in self.loads.gravity)
+            if any(heaviness):
+                why = said("{0}, the weight of {1}, at {2}", f"G_{link}", link_named(link), mass.centre)
+                yield mass.centre, partial(self._given, mass.centre, heaviness, f"G_{link}", why)
+            yield from self._inertia_forces(link, mass)
+
+    def _inertia_forces(self, link: str, mass: Mass) -> Iterator[tuple[str, Lay]]:
+        """The inertia force at the centre of mass, shifted aside, or at two points that replace the link."""
+        form = self._form(link, mass)
+        radius2 = mass.inertia / mass.mass * metre(self.scene.units) ** 2
+        if form == "shifted":
+            yield self._shifted(link, mass, radius2), partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+        elif form == "points":
+            pivot = self.arm_points(link)[0]
+            part = radius2 / self._square(pivot, mass.centre)
+            centre = self._beyond(link, pivot, mass.centre, part)
+            yield centre, partial(self._inertia, link, centre, mass.mass / (1 + part), f"J_{link}")
+            if self._accelerated(link, pivot):
+                yield pivot, partial(self._inertia, link, pivot, mass.mass * part / (1 + part), f"J_{link}'")
+        elif self._accelerated(link, mass.centre):
+            yield mass.centre, partial(self._inertia, link, mass.centre, mass.mass, f"J_{link}")
+
+    def _form(self, link: str, mass: Mass) -> str:
+        """The form of a link's inertia: nothing if it cannot turn; with a couple where no force can take that up."""
+        if self.motion is None or not (mass.inertia and self.turns(link)):
+            return ""
+        able = {"shifted": link not in self.apart and self._accelerated(link, mass.centre),
+                "points": self._square(self.arm_points(link)[0], mass.centre)}
+        return self.inertia if mass.mass and able.get(self.inertia) else "couple"
+
+    def _square(self, P: str, R: str) -> Number:
+        one, two = self.scene.points[P], self.scene.points[R]
+        return (one[0] - two[0]) ** 2 + (one[1] - two[1]) ** 2
+
+    def _shifted(self, link: str, mass: Mass, radius2: Number) -> str:
+        """The point where the inertia force acts without a couple: acceleration and turning say it, in proportion."""
+        name, points = _replaced(link), self.pose.standing
+        if name not in points:
+            home, end, P, R, tip = self._couple_of(link, mass, radius2)
+            points[name] = self.board.resultant(
+                points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
+                why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
+        return name
+
+    def _couple_of(self, link: str, mass: Mass, radius2: Number) -> tuple[Mark, Mark, Mark, Mark, Mark]:
+        """The acceleration of a link's centre of mass, as begin and end, and its couple: two points, and the force at
+        the second, from that end; both for a mass of one."""
+        assert self.motion is not None
+        one, two = self.arm_points(link)
+        home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+        P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
+        return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
+
+    def shifts(self) -> Iterator[tuple[str, tuple[Mark, ...]]]:
+        """Of each link whose inertia force is shifted: its acceleration and its couple, as five marks."""
+        for link, mass in self.loads.masses.items():
+            if self.inertia == "shifted" and self._form(link, mass) == "shifted":
+                yield link, self._couple_of(link, mass, mass.inertia / mass.mass * metre(self.scene.units) ** 2)
+
+    def _beyond(self, link: str, pivot: str, centre: str, part: Number) -> str:
+        """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
+        name, points = _replaced(link), self.pose.standing
+        if name not in points:
+            with self.board.on(MECHANISM, (link,)):
+                points[name] = self.board.step_off(
+                    points[pivot], points[centre], points[centre], ratio=part, name=f"K_{link}",
+                    why=said("the radius of gyration is the mean of the distances from {0}", centre))
+        return name
+
+    def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
+        x, y = value
+        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why)
+        return Acting(self.pose.points[at], start, head, name)
+
+    def _inertia(self, link: str, point: str, mass: Number, name: str, start: Mark) -> Acting:
+        """The inertia force of a mass that moves as a point of a link does, against its acceleration."""
+        assert self.motion is not None
+        shifted = self._form(link, self.loads.masses[link]) == "shifted"
+        home, end = self.motion.figure(link, point), self.motion.end_in(link, point)
+        ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
+        why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
+                   self.pose.spoken(point))
+        head = self.board.step_off(home, end, start, ratio=ratio, why=why)
+        return Acting(self.pose.points[_replaced(link) if shifted else point], start, head, name)
+
+    def _accelerated(self, link: str, point: str) -> bool:
+        return self.motion is not None and FRAME not in self.scene.links_of[point]
+
+    def couples(self, link: str, start: Mark) -> Iterator[tuple[Acting, Acting]]:
+        """The couples on a link, as pairs of forces laid off from `start`: the force at one point, and its answer."""
+        for moment in (m for m in self.loads.moments if m.on == link):
+            if moment.value:
+                P, R = self.arm(link)
+                value = moment.value * self.phi * metre(self.scene.units)
+                head = self.board.couple(P, R, start, moment=value,
+                                         why=said("the given moment on {0}", link_named(link)))
+                yield Acting(R, start, head, f"M_{link}"), Acting(P, head, start, f"M_{link}")
+        mass = self.loads.masses.get(link)
+        if mass and self._form(link, mass) == "couple":
+            yield self._inertia_pair(link, mass, start)
+
+    def _inertia_pair(self, link: str, mass: Mass, start: Mark) -> tuple[Acting, Acting]:
+        assert self.motion is not None
+        one, two = self.arm_points(link)
+        ends = self.motion.end_in(link, one), self.motion.end_in(link, two)
+        P, R = self.pose.points[one], self.pose.points[two]
+        ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
+        why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))
+        head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why)
+        return Acting(R, start, head, f"W_{link}"), Acting(P, head, start, f"W_{link}")
+
+    def turns(self, link: str) -> bool:
+        """Whether a link may have an angular acceleration: not if it turns as the frame does, but for even drives."""
+        net = self.net
+        if not net.ground or net.classes[net.body[link]] != net.classes[net.ground]:
+            return True
+        return bool(sum(sign * drive.alpha for sign, drive in net.excess(link, net.ground)))
+
+    def arm_points(self, link: str) -> tuple[str, str]:
+        """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""
+        scene, names = self.scene, sorted(self.scene.links[link], key=by_name)
+        first = next((p for p in names if FRAME in scene.links_of[p]), names[0])
+        own = [p for p in names if self._apart(first, p)]
+        names += [p for s in scene.slides if link in (s.link, s.along) for k in (s.link, s.along) if k != link
+                  for p in scene.links[k]]
+        names += list(scene.points)
+        if own:
+            return first, max(own, key=lambda p: self._apart(first, p))
+        return first, next((p for p in names if self._apart(first, p)), None) or self._aside(first)
+
+    def _aside(self, point: str) -> str:
+        """A point beside this one, where all points of the scene coincide: couples need an arm."""
+        name, points = "point aside", self.pose.standing
+        if name not in points:
+            with self.board.on(MECHANISM):
+                points[name] = self.board.lay_off(points[point], dx=Fraction(1), dy=Fraction(0),
+                                                  name=self.pose.letter(name), why=said("an arm for couples"))
+        return name
+
+    def _apart(self, P: str, R: str) -> float:
+        one, two = self.scene.points[P], self.scene.points[R]
+        return max(abs(float(a - b)) for a, b in zip(one, two, strict=True))
+
+    def arm(self, link: str) -> tuple[Mark, Mark]:
+        """The marks of the two points at which a link's couples act as pairs of forces."""
+        one, two = self.arm_points(link)
+        return self.pose.points[one], self.pose.points[two]
+
+
+def _replaced(link: str) -> str:
+    """The place where a link's inertia force acts in another form: a name that no point of a scene has."""
+    return f"inertia of {link}"
+
+
+def force_scale(scene: Scene) -> Number:
+    """How long a unit of force is drawn: as the scales of the sheet have it, else the largest load about a third of
+    the mechanism, in a round number."""
+    if scene.sheet.phi:
+        return scene.sheet.phi
+    loads = scene.loads
+    assert loads is not None
+    size = extent(scene)
+    sizes = [abs(float(v)) for force in loads.forces for v in force.value]
+    sizes += [2 * abs(float(moment.value * metre(scene.units))) / size for moment in loads.moments]
+    sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]
+    sizes += _inertia_sizes(scene, size)
+    largest = max(sizes, default=0.0)
+    return round_number(size / largest / 3) if largest else round_number(size)
+
+
+def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:
+    """About how large inertia forces are: as if every moving mass ran round a quarter of the mechanism."""
+    assert scene.loads is not None
+    rate = float(tempo(scene).unit) ** 2 if scene.drives else 0.0
+    for mass in scene.loads.masses.values():
+        if FRAME not in scene.links_of[mass.centre]:
+            yield float(mass.mass * inertia(scene.units)) * rate * size / 4

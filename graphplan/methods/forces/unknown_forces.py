@@ -1,0 +1,205 @@
+"""The places where forces are unknown, and what is known of them: the force planner's view of a mechanism.
+
+A *site* is a pair, or what balances. The force that passes there acts along a line: of a pencil through a joint, of the
+parallels across a guide, or one line alone. At a joint each link has a force from the pin, and those of all its links
+balance. Lines and points are homogeneous residues of a prime: for points in general position, where what holds is what
+the graph says, and for those of the pose, where nothing may vanish that a move divides by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from random import Random
+
+from graphplan.mechanism.equations import PRIME, System
+from graphplan.mechanism.model import Balance, Scene, Slide
+from graphplan.mechanism.transfer import stages
+from graphplan.methods.motion.residues import Triple, cross, residue
+
+MOST_PARTS = 2000  # of a group: no textbook's has so many
+FAR: Triple = (0, 0, 1)  # the line on which all slides' pencils have their points: a force along it is a couple
+
+
+@dataclass(frozen=True)
+class Joint:
+    """The force at a joint on one of its links, from the others there."""
+
+    point: str
+    link: str
+
+
+Site = Joint | Slide | Balance
+
+
+def groups(scene: Scene) -> list[tuple[str, ...]]:
+    """The groups of links in the order of force transfer: those that are loaded by no group left come first."""
+    order = {link: i for i, link in enumerate(scene.moving)}
+    found = [[name for sort, name in stage if sort == "link"] for stage in stages(System(scene, balanced=True))]
+    return [tuple(sorted(team, key=order.__getitem__)) for team in reversed(found) if team]
+
+
+class Group:
+    """The links of one group, with `done`, those whose forces are known, and all others around it."""
+
+    def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
+        self.scene, self.links, self.done = scene, links, frozenset(done)
+        self._boundaries: dict[frozenset[str], list[tuple[Site, int]]] = {}
+
+    @cached_property
+    def points(self) -> tuple[str, ...]:
+        """The joints of the group's links."""
+        own = {p: None for link in self.links for p in self.scene.links[link]}
+        return tuple(p for p in own if len(self.scene.links_of[p]) > 1)
+
+    def rest(self, point: str) -> frozenset[str]:
+        """The links at a joint that are neither the group's nor known."""
+        return frozenset(self.scene.links_of[point]) - self.done - frozenset(self.links)
+
+    def members(self, point: str) -> tuple[str, ...]:
+        """The group's links at a joint."""
+        return tuple(link for link in self.links if point in self.scene.links[link])
+
+    def outer(self, site: Site) -> bool:
+        """Whether the site is a pair with what is not the group's."""
+        if isinstance(site, Joint):
+            return bool(self.rest(site.point))
+        return isinstance(site, Slide) and not {site.link, site.along} <= set(self.links)
+
+    def boundary(self, part: frozenset[str]) -> list[tuple[Site, int]]:
+        """The sites at which unknown forces act on a part of the group, each with its sign.
+
+        At a joint within the group the force on the part may be told by that on the other links, reversed.
+        """
+        if part not in self._boundaries:
+            self._boundaries[part] = self._boundary(part)
+        return self._boundaries[part]
+
+    def _boundary(self, part: frozenset[str]) -> list[tuple[Site, int]]:
+        found: list[tuple[Site, int]] = []
+        for point in self.points:
+            here = [link for link in self.members(point) if link in part]
+            side, sign = self._side(point, here)
+            found += [(Joint(point, link), sign) for link in side]
+        for slide in self.scene.slides:
+            ends = {slide.link, slide.along}
+            if len(ends & part) == 1 and not ends & self.done:
+                found.append((slide, 1 if slide.link in part else -1))
+        return found + [(balance, 1) for balance in _balances(self.scene) if balance.link in part]
+
+    def _side(self, point: str, here: list[str]) -> tuple[list[str], int]:
+        """The links by whose forces that on the links `here` is told; fewer are better, then the first."""
+        others = [link for link in self.members(point) if link not in here]
+        if not here or self.rest(point):
+            return here, 1
+        first = self.members(point)[0]
+        return (here, 1) if (len(here), first not in here) <= (len(others), first in here) else (others, -1)
+
+    def passed_on(self, part: frozenset[str]) -> list[str]:
+        """The joints at which a part has the known forces of solved groups, besides those of its boundary."""
+        sides = {point: self._side(point, [link for link in self.members(point) if link in part])
+                 for point in self.points if not self.rest(point) and set(self.members(point)) & part}
+        return [point for point, (side, sign) in sides.items() if sign < 0 or not side]
+
+    @cached_property
+    def parts(self) -> list[frozenset[str]]:
+        """The connected parts of the group, small ones first."""
+        near = {link: self._near(link) for link in self.links}
+        found: dict[frozenset[str], None] = {frozenset({link}): None for link in self.links}
+        for part in (waiting := list(found)):
+            for other in set().union(*(near[link] for link in part)) - part:
+                larger = part | {other}
+                if larger not in found and len(found) < MOST_PARTS:
+                    found[larger] = None
+                    waiting.append(larger)
+        whole = frozenset(self.links)
+        order = {link: i for i, link in enumerate(self.links)}
+        found.setdefault(whole)
+        return sorted(found, key=lambda part: (len(part), sorted(order[link] for link in part)))
+
+    def _near(self, link: str) -> set[str]:
+        joined = {other for p in self.scene.links[link] if p in self.points for other in self.members(p)}
+        slid = {other for s in self.scene.slides if link in (s.link, s.along) for other in (s.link, s.along)}
+        return (joined | slid) & set(self.links) - {link}
+
+
+@dataclass(frozen=True)
+class Position:
+    """Where points lie, and which way the forces of slides and balances run."""
+
+    points: dict[str, Triple]
+    ways: dict[Site, Triple]
+
+    def pencil(self, site: Site) -> Triple | None:
+        """The point through which all forces of a pair pass; a balance has none."""
+        if isinstance(site, Joint):
+            return self.points[site.point]
+        return self.ways[site] if isinstance(site, Slide) else None
+
+    def line(self, balance: Balance) -> Triple:
+        """The one line of a balance."""
+        return cross(self.points[balance.at], self.ways[balance]) if balance.at else FAR
+
+    def finite(self, site: Site) -> Triple:
+        """Any point where a site's force acts."""
+        name = site.point if isinstance(site, Joint) else site.at
+        return self.points[name or next(iter(self.points))]
+
+
+def in_general(scene: Scene) -> Position:
+    """A position like any other."""
+    chance = Random(1952)
+
+    def pair(w: int) -> Triple:
+        return chance.randrange(1, PRIME), chance.randrange(1, PRIME), w
+
+    return Position({p: pair(1) for p in scene.points}, {s: pair(0) for s in _directed(scene)})
+
+
+def posed(scene: Scene) -> Position:
+    """The position of the scene's pose."""
+    across: dict[Site, Triple] = {s: (-residue(s.direction[1]) % PRIME, residue(s.direction[0]), 0)
+                                  for s in scene.slides}
+    along: dict[Site, Triple] = {b: (residue(b.direction[0]), residue(b.direction[1]), 0)
+                                 for b in _balances(scene) if b.direction is not None}
+    return Position({p: (residue(x), residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
+
+
+def _directed(scene: Scene) -> tuple[Site, ...]:
+    return *scene.slides, *_balances(scene)
+
+
+def _balances(scene: Scene) -> tuple[Balance, ...]:
+    return scene.loads.balances if scene.loads else ()
+
+
+def equation(part: Iterable[str], about: Triple) -> dict[tuple[str, int], int]:
+    """The moments about a point of all that acts on a part, as terms of the equilibrium of its links."""
+    x, y, w = about
+    return {(link, k): c % PRIME for link in part for k, c in enumerate((y, -x, w)) if c % PRIME}
+
+
+class Span:
+    """The equations that are used up: a further one says something new only if it is none of their sums."""
+
+    def __init__(self, rows: Sequence[dict[tuple[str, int], int]] = ()):
+        self._rows = list(rows)
+
+    def copy(self) -> Span:
+        return Span(self._rows)
+
+    def adds(self, row: dict[tuple[str, int], int]) -> bool:
+        """Enter an equation; whether it is new."""
+        row = dict(row)
+        for known in self._rows:
+            pivot = next(iter(known))
+            if factor := row.get(pivot, 0):
+                for k, c in known.items():
+                    row[k] = (row.get(k, 0) - factor * c) % PRIME
+        row = {k: c for k, c in row.items() if c}
+        if not row:
+            return False
+        inverse = pow(next(iter(row.values())), -1, PRIME)
+        self._rows.append({k: c * inverse % PRIME for k, c in row.items()})
+        return True

@@ -1,0 +1,1 @@
+"""How motion is drawn: velocities, and the plan of relative normal accelerations."""

@@ -1,0 +1,345 @@
+"""Accelerations: the plan of relative normal accelerations (Rosenauer), or the polar plan (Jaanimets).
+
+On the N-plan every link has its figure, the link's own shrunk or blown up by omega squared, so that the relative normal
+acceleration of A about K is the vector from a to k. Lay the acceleration of a point off from its mark there: what is
+left between the ends of two points of a link is tangential, square to their line. So the ends are the image of the
+link a quarter turned, and the moves that found the velocities find the accelerations.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterable
+
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Slide, TurningDrive
+from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
+from graphplan.methods.motion.network import Network, Place, Weld
+from graphplan.methods.motion.plan import Plan, Vector
+from graphplan.methods.motion.velocity import Velocity
+from graphplan.methods.panels import slide_named, spoken
+from graphplan.methods.poses import Pose
+from graphplan.phrases import said
+
+GREEK = {
+    "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
+    "I": "iota", "K": "kappa", "L": "lambda", "M": "mu", "N": "nu", "O": "omega", "P": "pi", "R": "rho",
+    "S": "sigma", "T": "tau", "U": "upsilon", "V": "psi", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
+}
+
+LAWS: dict[type, str] = {
+    Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
+    Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
+    Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
+    Figure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
+    Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
+    Meet: said("the end lies on both"),
+}
+
+
+class Anchor:
+    """Where a link's figure begins: at a point it shares with a link drawn before, by a joint, slide or drive."""
+
+    __slots__ = ("link", "point", "slide")
+
+    def __init__(self, link: str, point: str, slide: Slide | None = None):
+        self.link, self.point, self.slide = link, point, slide
+
+
+class Normal(Plan):
+    """The plan of relative normal accelerations."""
+
+    panel, turn, across = "N-plan", "perpendicular", False
+
+    def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
+        super().__init__(board, net, pose)
+        self.velocity, self.tempo = velocity, velocity.tempo
+        self.passing = {m.slide.name: m.point for m in moves if isinstance(m, Guide)}
+        self.figures: dict[tuple[str, str], Mark] = {}
+        self.order: dict[str, int] = {}
+        self.anchors = self._anchors()
+
+    # ---- the links' figures ---------------------------------------------------------------------------------
+
+    def _moving(self, link: str) -> bool:
+        return self.net.body[link] != self.net.ground
+
+    def _anchors(self) -> dict[str, Anchor]:
+        """Each link's figure hangs on one drawn before it; a component begins at its richest link."""
+        anchors: dict[str, Anchor] = {}
+        links = [link for link in self.net.links if link != FRAME and self._moving(link)]
+        joints = {k: sum(len(self.net.links_of[p]) > 1 for p in self.net.links[k]) for k in links}
+        for root in sorted(links, key=lambda link: -joints[link]):
+            if root not in anchors:
+                self._hang(root, Anchor("", self._centre(root)), anchors)
+        return anchors
+
+    def _hang(self, root: str, anchor: Anchor, anchors: dict[str, Anchor]) -> None:
+        """Give a link its anchor, and all that hang on it theirs: links tied by drives before the others."""
+        anchors[root] = anchor
+        tied, others = deque([root]), deque([root])
+        while tied or others:
+            if tied:
+                beside = self._driven_beside(tied.popleft())
+            else:
+                self.order[others[0]] = len(self.order)
+                beside = self._beside(others.popleft())
+            for link, at in beside:
+                if link not in anchors and self._moving(link):
+                    anchors[link] = at
+                    tied.append(link)
+                    others.append(link)
+
+    def _centre(self, root: str) -> str:
+        """The point at which the plan begins: a joint with another rich link, if the root has one."""
+        net = self.net
+
+        def riches(point: str) -> int:
+            return max((len(net.links[k]) for k in net.links_of[point] if k not in (root, FRAME)), default=0)
+
+        return max(net.links[root], key=riches)
+
+    def _driven_beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
+        """The links that drives tie to a link: what they prescribe is measured from there."""
+        for weld in self.net.welds.values():
+            if link in (weld.link, weld.to):
+                other = weld.to if link == weld.link else weld.link
+                yield other, Anchor(link, weld.slide.at if weld.slide else weld.at, weld.slide)
+
+    def _beside(self, link: str) -> Iterable[tuple[str, Anchor]]:
+        """The links beside a link, by pins and slides."""
+        for point in self.net.links[link]:
+            for other in self.net.links_of[point]:
+                yield other, Anchor(link, point)
+        for slide in self.net.slides:
+            if link in (slide.link, slide.along):
+                other = slide.along if link == slide.link else slide.link
+                yield other, Anchor(link, self.passing.get(slide.name, slide.at), slide)
+
+    def home(self, place: Place) -> Mark:
+        point, link = place
+        if link:
+            return self.figure(link, point)
+        links = self.net.links_of[point]
+        moving = sorted((k for k in links if k in self.order), key=lambda k: self.order[k])
+        return self.figure((moving or [k for k in links if k != FRAME] or [FRAME])[0], point)
+
+    def figure(self, link: str, point: str) -> Mark:
+        point = self.net.place(point, link)[0]
+        if (link, point) not in self.figures:
+            mark = self._grounded(link, point) if not self._moving(link) else self._figured_point(link, point)
+            self.figures[link, point] = mark
+        return self.figures[link, point]
+
+    def figure_name(self, link: str, point: str) -> str:
+        home = (point, "") if point in self.net.links[link] else (point, link)
+        links = [k for k in self.net.links_of.get(point, ()) if k in self.order]
+        first = min(links, key=lambda k: self.order[k], default=link)
+        name = self.pose.spoken(point).lower()
+        return name if first == link and not home[1] else f"{name}({link})"
+
+    def _grounded(self, link: str, point: str) -> Mark:
+        """The figure of a crank is drawn on the crank itself: its points towards the pivot, as far as omega bids."""
+        chain = self.net.chain(link)
+        if not chain:
+            return self.pose.points[point]
+        weld = chain[0]
+        joint = weld.slide.at if weld.slide else weld.at
+        base = self.pose.points[joint] if weld.to == FRAME else self._driven_seat(weld, joint)
+        omega = sum(w.sign * self.tempo.turning(w.drive.omega) for w in chain if isinstance(w.drive, TurningDrive))
+        A, X = self.pose.points[joint], self.pose.points[point]
+        if self.net.spot(point) == self.net.spot(joint) or not omega:
+            return base
+        return X if omega * omega == 1 and base is A else self.board.step_off(A, X, base, ratio=omega * omega)
+
+    def _driven_seat(self, weld: Weld, joint: str) -> Mark:
+        if weld.slide is None:
+            return self.figure(weld.to, joint)
+        return self._less_coriolis(weld.slide, weld.to, weld.link, joint)
+
+    def _figured_point(self, link: str, point: str) -> Mark:
+        """A point of a moving link's figure: its anchor, or by the similar figure on one side of the link."""
+        anchor = self.anchors[link]
+        if point == self.net.place(anchor.point, link)[0]:
+            return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
+        if self._still(link) or self.net.spot(point) == self.net.spot(anchor.point):
+            return self.figure(link, anchor.point)
+        mark = self._scaled(link, anchor.point, point)
+        return self.board.named(mark, self.figure_name(link, point))
+
+    def _anchored(self, link: str, anchor: Anchor) -> Mark:
+        if not anchor.link:
+            with self.board.on(self.panel):
+                begun = sum(step.op.name == "begin" and step.panel == self.panel for step in self.board.steps)
+                name = self.figure_name(link, anchor.point)
+                return self.board.begin(plan=spoken(self.panel), number=begun + 1, name=name)
+        if anchor.slide is None:
+            return self.figure(anchor.link, anchor.point)
+        return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
+
+    def _still(self, link: str) -> bool:
+        """Whether the link is known never to turn: it slides on the frame, or on what slides there."""
+        net = self.net
+        body = net.body[link]
+        if not net.ground or net.classes[body] != net.classes[net.ground] or link in net.welds:
+            return False
+        return not sum(sign * drive.omega for sign, drive in net.excess(body, net.ground))
+
+    def _scaled(self, link: str, K: str, X: str) -> Mark:
+        """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
+        side = self._side(link, K) or X
+        points = self.pose.points
+        if side == X:
+            m, w = self.velocity.relative(link, K, X)
+            why = said("the relative normal acceleration of {0} about {1}", X, K)
+            return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
+        ends = self.figure(link, K), self.figure(link, side)
+        return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
+
+    def _side(self, link: str, K: str) -> str | None:
+        """The other end of the side on which the semicircle is drawn: a joint if there is one."""
+        names = [p for p in self.net.links[link] if self.net.spot(p) != self.net.spot(K)]
+        return max(names, key=lambda p: len(self.net.links_of[p]) > 1, default=None)
+
+    # ---- drives, guides, given motions ----------------------------------------------------------------------
+
+    def start(self, weld: Weld, point: str) -> Mark:
+        return self.pose.points[weld.slide.at if weld.slide else weld.at]
+
+    def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+        X, (one, two) = self.pose.points[point], self._gap(weld)
+        mark = self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one)
+        if isinstance(weld.drive, TurningDrive):
+            ratio = sign * weld.sign * self.tempo.turning_rate(weld.drive.alpha)
+            A = self.pose.points[weld.at]
+            return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
+        assert weld.slide is not None
+        length = sign * weld.sign * self.tempo.acceleration(weld.drive.acceleration)
+        return self.board.lay_along(self.pose.guide(weld.slide, run=True), mark, length=length) if length else mark
+
+    def _gap(self, weld: Weld) -> Vector:
+        """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
+        if weld.slide is None:
+            return self.figure(weld.to, weld.at), self.figure(weld.link, weld.at)
+        at = weld.slide.at
+        return self.seat(weld.slide, weld.to, weld.link, at), self.figure(weld.link, at)
+
+    def seeded(self, place: Place) -> Mark:
+        dx, dy = (self.tempo.acceleration(a) for a in self.pose.scene.motions[place[0]].acceleration)
+        home = self.home(place)
+        return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
+
+    def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
+        ratio = sum(sign * self.tempo.turning_rate(drive.alpha) for sign, drive in self.net.excess(body, like))
+        return self.board.step_across(*base, at, ratio=ratio) if ratio else at
+
+    def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
+        if self._hangs(slide, known, new):
+            return self.figure(new, point)
+        return self._less_coriolis(slide, known, new, point)
+
+    def _hangs(self, slide: Slide, one: str, two: str) -> bool:
+        """Whether one link's figure hangs on the other's by this slide: then the Coriolis vector is in it already."""
+        pairs = ((one, two), (two, one))
+        return any(k in self.anchors and self.anchors[k].slide is slide and self.anchors[k].link == o for k, o in pairs)
+
+    def _less_coriolis(self, slide: Slide, known: str, new: str, B: str) -> Mark:
+        """The coincident point's mark in the known link's figure, less the Coriolis vector of `new` about `known`."""
+        start = self.figure(known, B)
+        if FRAME in (known, new) or self._still(known) or self._still(new):
+            return start
+        link, P = self._pivot(known, new, B)
+        turning = self.velocity.about(link, P, B)
+        slip = self.velocity.slip(known, new, B)
+        why = said("the Coriolis acceleration of the pair {0}, twice the half-vector", slide_named(slide))
+        return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
+
+    def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
+        """A point to measure the common turning of two links about: their own, fixed to the frame if there is such."""
+        net = self.net
+        found = [(link, p) for link in (one, two) for p in net.links[link] if net.spot(p) != net.spot(B)]
+        if found:
+            return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
+        return one, next(p for p in self.pose.points if net.spot(p) != net.spot(B))
+
+    def far_from(self, place: Place) -> Mark:
+        """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
+        point, link = place
+        for name in [link] if link else self.net.links_of[point]:
+            K = self._base(name, point) if self._moving(name) else None
+            side = self._side(name, K) if K else None
+            if K and side:
+                return self.board.transfer(self.pose.points[K], self.pose.points[side], self.figure(name, side))
+        return super().far_from(place)
+
+    def _base(self, link: str, point: str) -> str:
+        """The point of a link at whose mark the vector of another begins."""
+        return point
+
+    def pole_shift(self, move: Pole) -> Vector | None:
+        """The perpendiculars to the two bars cut off what the poles' images differ by."""
+        one, two = move.bodies
+        origin: Mark | None = None
+        gaps = []
+        for bar, D, G in move.bars:
+            begin = self.figure(self.net.link_at(one, D), D[0])
+            end = self.figure(self.net.link_at(two, G), G[0])
+            start = self.moved(self.figure(bar, G[0]), self.figure(bar, D[0]), begin)
+            origin = start if origin is None else origin
+            tip = self.moved(end, start, origin)
+            side = self.board.side(self.point(D), self.point(G))
+            gaps.append(self.board.perpendicular(side, tip))
+        assert origin is not None
+        return origin, self.board.meet(*gaps)
+
+    # ---- letters --------------------------------------------------------------------------------------------
+
+    def end_name(self, place: Place) -> str:
+        return f"{self.pose.spoken(place[0])}_1" + (f"({place[1]})" if place[1] in self.net.body else "")
+
+    def locus_name(self, place: Place) -> str:
+        name = self.pose.spoken(place[0])
+        letter, rest = name[0].upper(), name[1:].strip("_")
+        return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
+
+    def law(self, move: Move) -> str:
+        return LAWS.get(type(move), "")
+
+
+class PolarAcceleration(Normal):
+    """All accelerations from one pole pi: each link's normal vectors are laid off where they are needed."""
+
+    panel = "acceleration plan"
+
+    def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
+        with board.on(self.panel):
+            self.pole = board.begin(plan=spoken(self.panel), number=1, name="pi")
+        super().__init__(board, net, pose, velocity, moves)
+
+    def home(self, place: Place) -> Mark:
+        return self.pole
+
+    def _base(self, link: str, point: str) -> str:
+        return self.anchors[link].point
+
+    def _anchored(self, link: str, anchor: Anchor) -> Mark:
+        """Every link begins at the pole, but for two that a drive ties together."""
+        return super()._anchored(link, anchor) if self._tied(link, anchor.link) else self.pole
+
+    def _hangs(self, slide: Slide, one: str, two: str) -> bool:
+        return self._tied(one, two) and super()._hangs(slide, one, two)
+
+    def _tied(self, one: str, two: str) -> bool:
+        return any({weld.link, weld.to} == {one, two} for weld in self.net.welds.values())
+
+    def figure_name(self, link: str, point: str) -> str:
+        return f"n_{self.pose.spoken(point).lower()}({link})"
+
+    def end_name(self, place: Place) -> str:
+        return f"{self.pose.spoken(place[0]).lower()}'" + (f"({place[1]})" if place[1] in self.net.body else "")
+
+    def locus_name(self, place: Place) -> str:
+        return ""
+
+

@@ -1,0 +1,197 @@
+"""Ways through a mechanism whose facts run in rings: which there are, and which of them suits the pose.
+
+The planner looks at the graph alone and leaves open where a relative pole or a trial figure is put in. Each choice is a
+construction of its own. They are weighed by how much the small errors of the single steps grow in the results: the
+construction is drawn with a shaking hand, and the shaking of the results is measured.
+"""
+
+from __future__ import annotations
+
+import math
+from collections import deque
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from random import Random
+from typing import TYPE_CHECKING, Any
+
+from graphplan.errors import Refused, Undrawable
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Program
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.results import ACCELERATION, ORDER, VELOCITY
+from graphplan.phrases import joined, said
+
+if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
+
+SHAKE = 1e-9  # of a value; small enough for first order, large enough to stand out from rounding
+HANDS = 3  # how often the construction is drawn with another shaking
+EQUAL = 10.0  # growths within this factor count as equal: then the fewest steps win
+WILD = 1e4  # growth from which on a pose may be a singular one of this way: another is sought
+MOST = 64  # ways that are tried at most
+
+Draw = Callable[["Planner"], "Construction"]
+
+
+def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
+    """The constructions by all ways, best first, each with its planner; more are sought as they are asked for.
+
+    First the best way on at each ring, one ring after the other. Where its errors grow out of hand in this pose, all
+    other choices are tried, rare ones among them, until one is steady. Fails with `Refused`, naming the links, where no
+    way reaches them.
+    """
+    tried: dict[tuple[int, ...], _Way] = {}
+
+    def way(choice: tuple[int, ...]) -> _Way:
+        if choice not in tried:
+            found = _way(network, method, choice, draw)
+            tried[choice] = tried.setdefault(found.choice, found)
+        return tried[choice]
+
+    best = _ring_by_ring(way)
+    if best.growth < WILD:
+        yield best.told(best.weighed + 1)
+    for other in _others(tried, way):
+        if other is not best and other.growth < WILD:
+            yield other.told(len({*map(id, tried.values())}))
+    found = {id(one): one for one in tried.values()}.values()
+    wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Way.rank(0.0))
+    yield from (one.told(len(found)) for one in wild)
+    if all(one.construction is None for one in found):
+        planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
+        planner.plan()
+        yield draw(planner), planner
+
+
+def _ring_by_ring(way: Callable[[tuple[int, ...]], _Way]) -> _Way:
+    """The best way on at each ring, one ring after the other; rare choices are left alone."""
+    taken, ring = way(()), 0
+    while ring < len(options := taken.planner.options):
+        if not options[ring].rare:
+            others = [way((*taken.choice[:ring], other)) for other in range(options[ring].ways)
+                      if other != taken.choice[ring]]
+            weighed = taken.weighed + len(others)
+            taken = min([taken, *others], key=_Way.rank(min(one.growth for one in [taken, *others])))
+            taken.weighed = weighed
+        ring += 1
+    return taken
+
+
+def _others(tried: dict[tuple[int, ...], _Way], way: Callable[[tuple[int, ...]], _Way]) -> Iterator[_Way]:
+    """Further ways, each that was drawn giving the next one like it in turn; those that were refused come last."""
+    known = {id(one): one for one in tried.values()}
+    waiting = deque(_neighbours(one) for one in sorted(known.values(), key=lambda one: one.construction is None))
+    while waiting and len(known) < MOST:
+        choices = waiting.popleft()
+        choice = next((choice for choice in choices if choice not in tried), None)
+        if choice is None:
+            continue
+        waiting.append(choices)
+        found = way(choice)
+        if id(found) not in known:
+            known[id(found)] = found
+            (waiting.appendleft if found.construction else waiting.append)(_neighbours(found))
+            yield found
+
+
+def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
+    """The choices that differ from a way's at one place: the next at each place, the last place first, and so on."""
+    options = way.planner.options
+    for step in range(1, max((option.ways for option in options), default=0)):
+        for place in reversed(range(len(options))):
+            if step < options[place].ways:
+                yield (*way.choice[:place], (way.choice[place] + step) % options[place].ways)
+
+
+@dataclass
+class _Way:
+    """One way through the rings: the choices made, the planner that made them, and what came of it."""
+
+    choice: tuple[int, ...]
+    planner: Planner
+    construction: Construction | None
+    growth: float
+    weighed: int = 0
+
+    def told(self, tried: int) -> tuple[Construction, Planner]:
+        """The construction, which says how many ways it was weighed against, and its planner."""
+        assert self.construction is not None
+        among = max(self.weighed + 1, tried)
+        if among > 1:
+            self.construction.notes.append(
+                said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
+                     joined(self.construction.ways or [said("travelling facts")]), f"{self.growth:.2g}", among))
+        return self.construction, self.planner
+
+    @staticmethod
+    def rank(least: float) -> Callable[[_Way], tuple[float, float]]:
+        """The shortest of those whose errors grow about as little as the least."""
+
+        def key(way: _Way) -> tuple[float, float]:
+            steps = len(way.construction.program) if way.construction else math.inf
+            return (0.0 if way.growth <= EQUAL * least else way.growth), steps
+
+        return key
+
+
+def _way(network: Network, method: str, choice: tuple[int, ...], draw: Callable[[Planner], Construction]) -> _Way:
+    """Plan and draw one way; where it is refused another may do."""
+    planner = Planner(network, method, choice)
+    try:
+        planner.plan()
+    except Refused:
+        full = (*choice, *[0] * (len(planner.options) - len(choice)))
+        return _Way(full, planner, None, math.inf)
+    construction = draw(planner)
+    full = (*choice, *[0] * (len(planner.options) - len(choice)))
+    return _Way(full, planner, construction, growth(construction.program) if full else 1.0)
+
+
+def growth(program: Program) -> float:
+    """How much larger the shaking of the wanted marks is than that of each step; infinite where it cannot be drawn."""
+    return _shaking(lambda hand: _drawn(program, hand))
+
+
+def growth_of_rates(construction: Construction) -> float:
+    """The same for the velocities and accelerations that are read, or where there are none for all rates, each kind
+    beside its largest: the marks may lie far from the origin, and the vectors between them be short."""
+    def read(kind: str, hand: Random | None) -> list[Any] | None:
+        marks = _drawn(construction.program, hand)
+        values = construction.told(marks, Floats()).get(kind, {}).values() if marks else ()
+        return [value if isinstance(value, tuple) else (value,) for value in values] if marks is not None else None
+
+    told = {reading.kind for reading in construction.readings}
+    kinds = told & {VELOCITY, ACCELERATION} or told & ORDER.keys()
+    return max((_shaking(partial(read, kind)) for kind in kinds), default=1.0)
+
+
+def _shaking(drawn: Callable[[Random | None], list[Any] | None]) -> float:
+    """How far shaking hands draw things from where a steady one does, beside the largest of them."""
+    steady = drawn(None)
+    if steady is None:
+        return math.inf
+    size = max((abs(number) for value in steady for number in value), default=1.0) or 1.0
+    most = 0.0
+    for hand in range(HANDS):
+        shaken = drawn(Random(hand))
+        if shaken is None:
+            return math.inf
+        gaps = [abs(p - q) for one, two in zip(shaken, steady, strict=True) for p, q in zip(one, two, strict=True)]
+        most = max([most, *gaps])
+    return most / size / SHAKE
+
+
+def _drawn(program: Program, hand: Random | None) -> list[Any] | None:
+    """The wanted marks, each step drawn with a shaking hand."""
+    values: list[Any] = []
+    for step in program.steps:
+        try:
+            value = step.op.rule(Floats(), *[values[arg] for arg in step.args], **step.params)
+        except Undrawable:
+            return None
+        if hand is not None and step.op.name != "given":
+            value = tuple(number * (1 + SHAKE * hand.uniform(-1, 1)) for number in value)
+        values.append(value)
+    return [values[index] for index in program.wanted]

@@ -1,0 +1,376 @@
+"""Facts that travel along joints: what is known of each place of a mechanism, who said so, and what follows.
+
+Each body has three unknowns, each place two. A body with two facts gives every other place of it one (a locus), with
+three facts two (the end itself). The moves are found on the mechanism's graph. The pose has one word in it: whether
+facts are independent there. Two loci of a place that are parallel are one fact, three loci of a body through one point
+are two; that is decided modulo a prime, and no length or angle matters. In general position nothing is so.
+
+A fact is filed at its place under its source, so that a body never takes its own word for news.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from itertools import combinations
+from random import Random
+
+from graphplan.mechanism.equations import PRIME
+from graphplan.mechanism.model import Pair, Slide
+from graphplan.mechanism.order import by_name
+from graphplan.methods.motion.moves import (
+    Auxiliary,
+    Carry,
+    Figure,
+    Guide,
+    Locus,
+    Meet,
+    Move,
+    Rest,
+    Seed,
+    Settle,
+    Slip,
+    Swing,
+)
+from graphplan.methods.motion.network import Network, Place
+from graphplan.methods.motion.residues import Image, Two, less, parallel, product, quarter, residues
+
+Fact = Two | None  # the normal of a locus; nothing where the end itself is known
+ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as an assumption: like none of the pose
+
+
+class Facts:
+    """What is known of one network, and the moves that made it known."""
+
+    def __init__(self, network: Network, general: bool = False):
+        self.net = network
+        self.chance = Random(1939) if general else None  # gives what the pose does not
+        self.moves: list[Move] = []
+        self.facts: dict[Place, dict[str, Fact]] = {}
+        self.drawn: set[Place] = set()
+        self.places = {body: network.places_of(body) for body in network.members}
+        self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
+        self.told: dict[tuple[str, Place], int] = {}
+        self.spots: dict[str, Two] = {}
+        self.turning: dict[str, str] = {}
+        self.passed: set[str] = set()
+        self.retired: set[str] = set()
+        self.waiting: deque[str | Slide] = deque()
+        self.queued: set[str | Slide] = set()
+
+    def _overheard(self, body: str) -> None:
+        """A body has heard more facts than are independent: a planner with an open trial may close it here."""
+
+    # ---- travelling -----------------------------------------------------------------------------------------
+
+    def _seed(self) -> None:
+        ground = self.net.ground
+        if ground:
+            self.turning[self.net.classes[ground]] = ground
+            for place in self.places[ground]:
+                self._rest(place)
+            self._wake_class(ground)
+        for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
+            self.moves.append(Seed((point, "")))
+            self._file((point, ""), "motion", None)
+        self._queue(*[b for b in self.places if b != ground], *self.net.slides)
+
+    def _rest(self, place: Place) -> None:
+        self.moves.append(Rest(place))
+        self._file(place, self.net.ground, None)
+
+    def _queue(self, *nodes: str | Slide) -> None:
+        for node in nodes:
+            if node not in self.queued:
+                self.queued.add(node)
+                self.waiting.append(node)
+
+    def _travel(self) -> None:
+        while self.waiting:
+            node = self.waiting.popleft()
+            self.queued.discard(node)
+            if isinstance(node, Slide):
+                self._through_slide(node)
+            elif node in self.retired:
+                self._turning_known(node)
+            elif node != self.net.ground:
+                self._through_body(node)
+
+    def _file(self, place: Place, source: str, fact: Fact, *, marked: bool = False) -> None:
+        """Enter a fact; where a place then knows enough, its end is marked, and the neighbours are told."""
+        here = self.facts.setdefault(place, {})
+        here[source] = fact if here.get(source, fact) is not None else None
+        if place not in self.drawn:
+            pair = next(((one, two) for one, two in combinations(here, 2) if _cross(here[one], here[two])), None)
+            if pair and not marked and None not in here.values():
+                self.moves.append(Meet(place, pair))
+            if pair or marked or None in here.values():
+                self.drawn.add(place)
+        self._tell(place)
+
+    def _tell(self, place: Place) -> None:
+        for body in self._at(place):
+            self._queue(body, *self.net.slides_of.get(body, ()))
+
+    def _at(self, place: Place) -> list[str]:
+        if place not in self.bodies:
+            self.bodies[place] = self.net.bodies_at(place)
+        return self.bodies[place]
+
+    def _heard(self, place: Place, body: str) -> int:
+        """How many independent facts a place knows that this body did not tell it."""
+        facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
+        if None in facts or any(_cross(one, two) for one, two in combinations(facts, 2)):
+            return 2
+        return min(len(facts), 1)
+
+    def _spot(self, place: Place) -> Two:
+        """Where a place lies in the pose."""
+        point = place[0]
+        if point not in self.spots:
+            self.spots[point] = self._posed(self.net.scene.points[point])
+        return self.spots[point]
+
+    def _posed(self, pair: Pair) -> Two:
+        """A point or direction of the pose, or in general position any other."""
+        return residues(pair) if self.chance is None else (self.chance.randrange(PRIME), self.chance.randrange(PRIME))
+
+    def _loci(self, body: str, but: Place = ("", "")) -> Iterator[Locus]:
+        """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
+        seen = {self.net.spot(but[0])}
+        for place in self.places[body]:
+            spot = self.net.spot(place[0])
+            if spot not in seen and (locus := self._locus_of(place, body)):
+                seen.add(spot)
+                yield locus
+
+    def _locus_of(self, place: Place, body: str) -> Locus | None:
+        """A locus of a place that another source than this body gives."""
+        for source, fact in self.facts.get(place, {}).items():
+            if source != body and fact is not None and fact is not ANYWHERE:
+                return place, source
+        return None
+
+    def _normal(self, locus: Locus) -> Two:
+        """The normal of a locus on the plan of orthogonal velocities; on the others all are turned alike."""
+        place, source = locus
+        normal = self.facts[place][source]
+        assert normal is not None
+        return normal
+
+    def _carried(self, A: Locus, B: Locus, X: Place) -> Two:
+        """The normal of the locus that two loci give a third place; nothing where their crossing tells its end."""
+        one, two = self._normal(A), self._normal(B)
+        p = product(one, less(self._spot(A[0]), self._spot(X)))
+        q = product(two, less(self._spot(B[0]), self._spot(X)))
+        return (q * one[0] - p * two[0]) % PRIME, (q * one[1] - p * two[1]) % PRIME
+
+    def _like(self, body: str) -> str:
+        """The body by whose turning this one's is known, if any."""
+        source = self.turning.get(self.net.classes[body], "")
+        return "" if source == body else source
+
+    def _count(self, body: str, but: Place | None = None) -> int:
+        """How many independent facts a body has, but for those of one place."""
+        image = Image()
+        if self._like(body):
+            image.turning()
+        for place in self.places[body]:
+            if place != but:
+                self._enter(image, place, body)
+        return image.rank
+
+    def _enter(self, image: Image, place: Place, body: str) -> None:
+        """What a place tells of a body's image, besides the body's own word."""
+        at = self._spot(place)
+        for source, fact in self.facts.get(place, {}).items():
+            if source != body:
+                image.end(at) if fact is None else image.locus(fact, at)
+
+    def _excess(self, body: str) -> int:
+        """How many facts of a body follow from its others."""
+        heard = sum(self._heard(place, body) for place in self.places[body]) + bool(self._like(body))
+        return heard - self._count(body)
+
+    def _known(self, body: str) -> bool:
+        return body == self.net.ground or body in self.retired or self._count(body) >= 3
+
+    def _through_body(self, body: str) -> None:
+        count = self._count(body)
+        self._overheard(body)
+        for place in list(self.places[body]):
+            if place not in self.drawn:
+                rest = self._count(body, place)
+                here = max((self._heard(other, body) for other in self._together(body, place)), default=0)
+                rank = 2 if rest >= 3 or here == 2 else 1 if rest == 2 or here == 1 else 0
+                if rank > self.told.get((body, place), 0):
+                    self._emit(body, place, rank)
+        if count >= 3:
+            self._turning_known(body)
+
+    def _together(self, body: str, X: Place) -> list[Place]:
+        """The other places of a body that lie in one spot with X: they move alike, however the body turns."""
+        spot = self.net.spot(X[0])
+        return [place for place in self.places[body] if place != X and self.net.spot(place[0]) == spot]
+
+    def _ends(self, body: str, but: Place = ("", "")) -> list[Place]:
+        """The body's places whose ends are drawn, but for those in the spot of one place."""
+        spot = self.net.spot(but[0])
+        return [place for place in self.places[body] if place in self.drawn and self.net.spot(place[0]) != spot]
+
+    def _emit(self, body: str, X: Place, rank: int) -> None:
+        """Tell a place what the body knows of it, unless others have told the same: special geometry repeats it."""
+        if (body, X) in self.net.repeating:
+            return
+        figure = self._figure(body, X) if rank == 2 else None
+        if figure:
+            self._tell_end(body, X, [figure])
+        elif not self.told.get((body, X)):  # known wholly, maybe, but no end is drawn yet to begin a figure at
+            whole = self._settle(body, X) or self._beside(body, X)
+            line = self._line(body, X, self._locus_of(X, body) if whole else None)
+            if line and whole:  # the locus is for others, who may ask for it; pruned if nobody does
+                self._tell_locus(body, X, [line[0], whole], line[1], marked=True)
+            elif whole:
+                self._tell_locus(body, X, [whole], ANYWHERE, marked=True)
+            elif line:
+                self._tell_locus(body, X, [line[0]], line[1])
+            elif crossing := self._auxiliary(body, X):
+                self._tell_end(body, X, [crossing])
+
+    def _tell_end(self, body: str, X: Place, moves: list[Move]) -> None:
+        self.moves += moves
+        self.told[body, X] = 2
+        self._file(X, body, None)
+
+    def _tell_locus(self, body: str, X: Place, moves: list[Move], normal: Two, marked: bool = False) -> None:
+        self.moves += moves
+        self.told[body, X] = 1
+        self._file(X, body, normal, marked=marked)
+
+    def _swung(self, K: Place, X: Place) -> Two:
+        """The normal of the locus that a body gives X about K."""
+        return quarter(less(self._spot(X), self._spot(K)))
+
+    def _line(self, body: str, X: Place, own: Locus | None) -> tuple[Move, Two] | None:
+        """One fact for X, and its normal: from an end, from a locus and the turning, or from two loci of the body.
+
+        Where X has an own locus by which the body is known, a line that is parallel to it is no news: better another.
+        """
+        here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
+        if here:
+            return Slip(body, here, X, ""), self._normal(here)
+        known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
+        K = max(known, key=lambda place: self._heard(place, body), default=None)
+        if K and not (own and parallel(self._normal(own), self._swung(K, X))):
+            return Swing(body, K, X), self._swung(K, X)
+        if loci and like:
+            return Slip(body, loci[0], X, like), self._normal(loci[0])
+        if len(loci) > 1 and any(normal := self._carried(loci[0], loci[1], X)):
+            return Carry(body, loci[0], loci[1], X), normal
+        return (Swing(body, K, X), self._swung(K, X)) if K else None
+
+    def _auxiliary(self, body: str, X: Place) -> Auxiliary | None:
+        """The end of X where it is itself the auxiliary point of two loci."""
+        match list(self._loci(body, X)):
+            case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried(A, B, X)):
+                return Auxiliary(body, A, B, X)
+        return None
+
+    def _settle(self, body: str, X: Place) -> Settle | None:
+        """The end of X, in a body with three loci: from an end found by them, and the two others."""
+        own, loci = self._locus_of(X, body), list(self._loci(body, X))
+        known = [place for place, _ in loci if place in self.drawn]
+        if len(loci) < 2 or not own or not known:
+            return None
+        K = known[0]
+        return Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
+
+    def _beside(self, body: str, X: Place) -> Figure | None:
+        """The end of X, which has a locus of its own, from an end in its spot, or from another and the turning."""
+        if not self.facts.get(X):
+            return None
+        here = next((place for place in self._together(body, X) if place in self.drawn), None)
+        if here:
+            return Figure(body, here, X)
+        known, like = self._ends(body, X), self._like(body)
+        return Figure(body, known[0], X, like=like) if known and like else None
+
+    def _figure(self, body: str, X: Place) -> Move | None:
+        """The end of X from the whole body, or from an end in the same spot."""
+        here = next((place for place in self._together(body, X) if place in self.drawn), None)
+        if here:
+            return Figure(body, here, X)
+        known = self._ends(body, X)
+        pair = next((R for R in known[1:] if self.net.spot(R[0]) != self.net.spot(known[0][0])), None)
+        if pair:
+            return Figure(body, known[0], X, R=pair)
+        if known and (like := self._like(body)):
+            return Figure(body, known[0], X, like=like)
+        return None
+
+    def _crossed(self, body: str, X: Place) -> tuple[list[Move], Meet] | None:
+        """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
+        loci = [self._locus_of(place, body) for place in self.places[body]]
+        spot, like = self.net.spot(X[0]), self._like(body)
+        found: dict[str, Two] = {}
+        lines: list[Move] = []
+        if like:
+            given = [locus for locus in loci if locus and self.net.spot(locus[0][0]) != spot]
+            ways: Iterator[tuple[Slip | Carry, Two]] = ((Slip(body, A, X, like), self._normal(A)) for A in given)
+        else:
+            apart = combinations(self._loci(body, X), 2)
+            ways = ((Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)
+        for move, normal in ways:
+            if any(normal) and (not found or _cross(normal, next(iter(found.values())))):
+                name = f"{body} again" if found else f"{body} once"
+                found[name] = normal
+                lines.append(move._replace(source=name))
+            if len(found) == 2:
+                one, two = found
+                return lines, Meet(X, (one, two))
+        return None
+
+    def _turning_known(self, body: str) -> None:
+        if self.net.classes[body] not in self.turning and len({self.net.spot(X[0]) for X in self._ends(body)}) > 1:
+            self.turning[self.net.classes[body]] = body
+            self._wake_class(body)
+
+    def _wake_class(self, body: str) -> None:
+        if body in self.net.slides_of or self.net.turning:
+            self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
+
+    # ---- sliding pairs --------------------------------------------------------------------------------------
+
+    def _through_slide(self, slide: Slide) -> None:
+        """A known end in one link's plane gives the other link one locus, once."""
+        for known, new in ((slide.link, slide.along), (slide.along, slide.link)):
+            if known in self.net.passive or slide.name in self.net.unguided:
+                continue
+            if slide.name not in self.passed and (point := self._seen(slide, known, new)):
+                target = self.net.place(point, new)
+                self.passed.add(slide.name)
+                self._add_place(self.net.body[new], target)
+                self.moves.append(Guide(slide, point, known, new))
+                self._file(target, slide.name, self._posed(slide.direction))
+
+    def _seen(self, slide: Slide, known: str, new: str) -> str:
+        """A point whose end is known in the plane of `known`, not by way of this slide."""
+        if self.net.body[new] == self.net.ground:
+            return ""
+        if self.net.body[known] == self.net.ground:
+            own, at = self.net.links[new], self.net.name(slide.at)
+            joints = [p for p in own if len(self.net.links_of[p]) > 1]
+            return at if at in own else (joints or list(own) or [slide.at])[0]
+        for place in self.places[self.net.body[known]]:
+            if place in self.drawn and self._heard(place, slide.name) == 2 and self.net.has(known, place):
+                return place[0]
+        return ""
+
+    def _add_place(self, body: str, place: Place) -> None:
+        if place not in self.places[body]:
+            self.places[body].append(place)
+
+
+def _cross(one: Fact, two: Fact) -> bool:
+    """Whether two loci of a place cross in one point."""
+    return one is not None and two is not None and not parallel(one, two)

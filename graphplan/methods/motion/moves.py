@@ -1,0 +1,125 @@
+"""The moves of a construction: what one turn of the planner adds to what is known.
+
+A move names bodies and places, not marks; the plans (velocity, acceleration) draw it. A locus is known by the place
+whose end it carries and by its source: the body, slide or seed that gives it, or a name that the move itself gives.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from graphplan.mechanism.model import Slide
+from graphplan.methods.motion.network import Place
+
+Locus = tuple[Place, str]
+
+
+class Rest(NamedTuple):
+    """A point of the frame or of a link that a drive ties to it: its end is known."""
+
+    place: Place
+
+
+class Seed(NamedTuple):
+    """A point whose motion the scene gives."""
+
+    place: Place
+
+
+class Swing(NamedTuple):
+    """The body knows the end of K: the end of X lies on a line."""
+
+    body: str
+    K: Place
+    X: Place
+    source: str = ""
+
+
+class Slip(NamedTuple):
+    """The body's turning is known (that of `like`) and A has a locus: the end of X lies on the shifted locus."""
+
+    body: str
+    A: Locus
+    X: Place
+    like: str
+    source: str = ""
+
+
+class Carry(NamedTuple):
+    """A and B of the body have loci: the end of X lies on a line, found by an auxiliary point or a trial figure."""
+
+    body: str
+    A: Locus
+    B: Locus
+    X: Place
+    source: str = ""
+
+
+class Settle(NamedTuple):
+    """The body knows K, and X and B have loci: the end of X."""
+
+    body: str
+    K: Place
+    X: Locus
+    B: Locus
+
+
+class Figure(NamedTuple):
+    """The body is known, by the ends of K and R, or of K and the turning of `like`: the end of X.
+
+    With `copy` it is entered there, to be compared with what else is known of X.
+    """
+
+    body: str
+    K: Place
+    X: Place
+    R: Place | None = None
+    like: str = ""
+    copy: Place | None = None
+
+
+class Guide(NamedTuple):
+    """The end of X is known in the plane of `known`: in the plane of `new` it lies on a line set by the guide."""
+
+    slide: Slide
+    point: str
+    known: str
+    new: str
+
+
+class Meet(NamedTuple):
+    """Two loci of one place meet in its end; with `copy` it is entered there, to be compared with a third."""
+
+    place: Place
+    sources: tuple[str, str]
+    copy: Place | None = None
+
+
+class Auxiliary(NamedTuple):
+    """A and B of the body have loci: the auxiliary point where they cross, taken as a point of the body."""
+
+    body: str
+    A: Locus
+    B: Locus
+    place: Place
+
+
+class Pole(NamedTuple):
+    """Two bodies joined by two bars: the bars' intersection is a joint of both (Aronhold-Kennedy)."""
+
+    bodies: tuple[str, str]
+    bars: tuple[tuple[str, Place, Place], tuple[str, Place, Place]]
+    place: Place
+
+
+class Trial(NamedTuple):
+    """False position: the end of a place is assumed on its locus, twice, and the moves are drawn for both; in the end
+    `end` should lie on `locus` and does not; the third time it does."""
+
+    at: Locus
+    moves: tuple[Move, ...]
+    end: Place
+    locus: Locus
+
+
+Move = Rest | Seed | Swing | Slip | Carry | Settle | Figure | Guide | Meet | Auxiliary | Pole | Trial

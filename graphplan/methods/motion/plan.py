@@ -1,0 +1,382 @@
+"""A plan: how the moves are drawn, whatever the plan is of.
+
+Velocities and accelerations are one linear problem. On each plan the ends of a link's vectors are the image of the
+link, with parallel sides or a quarter turned (`turn`). What differs is where a point's vector begins:
+
+- `home(place)` is the mark from which the place's vector is laid off;
+- `figure(link, X)` is the mark where X stands in the link's own figure: a joint's two links have it apart where a ring
+  of links does not close on the plan. Between home and figure all marks shift by that vector.
+
+Plans: orthogonal velocities on the mechanism plan, relative normal accelerations, and the two polar plans.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from fractions import Fraction
+from typing import Any
+
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Slide
+from graphplan.methods.motion.moves import (
+    Auxiliary,
+    Carry,
+    Figure,
+    Guide,
+    Locus,
+    Meet,
+    Move,
+    Pole,
+    Rest,
+    Seed,
+    Settle,
+    Slip,
+    Swing,
+    Trial,
+)
+from graphplan.methods.motion.network import POLE, Network, Place, Weld
+from graphplan.methods.poses import Pose
+
+Vector = tuple[Mark, Mark]
+TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on their locus, in lengths of a link
+
+
+class Plan:
+    """Draws moves on one panel. Subclasses say where vectors begin, and what drives and guides add."""
+
+    panel: str
+    turn: str
+    across: bool  # whether a sliding pair's free vector lies square to the guide
+
+    def __init__(self, board: Board, net: Network, pose: Pose):
+        self.board, self.net, self.pose = board, net, pose
+        self.ends: dict[Place, Mark] = {}
+        self.loci: dict[Locus, Mark] = {}
+        self.prime = ""  # of the letters in a trial figure
+        self.known: dict[str, list[Place]] = {body: [] for body in net.members}
+        self._told: set[tuple[str, str]] = set()
+        self.pole_vectors: dict[tuple[Place, str], Vector] = {}
+
+    # ---- what a plan says of itself -------------------------------------------------------------------------
+
+    def home(self, place: Place) -> Mark:
+        raise NotImplementedError
+
+    def figure(self, link: str, point: str) -> Mark:
+        raise NotImplementedError
+
+    def start(self, weld: Weld, point: str) -> Mark:
+        """Where the vector of a point of the frame ends, in the figure of a link that the drive ties to the frame."""
+        raise NotImplementedError
+
+    def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+        """The end of a point in the plane of `weld.link` from its end in that of `weld.to` (sign 1), or back (-1)."""
+        raise NotImplementedError
+
+    def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
+        """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
+        raise NotImplementedError
+
+    def seeded(self, place: Place) -> Mark:
+        """The end of a point whose motion the scene gives."""
+        raise NotImplementedError
+
+    def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
+        """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""
+        raise NotImplementedError
+
+    def far_from(self, place: Place) -> Mark:
+        """A mark away from the home of a place, to take the size of a trial from."""
+        return self.pose.far_from(place)
+
+    def pole_shift(self, move: Pole) -> Vector | None:
+        """The vector from the relative pole's end in the first body to its end in the second, if there is any."""
+        return None
+
+    def end_name(self, place: Place) -> str:
+        raise NotImplementedError
+
+    def locus_name(self, place: Place) -> str:
+        return ""
+
+    def law(self, move: Move) -> str:
+        """The law by which a move is drawn, for the step that makes its mark."""
+        return ""
+
+    # ---- drawing moves --------------------------------------------------------------------------------------
+
+    def draw(self, moves: Iterable[Move]) -> None:
+        for move in moves:
+            with self.board.on(self.panel, self._links(move)):
+                if isinstance(move, Trial):
+                    self._trial(move)
+                else:
+                    self._draw(move)
+
+    def _draw(self, move: Move) -> None:
+        match move:
+            case Rest(place):
+                self._end(place, self._rest(place))
+            case Seed(place):
+                self._end(place, self.seeded(place))
+            case Swing(body, K, X, source):
+                through = self._outward(body, X, self._inward(body, K, self.ends[K]))
+                side = self.board.side(self.point(K), self.point(X))
+                self._locus((X, source or body), getattr(self.board, self.turn)(side, through), move)
+            case Slip(body, A, X, like, source):
+                self._locus((X, source or body), self._slipped(body, A, X, like), move)
+            case Carry(body, A, B, X, source):
+                ends = [self.point(A[0]), self._locus_in(body, A), self.point(B[0]), self._locus_in(body, B)]
+                line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B, X))
+                self._locus((X, source or body), self._outward(body, X, line), move)
+            case Settle(body, K, X, B):
+                self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
+            case Figure(body, K, X, R, like, copy):
+                mark = self._outward(body, X, self._figured(body, K, X, R, like))
+                self._end(copy or X, mark, move)
+            case Guide(slide, point, known, new):
+                self._guide(slide, point, known, new, move)
+            case Meet(place, (one, two), copy):
+                self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
+            case Auxiliary(body, A, B, place):
+                self._auxiliary(body, A, B, place, move)
+            case Pole():
+                self._pole(move)
+
+    def _links(self, move: Move) -> tuple[str, ...]:
+        """The links that a step's fault should name."""
+        names: list[str] = []
+        if isinstance(move, Meet):
+            names = [link for source in move.sources for link in self._of_source(source)]
+        elif isinstance(move, Guide):
+            names = [move.known, move.new]
+        elif (body := getattr(move, "body", "")) in self.net.members:
+            names = self.net.members[body]
+        return tuple(dict.fromkeys(name for name in names if name != FRAME))
+
+    def _of_source(self, source: str) -> list[str]:
+        slide = next((s for s in self.net.slides if s.name == source), None)
+        return [slide.link, slide.along] if slide else self.net.members.get(source, [])
+
+    def _end(self, place: Place, mark: Mark, move: Move | None = None) -> None:
+        self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
+        if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
+            self.board.annotate(mark.step.index, why=law)
+
+    def _know(self, place: Place, mark: Mark) -> None:
+        """Enter an end; the bodies there may be drawn from it."""
+        if place not in self.ends and (place[1] in self.net.body or not place[1]):
+            for body in self.net.bodies_at(place):
+                if (body, self.net.spot(place[0])) not in self._told:
+                    self._told.add((body, self.net.spot(place[0])))
+                    self.known[body].append(place)  # a figure needs points that lie apart
+        self.ends[place] = mark
+
+    def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:
+        if name := self.locus_name(locus[0]):
+            self.board.named(mark, name + self.prime)
+        if mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
+            self.board.annotate(mark.step.index, why=law)
+        self.loci[locus] = mark
+
+    def point(self, place: Place) -> Mark:
+        """The place on the mechanism plan."""
+        return self.pose.points[place[0]]
+
+    # ---- between home and figure ----------------------------------------------------------------------------
+
+    def _inward(self, body: str, place: Place, mark: Mark) -> Mark:
+        """A mark at a place's home, shifted into the figure of the body's top link."""
+        if place[1] == POLE:
+            vector = self.pole_vectors.get((place, body))
+            return mark if vector is None else self.moved(mark, *vector)
+        link = self.net.link_at(body, place)
+        mark = self.moved(mark, self.home(place), self.figure(link, place[0]))
+        for weld in self.net.chain(link):
+            mark = self._hopped(weld, place[0], mark, -1)
+        return mark
+
+    def _outward(self, body: str, place: Place, mark: Mark) -> Mark:
+        """A mark in the figure of the body's top link, shifted to the place's home."""
+        if place[1] == POLE:
+            vector = self.pole_vectors.get((place, body))
+            return mark if vector is None else self.moved(mark, vector[1], vector[0])
+        link = self.net.link_at(body, place)
+        mark = self._down(link, place[0], mark)
+        return self.moved(mark, self.figure(link, place[0]), self.home(place))
+
+    def _down(self, link: str, point: str, mark: Mark) -> Mark:
+        """From the top link of a body down to one of its links."""
+        for weld in reversed(self.net.chain(link)):
+            mark = self._hopped(weld, point, mark, 1)
+        return mark
+
+    def _hopped(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+        if mark.kind == POINT:
+            return self.hop(weld, point, mark, sign)
+        start = self.pose.points[point]
+        return self.moved(mark, start, self.hop(weld, point, start, sign))
+
+    def moved(self, mark: Mark, one: Mark, two: Mark) -> Mark:
+        """A point or line shifted by the vector from one mark to another; nothing is drawn where they are one."""
+        if one is two:
+            return mark
+        if mark.kind == LINE:
+            return self.board.shift(mark, one, two)
+        return two if mark is one else self.board.transfer(one, mark, two)
+
+    def _locus_in(self, body: str, locus: Locus) -> Mark:
+        return self._inward(body, locus[0], self.loci[locus])
+
+    def end_in(self, link: str, point: str) -> Mark:
+        """The end of a point in a link's own figure, drawn from the link's known ends if need be."""
+        place, body = self.net.place(point, link), self.net.body[link]
+        if place in self.ends:
+            return self.moved(self.ends[place], self.home(place), self.figure(link, place[0]))
+        if body == self.net.ground:
+            return self._welded(link, point)
+        return self._down(link, point, self._image(body, place))
+
+    def _welded(self, link: str, point: str) -> Mark:
+        """The end of a point of the frame, or of a link that drives tie to it."""
+        chain = self.net.chain(link)
+        return self._down(link, point, self.start(chain[-1], point) if chain else self.figure(link, point))
+
+    def _rest(self, place: Place) -> Mark:
+        link = self.net.link_at(self.net.ground, place)
+        mark = self._welded(link, place[0])
+        return self.moved(mark, self.figure(link, place[0]), self.home(place))
+
+    def _image(self, body: str, place: Place) -> Mark:
+        """The end of a place in the figure of the body's top link, by two known ends or one and the turning."""
+        known = [p for p in self.known[body] if p != place]
+        here = next((p for p in known if self.net.spot(p[0]) == self.net.spot(place[0])), None)
+        if here:
+            return self._figured(body, here, place, None, "")
+        if len(known) > 1:
+            return self._figured(body, known[0], place, known[1], "")
+        partner = self._partner(body)
+        return self._figured(body, known[0], place, None, partner)
+
+    def _partner(self, body: str) -> str:
+        """A body that turns alike and has two known ends, or the frame's."""
+        alike = [b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body]
+        if self.net.ground in alike:
+            return self.net.ground
+        return next(b for b in alike if len(self.known[b]) > 1)
+
+    # ---- the single moves -----------------------------------------------------------------------------------
+
+    def _slipped(self, body: str, A: Locus, X: Place, like: str) -> Mark:
+        """A's locus moved along by the known vector from A's end to X's."""
+        through = self._as_turned(body, like, A[0], X, self.point(A[0]))
+        line = self.board.shift(self._locus_in(body, A), self.point(A[0]), through)
+        return self._outward(body, X, line)
+
+    def _as_turned(self, body: str, like: str, A: Place, X: Place, at: Mark) -> Mark:
+        """`at` moved by the image of AX in a body that turns as `like` does, but for a known difference."""
+        if self.net.spot(A[0]) == self.net.spot(X[0]):
+            return at
+        base = self.point(A), self.point(X)
+        if like == self.net.ground:
+            mark = self.at_rest(base, at)
+        elif (same := self._same_side(like, base)) is not None:
+            mark = self.moved(at, *same)
+        else:
+            K, R = self.known[like][:2]
+            ends = self._inward(like, K, self.ends[K]), self._inward(like, R, self.ends[R])
+            sides = self.point(K), self.point(R)
+            tip = self.board.similar(*sides, self.board.transfer(*base, sides[0]), *ends, turn=self.turn)
+            mark = self.board.transfer(ends[0], tip, at)
+        return self.turned_by(body, like, base, mark)
+
+    def _same_side(self, like: str, base: Vector) -> Vector | None:
+        """The image of the very vector `base`, if the other body knows the ends of points in the same places."""
+        ends = [next((p for p in self.known[like] if self.point(p) is mark), None) for mark in base]
+        if ends[0] is None or ends[1] is None:
+            return None
+        return self._inward(like, ends[0], self.ends[ends[0]]), self._inward(like, ends[1], self.ends[ends[1]])
+
+    def at_rest(self, base: Vector, at: Mark) -> Mark:
+        """`at` moved by the image of a vector of a link that does not turn: itself, or nothing on a turned plan."""
+        if self.turn == "perpendicular":
+            return at
+        return base[1] if at is base[0] else self.board.transfer(*base, at)
+
+    def _settled(self, body: str, K: Place, X: Locus, B: Locus) -> Mark:
+        known = self.point(K), self._inward(body, K, self.ends[K])
+        one, two = self._locus_in(body, X), self._locus_in(body, B)
+        args: tuple[Any, ...] = (*known, self.point(X[0]), one, self.point(B[0]), two)
+        return self.board.settle(*args, turn=self.turn)
+
+    def _figured(self, body: str, K: Place, X: Place, R: Place | None, like: str) -> Mark:
+        at = self._inward(body, K, self.ends[K])
+        if R is None:
+            return self._as_turned(body, like, K, X, at)
+        sides = self.point(K), self.point(R), self.point(X)
+        other = self._inward(body, R, self.ends[R])
+        return self.board.similar(*sides, at, other, turn=self.turn)
+
+    def _guide(self, slide: Slide, point: str, known: str, new: str, move: Move) -> None:
+        place = self.net.place(point, new)
+        own = self.figure(new, place[0])
+        through = self.moved(self.end_in(known, point), self.seat(slide, known, new, point), own)
+        through = self.moved(through, own, self.home(place))
+        side = self.board.perpendicular if self.across else self.board.parallel
+        self._locus((place, slide.name), side(self.pose.guide(slide), through), move)
+
+    def _auxiliary(self, body: str, A: Locus, B: Locus, place: Place, move: Move) -> None:
+        """The auxiliary point itself, where a sliding pair needs it."""
+        homes = [getattr(self.board, self.turn)(self.loci[locus], self.point(locus[0])) for locus in (A, B)]
+        if place[0] not in self.pose.points:
+            self.pose.points[place[0]] = self.board.meet(*homes, name=self.pose.letter(body))
+        end = self.board.meet(self._locus_in(body, A), self._locus_in(body, B))
+        self._end(place, self._outward(body, place, end), move)
+
+    def _letters(self, body: str, A: Locus, B: Locus, X: Place) -> dict[str, str]:
+        """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
+        letter = self.pose.letter(body)
+        trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
+                 for mark in ("'", "''")}
+        return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": f"U_{body}", **trial}
+
+    # ---- relative poles and trials --------------------------------------------------------------------------
+
+    def _pole(self, move: Pole) -> None:
+        if move.place[0] not in self.pose.points:
+            bars = [self.board.side(self.point(one), self.point(two)) for _, one, two in move.bars]
+            self.pose.points[move.place[0]] = self.board.meet(*bars, name=f"P_{move.bodies[0]}{move.bodies[1]}")
+        if (vector := self.pole_shift(move)) is not None:
+            self.pole_vectors[move.place, move.bodies[1]] = vector
+
+    def _trial(self, move: Trial) -> None:
+        """Two trial figures, the false position, then the true figure by the same moves."""
+        place, locus = move.at[0], self.loci[move.at]
+        trials: list[Mark] = []
+        outer = self.prime
+        before = self._drawn()
+        for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
+            self._back_to(before)
+            self.prime = outer + prime
+            start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
+            self._know(place, self.board.named(start, self.end_name(place) + self.prime))
+            self.draw(move.moves)
+            trials += [start, self.ends[move.end], self.loci[move.locus]]
+        self.prime = outer
+        self._back_to(before)
+        A1, Z1, l1, A2, Z2, l2 = trials
+        true = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
+        self._know(place, true)
+        self.draw(move.moves)
+
+    def _drawn(self) -> tuple[Any, ...]:
+        """What is drawn by now."""
+        known = {body: list(places) for body, places in self.known.items()}
+        return dict(self.ends), dict(self.loci), known, set(self._told), dict(self.pole_vectors)
+
+    def _back_to(self, drawn: tuple[Any, ...]) -> None:
+        """Begin once more from what was drawn before a trial: nothing of another trial figure may serve in this one."""
+        ends, loci, known, told, vectors = drawn
+        self.ends, self.loci, self._told, self.pole_vectors = dict(ends), dict(loci), set(told), dict(vectors)
+        self.known = {body: list(places) for body, places in known.items()}

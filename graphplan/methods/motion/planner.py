@@ -1,0 +1,264 @@
+"""The planner: finds the order of construction, whatever the mechanism.
+
+Facts travel along joints until nothing moves. Where they run in a ring of links, a relative pole, an auxiliary point or
+a trial is put in, and they travel on. A body that hears four facts has one too many: in a trial that is the closing
+condition.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations, islice, pairwise, zip_longest
+from typing import NamedTuple
+
+from graphplan.errors import Refused
+from graphplan.methods.motion.facts import ANYWHERE, Facts
+from graphplan.methods.motion.moves import Auxiliary, Carry, Figure, Locus, Move, Pole, Slip, Swing, Trial
+from graphplan.methods.motion.network import POLE, Network, Place
+from graphplan.methods.motion.residues import Two, line, meet, parallel
+
+MOST_TRIALS = 6  # at how many places a trial may begin
+DEEPEST = 4  # trials within trials
+MOST_FIGURES = 3  # by which one locus may close a trial
+Bar = tuple[str, Place, Place]
+
+
+@dataclass
+class _Open:
+    """A trial that has not closed yet: where it was assumed, and where its moves begin."""
+
+    at: Locus
+    start: int
+
+
+class Options(NamedTuple):
+    """How many ways on there were at one place of a plan; `rare` ones matter only where the first does not serve."""
+
+    ways: int
+    rare: bool = False
+
+
+class Closing(NamedTuple):
+    """What a trial's error is seen by: an end that should lie on a locus, and the moves that draw them."""
+
+    moves: tuple[Move, ...]
+    end: Place
+    locus: Locus
+
+
+class Planner(Facts):
+    """Plans one network.
+
+    Where facts run in rings there are several ways on, and rare ones elsewhere: to close a trial, to begin a figure.
+    `choice` says, place by place, which is taken (the first where it says nothing), and `options` then tells how many
+    there were. `method` leaves out
+    ways: "trial" all but trials.
+    """
+
+    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False):
+        super().__init__(network, general)
+        self.method, self.choice = method, choice
+        self.options: list[Options] = []
+        self.spent: dict[str, int] = {}
+        self.joined: set[frozenset[str]] = set()
+        self.open: list[_Open] = []
+
+    def plan(self) -> list[Move]:
+        """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
+        self._seed()
+        while True:
+            self._travel()
+            if self._begin():
+                continue
+            loose = [body for body in self.places if not self._known(body)]
+            if not loose and not self.open:
+                return self.moves
+            if not self._break(loose):
+                stuck = loose or [body for trial in self.open for body in self._at(trial.at[0])]
+                raise Refused(f"links {', '.join(stuck)}", "no construction known here reaches them",
+                              "check the drives, or ask for points of other links")
+
+    # ---- rings ----------------------------------------------------------------------------------------------
+
+    def _break(self, loose: list[str]) -> bool:
+        """Facts have stopped travelling: put in a relative pole, an auxiliary point or a trial."""
+        ways: list[Callable[[], None]] = []
+        if self.method != "trial":
+            ways += [partial(self._join, pair, bars) for pair, bars in self._pairs(loose)]
+        if self.method != "poles" or not ways:
+            if self.method != "trial":
+                ways += [partial(self._cross, body, one, two) for body, one, two in self._crossings(loose)]
+            ways += [partial(self._try, locus) for locus in self._trials(loose)[:MOST_TRIALS]]
+        if not ways:
+            return False
+        ways[self._chosen(Options(len(ways)))]()
+        return True
+
+    def _chosen(self, options: Options) -> int:
+        """Which of several ways on is taken."""
+        asked = len(self.options)
+        self.options.append(options)
+        return self.choice[asked] if asked < len(self.choice) else 0
+
+    def _crossings(self, loose: list[str]) -> Iterator[tuple[str, Locus, Locus]]:
+        """Bodies with two loci and a slide that could pass on what their crossing, an auxiliary point, tells."""
+        for body in loose:
+            slides = [s for s in self.net.slides_of.get(body, ()) if s.name not in self.passed]
+            loci = list(self._loci(body))
+            crossing = len(loci) == 2 and not parallel(*map(self._normal, loci))
+            if slides and crossing and not self._ends(body) and self._count(body) == 2:
+                yield body, loci[0], loci[1]
+
+    def _auxiliary_spot(self, one: Locus, two: Locus) -> Two:
+        """Where the auxiliary point of two loci lies: each line through its place runs as the locus does."""
+        spot = meet(*(line(self._normal(locus), self._spot(locus[0])) for locus in (one, two)))
+        assert spot is not None
+        return spot
+
+    def _cross(self, body: str, one: Locus, two: Locus) -> None:
+        place = (f"auxiliary point of {body}", self.net.link_at(body, one[0]))
+        self.spots[place[0]] = self._auxiliary_spot(one, two)
+        self._add_place(body, place)
+        self.bodies[place] = [body]
+        self.moves.append(Auxiliary(body, one, two, place))
+        self._file(place, body, None)
+
+    # ---- relative poles -------------------------------------------------------------------------------------
+
+    def _pairs(self, loose: list[str]) -> Iterator[tuple[frozenset[str], list[Bar]]]:
+        """Pairs of bodies joined by two bars, each with two facts: their relative pole serves as a joint."""
+        bars: dict[frozenset[str], list[Bar]] = {}
+        for body in loose:
+            ends = self.places[body]
+            rigid = len(self.net.members[body]) == 1 and len({self.net.spot(end[0]) for end in ends}) == 2
+            if rigid and len(ends) == 2 and all(len(self._at(place)) == 2 for place in ends):
+                (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
+                bars.setdefault(frozenset((one, two)), []).append((body, D, G))
+        for pair, found in bars.items():
+            fit = len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair)
+            if fit and self._pole_spot(found):
+                yield pair, found
+
+    def _pole_spot(self, bars: list[Bar]) -> Two | None:
+        """Where the relative pole lies, if the bars are not parallel."""
+        return meet(*(line(self._swung(D, G), self._spot(D)) for _, D, G in bars))
+
+    def _fit(self, body: str) -> bool:
+        """A single link with two facts."""
+        return self._count(body) == 2 and len(self.net.members[body]) == 1
+
+    def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
+        one, two = sorted(pair)
+        place = (f"pole of {one} and {two}", POLE)
+        spot = self._pole_spot(bars)
+        assert spot is not None
+        self.spots[place[0]] = spot
+        self.bodies[place] = [one, two]
+        for body in (one, two):
+            self._add_place(body, place)
+        self.retired |= {bar[0] for bar in bars}
+        self.joined.add(pair)
+        self.moves.append(Pole((one, two), (bars[0], bars[1]), place))
+        self._tell(place)
+
+    # ---- trials ---------------------------------------------------------------------------------------------
+
+    def _trials(self, loose: list[str]) -> list[Locus]:
+        """Places with one locus, where an end may be assumed."""
+        if len(self.open) >= DEEPEST:
+            return []
+        loci = [(place, source) for body in loose for place in self.places[body] if place not in self.drawn
+                for source, fact in self.facts.get(place, {}).items() if fact is not None]
+        return list(dict.fromkeys(loci))
+
+    def _try(self, at: Locus) -> None:
+        """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
+        self.open.append(_Open(at, len(self.moves)))
+        self.spent |= {body: max(self._excess(body), self.spent.get(body, 0)) for body in self.places}
+        self._file(at[0], f"trial {len(self.open)}", ANYWHERE, marked=True)
+
+    def _overheard(self, body: str) -> None:
+        """A body has heard one fact too many: the innermost trial ends where two of its words can be compared."""
+        if not self.open or self._excess(body) <= self.spent.get(body, 0):
+            return
+        closings = list(self._closings(body))
+        if not closings:
+            return
+        taken = self._chosen(Options(len(closings) + 1, rare=True))
+        if taken == 1:
+            return  # another body may close it
+        moves, end, locus = closings[max(taken - 1, 0)]
+        trial = self.open.pop()
+        inner = (*self.moves[trial.start :], *moves)
+        del self.moves[trial.start :]
+        self.moves.append(Trial(trial.at, inner, end, locus))
+        self.spent[body] = self.spent.get(body, 0) + 1
+        self._queue(*self.places)
+
+    def _closings(self, body: str) -> Iterator[Closing]:
+        """Ends with loci that owe each other nothing, in the body that has heard too much; last such as may."""
+        told = {place: self._heard(place, body) for place in self._ends(body)}
+        whole = [place for place, rank in told.items() if rank == 2]
+        own = f"{body} trial"  # a source of its own: what the body told before stands
+        for X in whole:
+            if line := self._independent(body, X, whole, own):
+                yield Closing((line,), X, (X, own))
+        for K in whole:
+            for (R, _), (X, source) in pairwise(self._loci(body, K)):
+                if R in told:
+                    copy = (X[0], own)
+                    yield Closing((Figure(body, K, X, R=R, copy=copy),), copy, (X, source))
+        if closing := self._three_loci(body):
+            yield closing
+        loci = [locus for place in self.places[body] if (locus := self._locus_of(place, body))]
+        for figures in zip_longest(*(islice(self._figures(body, X), MOST_FIGURES) for X, _ in loci)):
+            for (X, source), figure in zip(loci, figures, strict=True):
+                if figure:
+                    copy = (X[0], own)
+                    yield Closing((figure._replace(copy=copy),), copy, (X, source))
+        for K, X in combinations(told, 2):
+            if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
+                yield Closing((Swing(body, K, X, own),), X, (X, own))
+
+    def _figures(self, body: str, X: Place) -> Iterator[Figure]:
+        """The end of X by the others that are drawn: by one in the same spot, by one and the turning, or by two."""
+        yield from (Figure(body, K, X) for K in self._together(body, X) if K in self.drawn)
+        known, like = self._ends(body, X), self._like(body)
+        if like:
+            yield from (Figure(body, K, X, like=like) for K in known)
+        for K, R in combinations(known, 2):
+            if self.net.spot(K[0]) != self.net.spot(R[0]):
+                yield Figure(body, K, X, R=R)
+
+    def _three_loci(self, body: str) -> Closing | None:
+        """An end found by all loci of a body but one, beside that one."""
+        loci = list(self._loci(body))
+        crossed = self._crossed(body, loci[0][0]) if loci else None
+        if crossed is None:
+            return None
+        lines, meet = crossed
+        copy = (meet.place[0], f"{body} trial")
+        return Closing((*lines, meet._replace(copy=copy)), copy, loci[0])
+
+    def _begin(self) -> bool:
+        """Begin the figure of a body that is known by loci alone, if there is one that nobody gives an end to."""
+        for body in self.places:
+            if body != self.net.ground and body not in self.retired and self._count(body) == 3:
+                for X in self.places[body]:
+                    crossed = self._crossed(body, X) if X not in self.drawn else None
+                    if crossed and not self._ends(body):
+                        self._tell_end(body, X, [*crossed[0], crossed[1]])
+                        return True
+        return False
+
+    def _independent(self, body: str, X: Place, ends: list[Place], own: str) -> Move | None:
+        """A locus for X by what the body heard elsewhere."""
+        others = [place for place in ends if self.net.spot(place[0]) != self.net.spot(X[0])]
+        if others:
+            return Swing(body, others[0], X, own)
+        loci, like = list(self._loci(body, X)), self._like(body)
+        if loci and like:
+            return Slip(body, loci[0], X, like, own)
+        return Carry(body, loci[0], loci[1], X, own) if len(loci) > 1 else None

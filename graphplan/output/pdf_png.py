@@ -1,0 +1,220 @@
+"""The display list in ink: PDF pages of true size, and PNG pictures.
+
+matplotlib brings the renderers, and DejaVu Sans, the font by whose advances lettering is measured. Its renderers are
+driven item by item, from back to front, so that what covers what is as on the sheet. Letters stay text, embedded with
+what of the font they need. Nothing depends on time or memory: the same sheets are the same bytes.
+"""
+
+from __future__ import annotations
+
+import io
+import math
+import re
+from collections.abc import Iterator, Sequence
+from functools import lru_cache
+from pathlib import Path as File
+from typing import Any
+
+import matplotlib
+import numpy as np
+from matplotlib.artist import Artist
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.colors import to_rgb
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
+from matplotlib.ft2font import FT2Font
+from matplotlib.path import Path
+from matplotlib.transforms import Affine2D
+
+from graphplan.errors import Refused
+from graphplan.sheet.lettering.lettering import DROP, SUBSCRIPT
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import PAPER, Pen
+
+INCH = 25.4
+POINTS = 72 / INCH  # typographic points in a mm
+EM = 1000  # advances are read off at this size
+ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}
+WORD = re.compile(r" *[^ ]+ *|^ +$")  # with the spaces about it, so that words stay apart for those who search
+SETTINGS: Any = {  # whatever the reader's own settings are
+    "pdf.fonttype": 42, "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,
+    "savefig.bbox": "standard", "savefig.transparent": False, "savefig.facecolor": PAPER, "text.hinting": "no_hinting",
+    "text.antialiased": True,
+}  # fmt: skip
+
+
+def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> bytes:
+    """The sheets as one PDF document, a page each, in true size; title and language are the first sheet's unless told.
+
+    Fails with `Refused` where a sheet has letters that the font does not.
+    """
+    file = io.BytesIO()
+    about: Any = {"Title": title or sheets[0].title, "Creator": "graphplan", "Producer": "graphplan",
+                  "CreationDate": None}
+    with matplotlib.rc_context(SETTINGS), PdfPages(file, metadata=about) as pages:
+        for sheet in sheets:
+            pages.savefig(_figure(sheet))
+    return _spoken(file.getvalue(), language or sheets[0].language)
+
+
+def png(sheet: Sheet, dpi: float = 150) -> bytes:
+    """The sheet as a picture of so many dots per inch.
+
+    Fails with `Refused` where the sheet has letters that the font does not.
+    """
+    file = io.BytesIO()
+    about: Any = {"Title": sheet.title, "Software": "graphplan"}
+    with matplotlib.rc_context(SETTINGS):
+        _figure(sheet).savefig(file, format="png", dpi=dpi, metadata=about)
+    return file.getvalue()
+
+
+def _figure(sheet: Sheet) -> Figure:
+    """A figure of the sheet's size with nothing on it but the sheet."""
+    letters = {char for item in sheet.items if isinstance(item, Text) for run in item.runs for char in run.text}
+    if lacking := sorted(char for char in letters if not _has(char)):
+        raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(lacking)}",
+                      "draw it as SVG, whose viewer brings other fonts")
+    figure = Figure(figsize=(sheet.width / INCH, sheet.height / INCH), facecolor=PAPER)
+    FigureCanvasAgg(figure)
+    figure.add_artist(_Page(sheet))
+    return figure
+
+
+def _spoken(document: bytes, language: str) -> bytes:
+    """The document with its language and title for those who hear it: an update of its catalogue, put at its end."""
+    trailer = document[document.rindex(b"trailer") :]
+    root, size, before = (int(re.findall(key + rb"\s+(\d+)", trailer)[0]) for key in (b"Root", b"Size", b"startxref"))
+    info = re.findall(rb"/Info \d+ 0 R", trailer)[0]
+    catalogue = re.findall(rb"\n%d 0 obj\n<<(.*?)>>\nendobj" % root, document, re.DOTALL)[0]
+    heard = b"/Lang (%s) /ViewerPreferences << /DisplayDocTitle true >>" % language.encode("ascii")
+    entry = b"%d 0 obj\n<<%s%s>>\nendobj\n" % (root, catalogue, heard)
+    table = b"xref\n%d 1\n%010d 00000 n \n" % (root, len(document))
+    end = b"trailer\n<< /Size %d /Root %d 0 R %s /Prev %d >>\n" % (size, root, info, before)
+    return b"%s%s%s%sstartxref\n%d\n%%%%EOF\n" % (document, entry, table, end, len(document) + len(entry))
+
+
+class _Page(Artist):
+    """A sheet as a thing that matplotlib draws."""
+
+    def __init__(self, sheet: Sheet):
+        super().__init__()
+        self.sheet = sheet
+
+    def draw(self, renderer: Any) -> None:
+        """Draw every item, from back to front."""
+        hand = _Hand(renderer)
+        for item in self.sheet.items:
+            hand.draw(item)
+
+
+class _Hand:
+    """Draws items with a renderer of matplotlib: `mm` of its units are a millimetre."""
+
+    def __init__(self, renderer: Any):
+        self.renderer, self.mm = renderer, renderer.points_to_pixels(POINTS)
+        self.height = renderer.get_canvas_width_height()[1]
+        self.pens: dict[Pen, Any] = {}
+
+    def draw(self, item: Item) -> None:
+        match item:
+            case Polyline():
+                self._stroke(item.pen, Path(item.spots))
+            case Polygon():
+                self._stroke(item.pen, Path([*item.spots, item.spots[0]], closed=True), item.pen.fill)
+            case Circle():
+                self._stroke(item.pen, _round(Path.unit_circle(), item.centre, item.radius), item.pen.fill)
+            case Arc():
+                self._stroke(item.pen, _round(Path.arc(item.start, item.end), item.centre, item.radius))
+            case Arrow():
+                self._arrow(item)
+            case Text():
+                self._text(item)
+            case _:
+                raise TypeError(f"no ink for {type(item).__name__}")
+
+    def _arrow(self, arrow: Arrow) -> None:
+        """The shaft ends in the head, so that the tip is sharp."""
+        tip, left, right = arrow.barbs
+        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
+        if math.dist(arrow.start, neck) > 0.01:
+            self._stroke(arrow.pen, Path([arrow.start, neck]))
+        self._stroke(Pen(0.0), Path([tip, left, right, tip], closed=True), arrow.pen.colour)
+
+    def _stroke(self, pen: Pen, path: Path, fill: str = "none") -> None:
+        """A path in mm, drawn with a pen and filled."""
+        face = None if fill == "none" else to_rgb(fill)
+        self.renderer.draw_path(self._pen(pen), path, Affine2D().scale(self.mm), face)
+
+    def _text(self, text: Text) -> None:
+        gc = self._pen(Pen(0.0, text.pen.colour))
+        for words, (x, y), size in _pieces(text):
+            level = self.height - y * self.mm if self.renderer.flipy() else y * self.mm
+            self.renderer.draw_text(gc, x * self.mm, level, words, _font(text.bold, size), 0)
+
+    def _pen(self, pen: Pen) -> Any:
+        """The renderer's own record of a pen."""
+        if pen not in self.pens:
+            gc = self.renderer.new_gc()
+            gc.set_foreground(pen.colour)
+            gc.set_linewidth(pen.width * POINTS)
+            gc.set_dashes(0, [part * POINTS for part in pen.dash] or None)
+            gc.set_capstyle("round")
+            gc.set_joinstyle("round")
+            gc.set_snap(False)
+            self.pens[pen] = gc
+        return self.pens[pen]
+
+
+def _round(path: Path, centre: Spot, radius: float) -> Path:
+    """A path about the origin, of radius one, about this centre and with this radius."""
+    return Path(np.asarray(path.vertices) * radius + centre, path.codes)
+
+
+def _pieces(text: Text) -> Iterator[tuple[str, Spot, float]]:
+    """What is lettered in one go, where, and in which size: single words, as renderers push letters together and the
+    next level is to stand close by; the last run whole."""
+    sizes = [text.size * (SUBSCRIPT if run.level else 1.0) for run in text.runs]
+    long = sum(_width(run.text, text.bold) * size for run, size in zip(text.runs, sizes, strict=True))
+    x = text.at[0] - ANCHORS[text.anchor] * long
+    for k, (run, size) in enumerate(zip(text.runs, sizes, strict=True), 1):
+        for words in WORD.findall(run.text) if k < len(text.runs) else [run.text]:
+            yield words, (x, text.at[1] + run.level * DROP * text.size), size
+            x += _width(words, text.bold) * size
+
+
+@lru_cache(maxsize=64)
+def _font(bold: bool, size: float) -> FontProperties:
+    return FontProperties(fname=str(_file(bold)), size=size * POINTS)
+
+
+def _file(bold: bool) -> File:
+    """The font's file, which comes with matplotlib."""
+    return File(matplotlib.get_data_path(), "fonts", "ttf", f"DejaVuSans{'-Bold' if bold else ''}.ttf")
+
+
+@lru_cache(maxsize=2)
+def _face(bold: bool) -> FT2Font:
+    """The font at the size at which it is measured."""
+    face = FT2Font(str(_file(bold)))
+    face.set_size(EM, 72)
+    return face
+
+
+@lru_cache(maxsize=1024)
+def _has(char: str) -> bool:
+    """Whether the font can letter this, in both weights."""
+    return all(_face(bold).get_char_index(ord(char)) for bold in (False, True))
+
+
+@lru_cache(maxsize=4096)
+def _width(words: str, bold: bool) -> float:
+    """How long words are, beside the size of their letters."""
+    return sum(_advance(char, bold) for char in words)
+
+
+@lru_cache(maxsize=1024)
+def _advance(char: str, bold: bool) -> float:
+    """How far it is from a letter to the next, beside their size."""
+    return float(_face(bold).load_char(ord(char)).linearHoriAdvance / 65536 / EM)

@@ -1,0 +1,190 @@
+"""The report of a judged drawing as one page for a browser, which needs neither scripts nor a network.
+
+All that comes from a student's file is escaped, and the page itself forbids whatever could be fetched or run.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from html import escape
+from importlib.resources import files
+
+from graphplan.marking.judge.findings import (
+    ALLOWED,
+    FIGURES,
+    OFF,
+    blamed,
+    called,
+    counted,
+    measured,
+    named,
+    opinion,
+    quantity,
+)
+from graphplan.marking.judge.remarks import figures, written
+from graphplan.marking.judge.score import GROUPS, Score
+from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
+from graphplan.methods.panels import spoken
+from graphplan.output.svg import svg
+from graphplan.phrases import Said, arranged, said
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.plates.display import Sheet
+from graphplan.words.tongue import Tongue
+
+FIGURE, STATE = "figure", "state"  # the classes of cells: of numbers, and of verdicts
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A cell of a table, as HTML, with its class; one that is a `head` names its row."""
+
+    html: str
+    look: str = ""
+    head: bool = False
+
+    @property
+    def text(self) -> str:
+        """The cell as an element."""
+        look = f' class="{self.look}"' if self.look else ""
+        return f'<th scope="row"{look}>{self.html}</th>' if self.head else f"<td{look}>{self.html}</td>"
+
+
+def marked(judgement: Judgement, score: Score, sheets: Sequence[Sheet]) -> str:
+    """The page of a judgement, with its overlay, in the tongue of its sheet."""
+    return _Report(judgement, score).page(sheets)
+
+
+def page(tongue: Tongue, title: str, body: Iterable[str]) -> str:
+    """A whole page; the body is HTML."""
+    parts = {"language": tongue.code, "title": escape(title), "body": "\n".join(body)}
+    text = files(__package__).joinpath("report_page.html").read_text("utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
+
+
+def table(caption: str, heads: Sequence[str], rows: Iterable[tuple[str, Sequence[Cell]]]) -> Iterator[str]:
+    """A table with its caption and heads, all escaped already; each row has a class, and its first cell names it."""
+    yield f'<div class="wide"><table><caption>{caption}</caption>'
+    yield "<thead><tr>" + "".join(map(_head, heads)) + "</tr></thead><tbody>"
+    for look, cells in rows:
+        first, *others = cells
+        yield f'<tr class="{look}">' + "".join(cell.text for cell in (replace(first, head=True), *others)) + "</tr>"
+    yield "</tbody></table></div>"
+
+
+def _head(text: str) -> str:
+    """The head of a column; one without words heads nothing."""
+    return f'<th scope="col">{text}</th>' if text else "<td></td>"
+
+
+@dataclass(frozen=True)
+class _Report:
+    """One judgement in words."""
+
+    judgement: Judgement
+    score: Score
+
+    @cached_property
+    def tongue(self) -> Tongue:
+        return self.judgement.composition.planes.tongue
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        return tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
+
+    def say(self, text: str) -> str:
+        """Words as HTML."""
+        return escape(self.tongue(text))
+
+    def set(self, text: str) -> str:
+        """Words as HTML, with the names of marks set as on the sheet."""
+        runs = sentence_runs(self.tongue(text), self.names)
+        return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
+
+    def page(self, sheets: Sequence[Sheet]) -> str:
+        scene = self.judgement.drawing.scene
+        return page(self.tongue, f"{scene.title}: {self.judgement.name}", self._body(sheets))
+
+    def _body(self, sheets: Sequence[Sheet]) -> Iterator[str]:
+        scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first else ""
+        yield f"<h1>{escape(scene.title)}</h1>"
+        yield f'<p class="source">{escape(self.judgement.name)}</p>'
+        yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
+        yield f"<p>{self.say(arranged('{0:capital}.', counted(self.judgement)))}</p>"
+        yield from self._score()
+        for sheet in sheets:
+            yield f"<figure>{picture(sheet)}</figure>"
+        yield from self._numbers()
+        yield from self._steps()
+
+    def _score(self) -> Iterator[str]:
+        if self.score.total is None:
+            return
+        told = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
+        told.append((said("in all, of 100"), self.score.total))
+        rows = [("", (Cell(self.say(name)), Cell(f"{percent:.0f}", FIGURE))) for name, percent in told]
+        yield f"<h2>{self.say(said('Score'))}</h2>"
+        yield from table(self.say(said("What was earned, of 100.")), ("", self.say(said("Score"))), rows)
+
+    # ---- steps -----------------------------------------------------------------------------------------------------
+
+    def _steps(self) -> Iterator[str]:
+        heads = (said("Step"), said("Plan"), said("What is drawn"), said("Verdict"), said("Off, mm"),
+                 said("Allowed, mm"), said("Likely mistake"))
+        givens = self.judgement.drawing.drawn.givens
+        rows = [(verdict.state, self._step(verdict)) for verdict in self.judgement.verdicts
+                if verdict.step >= givens or verdict.state != UNSEEN]
+        yield f"<h2>{self.say(said('Steps'))}</h2>"
+        yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
+                         [self.say(head) for head in heads], rows)
+
+    def _step(self, verdict: Verdict) -> tuple[Cell, ...]:
+        drawn, planes = self.judgement.drawing.drawn, self.judgement.composition.planes
+        seen = measured(self.judgement, verdict)
+        sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
+        return (
+            Cell(self.set(called(drawn, verdict.step).short), FIGURE),
+            Cell(self.say(spoken(planes.homes[verdict.step]))),
+            Cell(self.set(drawn.sentence(verdict.step))),
+            Cell(self.say(STATES[verdict.state]()), STATE),
+            *(Cell(size, FIGURE) for size in sizes),
+            Cell(self.set(self._mistake(verdict))),
+        )  # fmt: skip
+
+    def _mistake(self, verdict: Verdict) -> str:
+        """What was probably done, with the earlier step at which it was if that is another."""
+        if verdict.mistake is None:
+            return ""
+        guilty = blamed(verdict)
+        if guilty is None:
+            return verdict.mistake
+        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, guilty), verdict.mistake)
+
+    # ---- numbers ---------------------------------------------------------------------------------------------------
+
+    def _numbers(self) -> Iterator[str]:
+        if not self.judgement.numbers:
+            return
+        heads = (said("Result"), said("handed in"), said("true"), said("Verdict"), OFF(), ALLOWED(),
+                 said("Likely mistake"))
+        rows = [(verdict.state, self._number(verdict)) for verdict in self.judgement.numbers]
+        yield f"<h2>{self.say(said('Results'))}</h2>"
+        yield from table(self.say(said("In the units of the scene.")), [self.say(head) for head in heads], rows)
+
+    def _number(self, verdict: NumberVerdict) -> tuple[Cell, ...]:
+        told: Said | str = verdict.mistake or ""
+        return (
+            Cell(self.set(quantity(verdict))), Cell(escape(written(verdict.number)), FIGURE),
+            Cell(figures(verdict.true), FIGURE), Cell(self.say(STATES[verdict.state]()), STATE),
+            Cell(digits(verdict.off, FIGURES), FIGURE), Cell(digits(verdict.tolerance, FIGURES), FIGURE),
+            Cell(self.set(told)),
+        )  # fmt: skip
+
+
+def picture(sheet: Sheet) -> str:
+    """A sheet to stand in a page: without its own heading, and named by what it says."""
+    text = svg(replace(sheet, scene=""))
+    return text[text.index("<svg "):].replace("<svg ", f'<svg role="img" aria-label="{escape(sheet.description)}" ', 1)

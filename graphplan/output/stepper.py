@@ -1,0 +1,213 @@
+"""The stepper: a construction as one page for a browser, step by step and pose by pose, that needs no network.
+
+The page is a template with the sheet in it as SVG, a group for each layer and step, and data: what each step reads and
+makes, and for every other pose the groups that look otherwise there, packed with gzip.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from html import escape
+from importlib.resources import files
+from typing import Any
+from xml.etree.ElementTree import Element, SubElement, fromstring, tostring
+
+from graphplan.methods.panels import spoken
+from graphplan.output.svg import svg
+from graphplan.phrases import arranged, said
+from graphplan.sheet.cycle_frames import Round, Still
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
+from graphplan.sheet.words.texts import RESULTS
+
+PACKING = 9  # how hard gzip tries
+SPANNED = ("line", "opening")  # operations whose mark is between the two points that they read
+MECHANISM_LAYERS = ("plates", "ground", "links", "blocks", "drive", "pairs", "letters")
+WORDS = {  # what stands on the page
+    "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
+    "last": said("Last step"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
+    "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
+    "turn": said("Turn of the drive"), "reads": said("reads"), "makes": said("makes"),
+    "begin": said("The mechanism as it is given; nothing is drawn yet."),
+    "old": said("This browser cannot unpack the other poses."),
+    "keys": said("Keys: arrows, Home, End, space."),
+}  # fmt: skip
+
+Groups = dict[str, str]  # the inside of every group of a sheet, by layer or step
+
+
+def stepper(found: Round) -> str:
+    """The page of a construction, in the tongue of its sheet."""
+    page = files(__package__).joinpath("stepper.html").read_text("utf-8")
+    parts = {**{f"word:{name}": escape(_say(found, word)) for name, word in WORDS.items()}, **_parts(found)}
+    return re.sub(r"\{\{([\w:]+)\}\}", lambda place: parts[place[1]], page)
+
+
+def _parts(found: Round) -> dict[str, str]:
+    """What the page is filled with besides words."""
+    sheet = found.stills[0].sheet
+    groups = [_groups(still) for still in found.stills]
+    return {
+        "language": sheet.language, "title": escape(sheet.title), "source": escape(found.drawing.scene.source),
+        "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, groups),
+        "list": "\n".join(_entries(found)), "turned": "" if len(found.stills) > 1 else "hidden",
+        "remark": escape(_remark(found)), "data": _script(json.dumps(_data(found), ensure_ascii=False)),
+        "poses": _packed(found, groups), "scene": _script(sheet.scene),
+    }  # fmt: skip
+
+
+def _say(found: Round, text: str) -> str:
+    return found.composition.planes.tongue(text)
+
+
+def _set(found: Round, text: str) -> str:
+    """Words with the names of marks set as on the sheet."""
+    names = tuple(step.name for step in found.drawing.drawn.steps if step.name)
+    runs = sentence_runs(_say(found, text), names)
+    return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
+
+
+def _remark(found: Round) -> str:
+    """Why there is no turn, or which poses of it are left out."""
+    if found.why:
+        return _say(found, said("The drive cannot be turned here: {0}.", found.why))
+    if found.lost:
+        told = ", ".join("–".join(f"{digits(end)}°" for end in dict.fromkeys(part)) for part in found.lost)
+        return _say(found, said("Not drawn: {0}. There the pose is out of reach or singular, or takes other steps.",
+                                told))
+    return ""
+
+
+def _entries(found: Round) -> Iterator[str]:
+    """The steps as items of an ordered list."""
+    drawn, panel = found.drawing.drawn, ""
+    for step in drawn.steps[drawn.givens:]:
+        plan = _say(found, arranged("{0:capital}", spoken(step.panel)))
+        head = f'<span class="plan">{escape(plan)}</span>' if step.panel != panel else ""
+        panel = step.panel
+        yield f'<li>{head}<button type="button">{_set(found, drawn.sentence(step.index))}</button></li>'
+
+
+def _data(found: Round) -> dict[str, Any]:
+    """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
+    drawn, planes, sheet = found.drawing.drawn, found.composition.planes, found.stills[0].sheet
+    panels = list(sheet.panels)
+    steps = [{
+        "name": _set(found, drawn.text(step.index)), "told": _set(found, drawn.told(step.index)),
+        "plan": panels.index(planes.homes[step.index]), "reads": list(step.args),
+        "span": list(step.args) if step.op.name in SPANNED else [],
+    } for step in drawn.steps]  # fmt: skip
+    return {
+        "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},
+        "panels": [_box(sheet, rect) for rect in sheet.panels.values()],
+        "travels": [f"{digits(still.travel)}°" for still in found.stills],
+        "spots": _spots(found.stills[0]),
+    }  # fmt: skip
+
+
+def _spots(still: Still) -> dict[int, tuple[float, float]]:
+    """Where marks lie on the picture."""
+    return {index: (round(x, 2), round(still.sheet.height - y, 2)) for index, (x, y) in still.spots.items()}
+
+
+def _box(sheet: Sheet, rect: Rect) -> list[float]:
+    """A rectangle as left, top, width and height."""
+    return [round(n, 2) for n in (rect.left, sheet.height - rect.top, rect.width, rect.height)]
+
+
+# ---- the picture -------------------------------------------------------------------------------------------------
+
+
+def _groups(still: Still) -> Groups:
+    """The groups of a sheet; the words of the steps stand in groups apart, as a page lights them up otherwise."""
+    root = fromstring(svg(replace(still.sheet, items=tuple(map(_parted, still.sheet.items)))).encode())
+    for element in root.iter():
+        element.tag = element.tag.rpartition("}")[2]
+    groups = (child for child in root if child.tag == "g")
+    return {group.get("data-step") or group.get("class", "").removeprefix("layer-"): _inside(group)
+            for group in groups}
+
+
+def _parted(item: Item) -> Item:
+    """Words of a step, in a layer of their own."""
+    if isinstance(item, Text) and item.layer == "text" and item.step is not None:
+        return replace(item, layer=f"words-{item.step}", step=None)
+    return item
+
+
+def _inside(group: Element) -> str:
+    """What a group holds, without its title."""
+    return "".join(tostring(child, encoding="unicode") for child in group if child.tag != "title")
+
+
+def _picture(found: Round, groups: list[Groups]) -> str:
+    """The sheet of the given pose, with a group for whatever is drawn in any pose."""
+    sheet, planes = found.stills[0].sheet, found.composition.planes
+    panels, size = list(sheet.panels), f"0 0 {sheet.width:g} {sheet.height:g}"
+    root = Element("svg", {"id": "picture", "viewBox": size, "role": "img", "aria-label": sheet.title})
+    SubElement(root, "desc").text = sheet.description
+    defs = SubElement(root, "defs")
+    for number, rect in enumerate(sheet.panels.values()):
+        x, y, wide, high = map(str, _box(sheet, rect))
+        clip = SubElement(defs, "clipPath", {"id": f"panel-{number}"})
+        SubElement(clip, "rect", {"x": x, "y": y, "width": wide, "height": high})
+    SubElement(root, "rect", {"width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "fill": "#ffffff"})
+    drawn = {key for pose in groups for key in pose}
+    for key in sorted(drawn, key=_place):
+        root.append(_group(key, groups[0].get(key, ""), sheet.sentences,
+                           panels.index(planes.homes[int(key)]) if key.isdigit() else 0))
+    return tostring(root, encoding="unicode")
+
+
+def _place(key: str) -> tuple[int, int]:
+    """From back to front: paper and links, the halos of marks, steps, pairs and letters, words."""
+    back, front = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
+    if key.isdigit():
+        return 1, int(key)
+    return (0, back.index(key)) if key in back else (2, front.index(key) if key in front else len(front))
+
+
+def _group(key: str, inside: str, sentences: tuple[str, ...], panel: int) -> Element:
+    """One group of the picture, cut off where its plan ends."""
+    words = key.removeprefix("words-")
+    look = {"class": f"layer-{key}", "data-key": key}
+    if key.isdigit():
+        look = {"class": "step", "data-step": key, "data-key": key}
+    elif words != key:
+        look = {"class": "words", "data-step": words, "data-key": key}
+    if key.isdigit() or key in MECHANISM_LAYERS:
+        look["clip-path"] = f"url(#panel-{panel})"
+    group = Element("g", look)
+    if key.isdigit():
+        SubElement(group, "title").text = sentences[int(key)]
+    group.extend(fromstring(f"<g>{inside}</g>"))
+    return group
+
+
+# ---- the poses ---------------------------------------------------------------------------------------------------
+
+
+def _packed(found: Round, groups: list[Groups]) -> str:
+    """The groups that are not the same in all poses, with the places of marks, packed; nothing for one pose.
+
+    The poses of a group stand side by side, as they are alike.
+    """
+    if len(groups) < 2:
+        return ""
+    keys = dict.fromkeys(key for pose in groups for key in pose)
+    varied: Mapping[str, list[str]] = {key: [pose.get(key, "") for pose in groups] for key in keys}
+    poses = {"groups": {key: insides for key, insides in varied.items() if len(set(insides)) > 1},
+             "spots": list(map(_spots, found.stills))}
+    text = json.dumps(poses, ensure_ascii=False, separators=(",", ":"))
+    return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
+
+
+def _script(text: str) -> str:
+    """Text that cannot end the script it stands in; JSON and TOML read \\u003C as what it was."""
+    return re.sub(r"<(?=/script|!--)", r"\\u003C", text, flags=re.IGNORECASE)

@@ -1,0 +1,236 @@
+"""A construction around its cycle, pose by pose on one sheet: the same steps, panels and scales, letters placed anew.
+
+Only the windows slide over their plans, by as little as it takes to hold the mechanism and its vectors in other poses.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+from graphplan.errors import ConstructionError
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Program
+from graphplan.mechanism.model import Number, Pair, Scene, Slide
+from graphplan.methods.construction import Arrow, Construction
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.paper import MARGIN
+from graphplan.sheet.plates.display import Rect, Sheet, Spot
+from graphplan.sheet.plates.plans import Planes, around, grown
+from graphplan.sheet.plates.view import View
+from graphplan.sheet.words.deviations import Deviations
+from graphplan.sheet.words.texts import Words
+
+SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails
+Given = dict[Any, dict[str, float]]
+
+
+@dataclass(frozen=True)
+class Posed:
+    """A construction in another pose: its drawn steps with other values, as a sheet reads it."""
+
+    construction: Construction
+    scene: Scene
+    values: Sequence[Any]
+    given: Given
+
+    @property
+    def drawn(self) -> Program:
+        return self.construction.drawn
+
+    @property
+    def arrows(self) -> tuple[Arrow, ...]:
+        return self.construction.arrows
+
+    @property
+    def kappa(self) -> float:
+        return self.construction.kappa
+
+    @property
+    def phi(self) -> Number:
+        return self.construction.phi
+
+    @property
+    def method(self) -> dict[str, list[str]]:
+        return self.construction.method
+
+    @property
+    def forms(self) -> list[str]:
+        return self.construction.forms
+
+    @property
+    def strict(self) -> bool:
+        return self.construction.strict
+
+    def sentences(self) -> list[str]:
+        """The steps in words, which are those of the given pose."""
+        return self.construction.sentences()
+
+    def read(self, domain: Domain) -> dict[str, dict[str, Any]]:
+        """All readings in this pose."""
+        return self.construction.read(domain, self.given)
+
+
+def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Posed | None:
+    """The construction with its points, and the guides that ride on links, elsewhere.
+
+    None where the pose is singular, or its drawing takes other forms than that of the given pose.
+    """
+    drawn, program = (_given(steps, points, guides) for steps in (construction.drawn, construction.program))
+    try:
+        values = evaluate(construction.drawn, Floats(), drawn)
+        truth = evaluate(construction.program, Floats(), program)
+    except ConstructionError:
+        return None
+    if not _alike(construction, values, truth):
+        return None
+    return Posed(construction, _scene(construction.scene, points, guides), values, program)
+
+
+def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[Any]) -> bool:
+    """Whether the drawn steps give the points that the rules do."""
+    wanted = zip(construction.drawn.wanted, construction.program.wanted, strict=True)
+    pairs = [(values[i], truth[j]) for i, j in wanted if construction.drawn.steps[i].op.gives == POINT]
+    size = max((math.hypot(*true) for _, true in pairs), default=0.0)
+    return all(math.dist(*pair) <= SAME * size for pair in pairs)
+
+
+def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
+    """What is given to the steps of a program in a pose."""
+    marked = {step.name for step in program.steps[: program.givens]}
+    given: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
+    for step in program.steps:
+        name = " along ".join(step.links)
+        if step.op.name == "guide" and name in guides:
+            given[step.index] = {"dx": guides[name].real, "dy": guides[name].imag}
+    return given
+
+
+def _scene(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Scene:
+    """The scene in another pose."""
+
+    def direction(slide: Slide) -> Pair:
+        if slide.through:
+            z = points[slide.through[1]] - points[slide.through[0]]
+            return z.real, z.imag
+        return (guides[slide.name].real, guides[slide.name].imag) if slide.name in guides else slide.direction
+
+    slides = tuple(replace(slide, direction=direction(slide)) for slide in scene.slides)
+    return replace(scene, points={name: (points[name].real, points[name].imag) for name in scene.points}, slides=slides)
+
+
+@dataclass(frozen=True)
+class Still:
+    """One pose of the round on paper: how far the drive has gone, in degrees, the sheet, and where its marks lie."""
+
+    travel: float
+    sheet: Sheet
+    spots: dict[int, Spot]
+
+
+@dataclass(frozen=True)
+class Round:
+    """The poses of a cycle that are drawn alike, the given one first; `lost` are the stretches of travel, ends
+    included, with those that are not.
+
+    `why` says why there is no cycle, where there is none.
+    """
+
+    drawing: Construction
+    composition: Composition
+    stills: tuple[Still, ...]
+    lost: tuple[tuple[float, float], ...] = ()
+    why: str = ""
+
+
+def standing(drawing: Construction, composition: Composition, why: str = "") -> Round:
+    """The given pose alone."""
+    return Round(drawing, composition, (_still(0.0, composition),), why=why)
+
+
+def turning(drawing: Construction, composition: Composition, travel: Sequence[float],
+            points: Mapping[str, Sequence[complex]], guides: Mapping[str, Sequence[complex]]) -> Round:
+    """The construction in the poses of a turn, the first of which is the given pose.
+
+    Reads a composed construction, the drive's travel in degrees, and where points and guides are; nan where nowhere.
+    """
+    poses: dict[float, Posed] = {}
+    lost: list[list[int]] = []
+    for k in range(1, len(travel)):
+        here = [{name: complex(z[k]) for name, z in arrays.items()} for arrays in (points, guides)]
+        found = posed(drawing, *here) if all(map(cmath.isfinite, here[0].values())) else None
+        if found:
+            poses[travel[k]] = found
+        elif lost and lost[-1][-1] == k - 1:
+            lost[-1].append(k)
+        else:
+            lost.append([k])
+    base = _roomy(composition, [Planes(found) for found in poses.values()])
+    stills = (_still(travel, _composed(base, found)) for travel, found in poses.items())
+    ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
+    return Round(drawing, base, (_still(0.0, base), *stills), ends)
+
+
+def _roomy(composition: Composition, poses: Sequence[Planes]) -> Composition:
+    """The composition with its windows slid so that they hold the mechanism and the vectors of as many poses as can be.
+    """
+    views = dict(composition.views)
+    for panel, window in views.items():
+        boxes = sorted((planes.figure(panel).core for planes in poses), key=_extent)
+        if panel == MECHANISM:
+            links = (around([planes.place(name) for name in planes.drawing.scene.points]) for planes in poses)
+            boxes = [*sorted(links, key=_extent), *boxes]
+        views[panel] = slid(window, _gathered([composition.figures[panel].core, *boxes], window))
+    return replace(composition, views=views)
+
+
+def _extent(box: Rect) -> float:
+    return box.width + box.height
+
+
+def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
+    """One box around as many boxes, the first ones first, as find room in a window."""
+    rect, whole = window.rect, boxes[0]
+    for box in boxes[1:]:
+        larger = grown(grown(whole, (box.left, box.bottom)), (box.right, box.top))
+        if larger.width * window.scale <= rect.width and larger.height * window.scale <= rect.height:
+            whole = larger
+    return whole
+
+
+def _still(travel: float, composition: Composition) -> Still:
+    """A composed construction on its sheet."""
+    planes, views = composition.planes, composition.views
+    steps = planes.drawing.drawn.steps
+    spots = {step.index: views[home](planes.spot(step.index)) for step, home in zip(steps, planes.homes, strict=True)
+             if step.op.gives == POINT}
+    return Still(travel, layout(planes.drawing, composition=composition), spots)
+
+
+def _composed(base: Composition, drawing: Posed) -> Composition:
+    """The same composition of another pose; its words tell the results of that pose."""
+    planes = Planes(drawing, base.planes.tongue)
+    rows = Words(planes).rows(base.arrangement.columns[0].width, Deviations())
+    return replace(base, planes=planes, arrangement=replace(base.arrangement, rows=tuple(rows)))
+
+
+def slid(view: View, box: Rect) -> View:
+    """The window slid over its plan by the least that brings a box into it, with room for letters as far as there is.
+    """
+    rect, low, high = view.rect, view((box.left, box.bottom)), view((box.right, box.top))
+    dx, dy = _shift(low[0], high[0], rect.left, rect.right), _shift(low[1], high[1], rect.bottom, rect.top)
+    return replace(view, origin=(view.origin[0] + dx, view.origin[1] + dy))
+
+
+def _shift(low: float, high: float, least: float, most: float) -> float:
+    """The least way that takes one stretch into another, off its ends; to its middle where it is tight."""
+    margin = min(MARGIN, (most - least - (high - low)) / 2)
+    return max(least + margin - low, 0.0) + min(most - margin - high, 0.0)

@@ -1,0 +1,1 @@
+"""Frames and title blocks, and the coded marks in the corners."""

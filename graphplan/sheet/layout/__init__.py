@@ -1,0 +1,1 @@
+"""Where it lies: paper, scales, panels and pages."""

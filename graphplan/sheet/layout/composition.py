@@ -1,0 +1,164 @@
+"""The choice of paper: the smallest sheet, and the division of it, on which every plan is large enough to be read."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.methods.panels import MECHANISM, smooth
+from graphplan.sheet.frames.frame import frame_of
+from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.given_scales import ROUNDING, GivenScales, given_scales
+from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
+from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.layout.scales import times as as_multiple
+from graphplan.sheet.plates.plans import Figure, Planes, around
+from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
+from graphplan.sheet.words.rows import Row
+
+SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
+TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
+FEW = 3.0  # the need of a plan from which on it is not small
+SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
+CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
+
+
+@dataclass(frozen=True)
+class Composition:
+    """An arrangement with the scale and the window of each panel, and what they show."""
+
+    arrangement: Arrangement
+    scales: Scales
+    views: dict[str, View]
+    needs: Mapping[str, float]
+    figures: Mapping[str, Figure]
+    planes: Planes
+
+    @property
+    def score(self) -> tuple[float, float]:
+        """How large the plans are, and among equals how large the smallest is beside its need.
+
+        The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
+        plan without marks, as where nothing is asked, needs nothing.
+        """
+        marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
+        weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
+        weights[MECHANISM] = 1.0
+        large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
+        shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
+        return round(large, 9), min(shown, default=0.0)
+
+    @property
+    def oversized(self) -> dict[str, float]:
+        """The plans that do not fit their panels at a given scale, and by how much they are too large."""
+        much = {panel: least(self.figures[panel].core, inside(window.rect)) * window.scale
+                for panel, window in self.views.items()}
+        return {panel: times for panel, times in much.items() if times > 1 + ROUNDING}
+
+    def _scale(self, panel: str) -> float:
+        """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
+        view = self.views[panel]
+        return view.scale if panel == MECHANISM else min(view.scale, whole(self.figures[panel], inside(view.rect)))
+
+    def _size(self, panel: str) -> float:
+        """The larger side of a plan on paper."""
+        core = self.figures[panel].core
+        return max(core.width, core.height) * self.views[panel].scale
+
+
+def composed(planes: Planes, rows: Measure[Sequence[Row]], title: TitleBlock, paper: str | None) -> Composition:
+    """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
+
+    Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
+    """
+    figures = {panel: planes.figure(panel) for panel in planes.panels}
+    needs = {panel: math.sqrt(len(planes.points(panel))) for panel in planes.panels}
+    frame, given = frame_of(planes.drawing.scene), given_scales(planes)
+    best: Composition | None = None
+    tried: list[Composition] = []
+    for name in [frame.paper(paper)] if paper else frame.papers:
+        found = list(arrangements(name, needs, rows, frame, title))
+        good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
+        tried = [_windows(a, figures, needs, planes, given) for a in good] or tried
+        fitting = [composition for composition in tried if not composition.oversized]
+        if good and fitting:
+            best = max(fitting, key=lambda c: c.score)
+            if given.k_s or _legible(planes, best.views, name):
+                return best
+    if best is None:
+        raise _too_large(tried) if tried else _too_small(paper)
+    return best
+
+
+def _too_small(paper: str | None) -> Refused:
+    """The refusal of paper that has no room for the words."""
+    return Refused(f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
+
+
+def _too_large(tried: Sequence[Composition]) -> Refused:
+    """The refusal of given scales at which plans do not fit any of some compositions, with the largest that do."""
+    nearest = min(tried, key=lambda composition: max(composition.oversized.values()))
+    scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversized
+    if MECHANISM in oversized:
+        k_s = round_up(scales.k_s * oversized[MECHANISM])
+        most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
+        return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
+                       f"{most}, or a larger sheet")  # fmt: skip
+    panel, times = max(oversized.items(), key=lambda item: item[1])
+    multiple = scales.multiples[panel]
+    most = f"{as_multiple(multiple_below(float(multiple) / times))} or less in [sheet.multiples]"
+    return Refused(f"sheet: the {panel} {as_multiple(multiple)}", f"it does not fit on {paper}",
+                   f"{most}, or a larger sheet")  # fmt: skip
+
+
+def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
+    """Whether every panel has its least size."""
+    least = {panel: SMALLEST[0 if panel == MECHANISM else 1 if need > FEW else 2] for panel, need in needs.items()}
+    return all(rect.width >= least[p][0] and rect.height >= least[p][1] for p, rect in arrangement.panels.items())
+
+
+def _open(arrangement: Arrangement) -> bool:
+    """Whether every panel has room for its caption and a figure, however small."""
+    return all(min(rect.width, rect.height) >= TIGHTEST for rect in arrangement.panels.values())
+
+
+def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], needs: Mapping[str, float], planes: Planes,
+             given: GivenScales) -> Composition:
+    """The scales, round if they are not given, and the windows for one arrangement."""
+    rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
+    k_s = given.k_s or plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))[0]
+    multiples = _alike({p: plan_multiple(figures[p], inside(rooms[p]), k_s) for p in planes.panels[1:]})
+    drawing, names = planes.drawing, planes.drawing.scene.units
+    scales = Scales(k_s, drawing.kappa, names.length, multiples | given.multiples, float(drawing.phi), names.force,
+                    drawing.scene.sheet.convention)  # fmt: skip
+    boxes = {panel: plan_box(figure, inside(rooms[panel]), scales.of(panel)) for panel, figure in figures.items()}
+    views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
+    return Composition(arrangement, scales, views, needs, figures, planes)
+
+
+def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
+    """The plan of a group with friction and that without it are compared, so they have one scale: the smaller."""
+    return {panel: min(other for name, other in multiples.items() if smooth(name) == smooth(panel))
+            for panel in multiples}
+
+
+def _legible(planes: Planes, views: Mapping[str, View], paper: str) -> bool:
+    """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
+    for panel, window in views.items():
+        spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
+        box = around(spots or [(0.0, 0.0)])
+        size = max(box.area, (box.width**2 + box.height**2) / 4)
+        if 1e-6 < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
+            return False
+    return paper in LARGE or _shortest(planes) * views[MECHANISM].scale >= SHORTEST
+
+
+def _shortest(planes: Planes) -> float:
+    """The shortest distance of two joints of a link."""
+    links = planes.drawing.scene.links.values()
+    apart = (math.dist(planes.place(p), planes.place(q)) for names in links for p in names for q in names)
+    return min((distance for distance in apart if distance > 0), default=math.inf)

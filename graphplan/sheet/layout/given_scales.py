@@ -1,0 +1,74 @@
+"""Scales that the scene gives for its sheet: they hold whatever room there is, or are refused."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.errors import Refused
+from graphplan.methods.panels import FORCE_PLAN, MECHANISM, smooth
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES
+from graphplan.sheet.plates.pens import FORCES
+from graphplan.sheet.plates.plans import Drawing, Planes
+
+ROUNDING = 1e-9  # of a scale: closer than this two are one
+
+
+@dataclass(frozen=True)
+class GivenScales:
+    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one."""
+
+    k_s: float | None
+    multiples: dict[str, Fraction]
+
+
+def given_scales(planes: Planes) -> GivenScales:
+    """The scales that a scene gives for its sheet.
+
+    All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
+    plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
+    """
+    k_s = _mechanism_scale(planes.drawing)
+    multiples = {panel: _multiple(planes, panel) for panel in planes.panels if panel != MECHANISM}
+    _check_force_plans(planes)
+    return GivenScales(k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None})
+
+
+def _mechanism_scale(drawing: Drawing) -> float | None:
+    """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
+    first: float | None = None
+    for name, scale, lengths in _given(drawing):
+        if first is not None and not math.isclose(scale * lengths, first, rel_tol=ROUNDING):
+            raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
+                          f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
+        first = first or scale * lengths
+    return first
+
+
+def _given(drawing: Drawing) -> Iterator[tuple[str, float, float]]:
+    """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
+    sheet = drawing.scene.sheet
+    if sheet.k_F and drawing.scene.loads is None:
+        raise Refused("sheet.k_F", "the scene has no forces to draw", "leave it out")
+    kinds = (("k_s", sheet.k_s, 1.0), ("k_v", sheet.k_v, drawing.kappa), ("k_a", sheet.k_a, drawing.kappa**2),
+             ("k_F", sheet.k_F, float(drawing.phi)))  # fmt: skip
+    yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
+
+
+def _multiple(planes: Planes, panel: str) -> Fraction | None:
+    """The multiple given for a plan, or 1 where a scale of its vectors is given."""
+    sheet, kinds = planes.drawing.scene.sheet, planes.kinds(panel)
+    plan = panel.partition(", part ")[0]
+    told = sheet.multiples.get(plan, sheet.multiples.get(smooth(plan)))
+    scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
+    return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
+
+
+def _check_force_plans(planes: Planes) -> None:
+    """Every force plan that is spoken of is one that is drawn, unless none is."""
+    drawn = [panel for panel in planes.panels if panel.startswith(FORCE_PLAN)]
+    for plan in planes.drawing.scene.sheet.multiples:
+        if drawn and plan.startswith(FORCE_PLAN) and plan not in drawn:
+            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")

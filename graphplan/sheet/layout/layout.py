@@ -1,0 +1,76 @@
+"""From a construction to its sheet: paper, windows, strokes, letters and words, put together as one display list."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
+
+from graphplan.methods.panels import spoken
+from graphplan.phrases import Said, joined, said
+from graphplan.sheet.frames.frame import BORDER, frame_of
+from graphplan.sheet.frames.title import CONSTRUCTION, Page
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Item, Polygon, Sheet
+from graphplan.sheet.plates.picture import picture
+from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.words.captions import captions
+from graphplan.sheet.words.rows import fill, lettered
+from graphplan.sheet.words.texts import RESULTS
+from graphplan.words.tongue import Tongue
+
+BACK, FRONT = ("paper", BORDER, "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
+
+
+def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+           composition: Composition | None = None, tongue: Tongue | None = None,
+           document: Said = CONSTRUCTION) -> Sheet:
+    """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.
+
+    `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
+    """
+    composition = composition or compose(drawing, paper, check, tongue=tongue)
+    planes = composition.planes
+    arrangement, scales = composition.arrangement, composition.scales
+    items = list(_framed(composition))
+    for panel, window in composition.views.items():
+        items += captions(arrangement.panels[panel], panel, planes, scales)
+        items += picture(planes, panel, window)
+    rows = fill(arrangement.rows, arrangement.columns)
+    items += lettered(rows or [])
+    items += titled(composition, document)
+    return Sheet(
+        arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
+        drawing.scene.title, _description(composition, planes), tuple(map(planes.tongue, drawing.sentences())), scales,
+        planes.tongue.code, drawing.scene.text,
+    )  # fmt: skip
+
+
+def _framed(composition: Composition) -> Iterator[Item]:
+    """The frame with its border, and the panels."""
+    arrangement, planes = composition.arrangement, composition.planes
+    yield from frame_of(planes.drawing.scene).items(arrangement.paper, arrangement.frame, planes.tongue)
+    for rect in arrangement.panels.values():
+        yield Polygon(pens.BORDER, "paper", None, rect.corners)
+
+
+def titled(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:
+    """The title block of a page."""
+    arrangement, scene = composition.arrangement, composition.planes.drawing.scene
+    page = Page(document, arrangement.paper, composition.scales.ratio, number, of)
+    return frame_of(scene).block(scene, composition.planes.tongue).items(arrangement.title, page)
+
+
+def stacked(items: Iterable[Item]) -> list[Item]:
+    """From back to front: paper, mechanism, each step with its letters and its sentence, pairs, the other letters."""
+    rank = {layer: i for i, layer in enumerate(BACK)} | {layer: 10**7 + i for i, layer in enumerate(FRONT)}
+    return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
+
+
+def _description(composition: Composition, planes: Planes) -> str:
+    """What a reader who cannot see the sheet is told."""
+    steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
+    told = [joined((spoken(panel), joined(composition.scales.said(panel, planes.kinds(panel)))), ": ")
+            for panel in composition.views]
+    return planes.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))

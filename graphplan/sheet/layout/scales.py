@@ -1,0 +1,130 @@
+"""Scales: how much of the scene one millimetre of paper stands for, in round values.
+
+The mechanism plan is drawn at k_s; the construction's kappa then ties the velocities to it, k_v = k_s/kappa, and the
+accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan; forces are phi lengths
+long for each unit, k_F = k_s/phi. A plan that would be too small or too large is drawn at a round multiple of the
+scale, and says so.
+
+Round are the steps 1, 2, 2.5, 4 and 5 of GOST 2.302 in each power of ten; ISO 5455 has 1, 2 and 5 of them. Multiples
+are 1, 2, 3, 5 and powers of ten, as the sources draw vectors two or three times as large.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_right
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+
+from graphplan.mechanism.units import METRES
+from graphplan.phrases import Said, arranged, joined, said, unit
+from graphplan.sheet.plates.pens import FORCES
+
+VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
+SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
+WHOLE = tuple(m * 10**n for n in range(12) for m in (1, 2, 3, 5))
+MULTIPLES = (*(Fraction(1, m) for m in reversed(WHOLE)), *map(Fraction, WHOLE[1:]))
+
+
+def round_up(least: float) -> float:
+    """The smallest scale of the series 1, 2, 2.5, 4, 5 x 10^n that is not below `least`."""
+    if not least > 0 or math.isinf(least):
+        return 1.0
+    power = math.floor(math.log10(least))
+    candidates = (float(f"{step}e{n}") for n in (power - 1, power, power + 1) for step in SERIES)
+    return min(scale for scale in candidates if scale >= least * (1 - 1e-9))
+
+
+def multiple_below(most: float) -> Fraction:
+    """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
+    return MULTIPLES[max(bisect_right(MULTIPLES, most * (1 + 1e-9), key=float) - 1, 0)]
+
+
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+
+def digits(value: float, count: int = 4) -> str:
+    """A number in at most `count` significant digits, with a power of ten only where it is very large or small."""
+    text = f"{value + 0.0:.{count}g}"
+    if "e" not in text:
+        return text.replace("-", "−")
+    mantissa, power = text.split("e")
+    if 0 < int(power) < 7:
+        return f"{float(text):.0f}".replace("-", "−")
+    return f"{mantissa.replace('-', '−')}·10{str(int(power)).translate(SUPERSCRIPTS)}"
+
+
+def times(multiple: Fraction) -> str:
+    """A multiple as it is said: x2, x1/2."""
+    return f"×{multiple}"
+
+
+@dataclass(frozen=True)
+class Scales:
+    """The scales of one sheet: `k_s` in lengths per mm, the multiples of the other plans, the construction's kappa and
+    phi, the units of length and force, and whether scales are told as `real` per drawn or as `drawn` per real."""
+
+    k_s: float
+    kappa: float
+    length: str
+    multiples: dict[str, Fraction]
+    phi: float = 1.0
+    unit: str = "N"
+    convention: str = "real"
+
+    def of(self, panel: str) -> float:
+        """Scene lengths for one mm on a panel."""
+        return self.k_s / float(self.multiples.get(panel, 1))
+
+    def speed(self, panel: str) -> float:
+        """Speed for one mm of a vector on a panel."""
+        return self.of(panel) / self.kappa
+
+    def acceleration(self, panel: str) -> float:
+        """Acceleration for one mm of a vector on a panel."""
+        return self.of(panel) / self.kappa**2
+
+    def force(self, panel: str) -> float:
+        """Force for one mm of a vector on a panel."""
+        return self.of(panel) / self.phi
+
+    def said(self, panel: str, kinds: set[str]) -> list[Said]:
+        """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
+        tell = self._drawn if self.convention == "drawn" else self._real
+        return list(tell(panel, kinds))
+
+    def _real(self, panel: str, kinds: set[str]) -> Iterator[Said]:
+        """What a millimetre stands for."""
+        if panel not in self.multiples:
+            yield joined(("k_s =", digits(self.k_s), unit(f"{self.length}/mm")), " ")
+        if kinds & VELOCITIES:
+            yield said("k_v = {0} {1} per mm", digits(self.speed(panel)), unit(f"{self.length}/s"))
+        if kinds & ACCELERATIONS:
+            yield said("k_a = {0} {1} per mm", digits(self.acceleration(panel)), unit(f"{self.length}/s²"))
+        if kinds & FORCES:
+            yield joined(("k_F =", digits(self.force(panel)), unit(f"{self.unit}/mm")), " ")
+
+    def _drawn(self, panel: str, kinds: set[str]) -> Iterator[Said]:
+        """How many millimetres stand for one."""
+        if panel not in self.multiples:
+            yield joined(("mu_s =", digits(1 / self.k_s), unit(f"mm/{self.length}")), " ")
+        if kinds & VELOCITIES:
+            yield said("mu_v = {0} mm per {1}", digits(1 / self.speed(panel)), unit(f"{self.length}/s"))
+        if kinds & ACCELERATIONS:
+            yield said("mu_a = {0} mm per {1}", digits(1 / self.acceleration(panel)), unit(f"{self.length}/s²"))
+        if kinds & FORCES:
+            yield joined(("mu_F =", digits(1 / self.force(panel)), unit(f"mm/{self.unit}")), " ")
+
+    @property
+    def ratio(self) -> Said:
+        """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
+        told = ratio(self.k_s, self.length)
+        plan = next(iter(self.said("", set())))
+        return joined((told, plan), "; ") if self.convention == "drawn" else arranged("{0}", told)
+
+
+def ratio(k_s: float, length: str) -> str:
+    """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
+    size = k_s * 1000 * float(METRES[length])
+    return f"1 : {digits(size)}" if size >= 1 else f"{digits(1 / size)} : 1"

@@ -1,0 +1,137 @@
+"""Where a letter may stand: many boxes in rings around its mark, each with the price of its distance."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SIZE, Run, Runs, width
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Rect, Spot
+from graphplan.sheet.plates.pens import Pen
+
+DIRECTIONS = np.array([(math.cos(i * math.pi / 8), math.sin(i * math.pi / 8)) for i in range(16)])
+TASTE = 0.02 * ((np.arange(16) - 2) % 16)  # among equals up and to the right, then on counter-clockwise
+RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
+LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
+EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
+AIR = 0.3  # mm free around a letter
+BALLOON = 2.1
+SMALL, APART = 2.0, 0.3  # mm: the figures of steps, and how far raised ones are from their letter
+
+Array = np.ndarray[Any, Any]
+OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
+
+
+@dataclass(frozen=True)
+class Wish:
+    """A letter that wants a place: near one of its spots, at least `clear` away from it.
+
+    `balloon` puts it in a circle, as link numbers are; `free` says that it may stand anywhere along a line; `raised`
+    are the numbers of steps that follow it as small raised figures.
+    """
+
+    runs: Runs
+    spots: tuple[Spot, ...]
+    clear: float = 0.6
+    size: float = SIZE
+    pen: Pen = pens.LETTERS
+    step: int | None = None
+    label: str = ""
+    bold: bool = False
+    balloon: bool = False
+    free: bool = False
+    raised: str = ""
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        if self.balloon:
+            return 2 * BALLOON, 2 * BALLOON
+        return self.tail + width(self.figures, SMALL), self.lift + SMALL * CAPS + self.size * self.depth
+
+    @property
+    def figures(self) -> Runs:
+        return (Run(self.raised),) if self.raised else ()
+
+    @property
+    def tail(self) -> float:
+        """Where the raised figures begin, beside the letters."""
+        return width(self.runs, self.size, self.bold) + (APART if self.raised else 0.0)
+
+    @property
+    def lift(self) -> float:
+        """How far above the base line the figures stand: half a capital; without any, they end where the letters do."""
+        return self.size * CAPS / 2 if self.raised else (self.size - SMALL) * CAPS
+
+    @property
+    def depth(self) -> float:
+        """How far the letters reach below the base line, in ems."""
+        return DROP + 0.15 if any(run.level < 0 for run in self.runs) else DEPTH
+
+
+@dataclass(frozen=True)
+class Places:
+    """Candidates, letter by letter: boxes, the spots they stand for, what their distance costs, which need a leader.
+
+    Boxes are rows of left, bottom, right, top.
+    """
+
+    letters: Array
+    boxes: Array
+    spots: Array
+    cost: Array
+    led: Array
+
+    @property
+    def cells(self) -> Array:
+        """The boxes with the air around them."""
+        return self.boxes + AIR * OUTWARDS
+
+    def __getitem__(self, chosen: Any) -> Places:
+        return Places(self.letters[chosen], self.boxes[chosen], self.spots[chosen], self.cost[chosen], self.led[chosen])
+
+
+def places(wishes: Sequence[Wish], rect: Rect) -> Places:
+    """All the places for letters inside the panel: spot by spot, from the nearest ring outwards."""
+    counts = [len(wish.spots) for wish in wishes]
+    spots = np.array([spot for wish in wishes for spot in wish.spots])
+    number = np.concatenate([np.arange(count) for count in counts])
+    letter = np.repeat(np.arange(len(wishes)), counts)
+    free, clear = np.array([(wish.free, wish.clear) for wish in wishes])[letter].T
+    at, ring = np.divmod(np.arange(len(spots) * len(RINGS)), len(RINGS))
+    extent = np.array([wish.extent for wish in wishes])[letter[at]][:, None]
+    gaps, costs = RINGS[ring].T
+    sides = DIRECTIONS / abs(DIRECTIONS).max(axis=1, keepdims=True)  # to the edge of a square
+    centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * DIRECTIONS + sides * extent / 2
+    boxes = np.concatenate([centres - extent / 2, centres + extent / 2], axis=-1)
+    led = gaps > LED
+    cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE
+    inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
+    row, _ = np.nonzero(inside)
+    found = Places(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
+    return _with_outsiders(found, wishes, rect)
+
+
+def _with_outsiders(found: Places, wishes: Sequence[Wish], rect: Rect) -> Places:
+    """The places, and for each letter whose mark is at the edge one that is as near as the panel allows."""
+    outside = np.flatnonzero(np.bincount(found.letters, minlength=len(wishes)) == 0).tolist()
+    if not outside:
+        return found
+    boxes = [_pushed_in(wishes[letter], rect) for letter in outside]
+    spots = [wishes[letter].spots[0] for letter in outside]
+    letters, cost = np.append(found.letters, outside), np.append(found.cost, np.full(len(outside), EDGE))
+    led = np.append(found.led, np.zeros(len(outside), dtype=bool))
+    every = Places(letters, np.concatenate([found.boxes, boxes]), np.concatenate([found.spots, spots]), cost, led)
+    return every[letters.argsort(kind="stable")]
+
+
+def _pushed_in(wish: Wish, rect: Rect) -> tuple[float, float, float, float]:
+    """The box of a letter as near to its first spot as the panel allows."""
+    (wide, high), (x, y) = wish.extent, wish.spots[0]
+    left = min(max(x, rect.left), rect.right - wide)
+    low = min(max(y, rect.bottom), rect.top - high)
+    return left, low, left + wide, low + high

@@ -1,0 +1,1 @@
+"""What is drawn: strokes, marks and symbols on their plans, in mm of paper."""

@@ -1,0 +1,62 @@
+"""Cutting strokes off at the edge of a panel."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from itertools import pairwise
+
+from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Rect, Spot
+
+
+def segment(rect: Rect, start: Spot, end: Spot) -> tuple[float, float] | None:
+    """The part of a segment inside a rectangle, as two fractions of its length (Liang and Barsky), or none."""
+    low, high = 0.0, 1.0
+    dx, dy = end[0] - start[0], end[1] - start[1]
+    (x, y), steps = start, (-dx, dx, -dy, dy)
+    for step, room in zip(steps, (x - rect.left, rect.right - x, y - rect.bottom, rect.top - y), strict=True):
+        if step == 0:
+            if room < 0:
+                return None
+        elif step < 0:
+            low = max(low, room / step)
+        else:
+            high = min(high, room / step)
+    return (low, high) if low < high else None
+
+
+def between(start: Spot, end: Spot, t: float) -> Spot:
+    """The spot a fraction of the way."""
+    return start[0] + t * (end[0] - start[0]), start[1] + t * (end[1] - start[1])
+
+
+def clipped(item: Item, rect: Rect) -> Iterator[Item]:
+    """The item as far as it lies in the rectangle: strokes are cut; vectors, figures and letters are left whole."""
+    if isinstance(item, Arc):
+        spots = item.spots()
+        if all(map(rect.holds, spots)):
+            yield item
+            return
+        item = Polyline(item.pen, item.layer, item.step, spots)
+    if isinstance(item, Polyline | Polygon) and not all(map(rect.holds, item.spots)):
+        yield from _cut(item, rect)
+    else:
+        yield item
+
+
+def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
+    """The runs of a chain that lie inside."""
+    spots = item.spots if isinstance(item, Polyline) else (*item.spots, item.spots[0])
+    chain: list[Spot] = []
+    for start, end in pairwise(spots):
+        inside = segment(rect, start, end)
+        if inside is None:
+            continue
+        first, last = between(start, end, inside[0]), between(start, end, inside[1])
+        if not chain or math.dist(chain[-1], first) > 1e-9:
+            if len(chain) > 1:
+                yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(chain))
+            chain = [first]
+        chain.append(last)
+    if len(chain) > 1:
+        yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(chain))

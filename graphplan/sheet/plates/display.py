@@ -1,0 +1,182 @@
+"""The display list: what lies on the sheet, in millimetres, x to the right and y up from its lower left corner.
+
+Plain frozen data. A back end draws these seven things and needs to know nothing of mechanics; `step` is the drawing
+step that an item belongs to, so that a stepper can show or light up one movement at a time.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, replace
+
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import CAPS, DEPTH, Run, width
+from graphplan.sheet.plates.pens import Pen
+
+Spot = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Rect:
+    """An upright rectangle on paper."""
+
+    left: float
+    bottom: float
+    right: float
+    top: float
+
+    @property
+    def width(self) -> float:
+        return self.right - self.left
+
+    @property
+    def height(self) -> float:
+        return self.top - self.bottom
+
+    @property
+    def area(self) -> float:
+        return self.width * self.height
+
+    @property
+    def centre(self) -> Spot:
+        return (self.left + self.right) / 2, (self.bottom + self.top) / 2
+
+    @property
+    def corners(self) -> tuple[Spot, Spot, Spot, Spot]:
+        """The corners from the lower left, counter-clockwise."""
+        return (self.left, self.bottom), (self.right, self.bottom), (self.right, self.top), (self.left, self.top)
+
+    def inset(self, left: float, bottom: float, right: float, top: float) -> Rect:
+        """The rectangle inside these margins."""
+        return Rect(self.left + left, self.bottom + bottom, self.right - right, self.top - top)
+
+    def holds(self, spot: Spot, slack: float = 0.0) -> bool:
+        """Whether a spot lies inside, or outside by no more than `slack`."""
+        x, y = spot
+        return self.left - slack <= x <= self.right + slack and self.bottom - slack <= y <= self.top + slack
+
+    def meets(self, other: Rect) -> bool:
+        """Whether the two share more than an edge."""
+        return (self.left < other.right and other.left < self.right
+                and self.bottom < other.top and other.bottom < self.top)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Item:
+    """What all items share: the pen, the layer, and the drawing step if they belong to one."""
+
+    pen: Pen
+    layer: str
+    step: int | None
+
+
+@dataclass(frozen=True)
+class Polyline(Item):
+    spots: tuple[Spot, ...]
+
+
+@dataclass(frozen=True)
+class Polygon(Item):
+    spots: tuple[Spot, ...]
+
+
+@dataclass(frozen=True)
+class Circle(Item):
+    centre: Spot
+    radius: float
+
+
+@dataclass(frozen=True)
+class Arc(Item):
+    """Counter-clockwise from `start` to `end`, in degrees."""
+
+    centre: Spot
+    radius: float
+    start: float
+    end: float
+
+    def at(self, angle: float) -> Spot:
+        """The spot of the arc's circle at an angle."""
+        turn = math.radians(angle)
+        return self.centre[0] + self.radius * math.cos(turn), self.centre[1] + self.radius * math.sin(turn)
+
+    def spots(self, apart: float = 4.0) -> tuple[Spot, ...]:
+        """The arc as a chain of spots, `apart` degrees or less."""
+        count = max(1, math.ceil((self.end - self.start) / apart))
+        return tuple(self.at(self.start + (self.end - self.start) * i / count) for i in range(count + 1))
+
+
+@dataclass(frozen=True)
+class Arrow(Item):
+    """A vector; its head is `head` long, never longer than the vector, and ends exactly at `end`.
+
+    `label` says what it is, such as `velocity A`, where it is a result.
+    """
+
+    start: Spot
+    end: Spot
+    head: float
+    label: str = ""
+
+    @property
+    def barbs(self) -> tuple[Spot, Spot, Spot]:
+        """The slim triangle of the head: its tip and its two rear corners."""
+        dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
+        length = math.hypot(dx, dy) or 1.0
+        ux, uy = dx / length * self.head, dy / length * self.head
+        x, y = self.end[0] - ux, self.end[1] - uy
+        return self.end, (x - uy / 6, y + ux / 6), (x + uy / 6, y - ux / 6)
+
+
+@dataclass(frozen=True)
+class Text(Item):
+    """Lettering on its base line; `anchor` is start, middle or end; `label` names the marks it stands for, if any."""
+
+    at: Spot
+    runs: tuple[Run, ...]
+    size: float
+    anchor: str = "start"
+    bold: bool = False
+    label: str = ""
+
+    @property
+    def box(self) -> Rect:
+        """What the letters cover, from below the base line to the top of the capitals."""
+        long = width(self.runs, self.size, self.bold)
+        left = self.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor]
+        return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
+
+
+def moved(item: Item, dx: float, dy: float) -> Item:
+    """The item elsewhere on the paper."""
+
+    def there(spot: Spot) -> Spot:
+        return spot[0] + dx, spot[1] + dy
+
+    match item:
+        case Polyline() | Polygon():
+            return replace(item, spots=tuple(map(there, item.spots)))
+        case Circle() | Arc():
+            return replace(item, centre=there(item.centre))
+        case Arrow():
+            return replace(item, start=there(item.start), end=there(item.end))
+        case Text():
+            return replace(item, at=there(item.at))
+    raise TypeError(f"no {type(item).__name__} can be moved")
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A finished sheet: its size in mm, its items from back to front, the sentence of every step, the scene's text."""
+
+    width: float
+    height: float
+    frame: Rect
+    panels: dict[str, Rect]
+    items: tuple[Item, ...]
+    title: str
+    description: str
+    sentences: tuple[str, ...]
+    scales: Scales
+    language: str = "en"
+    scene: str = ""

@@ -1,0 +1,208 @@
+"""The picture of a mechanism: its links, pairs and ground, from the scene and a window."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+
+from graphplan.mechanism.model import FRAME, Scene, Slide, TurningDrive
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.lettering import Run, sentence_runs
+from graphplan.sheet.plates import symbols
+from graphplan.sheet.plates.display import Item, Spot
+from graphplan.sheet.plates.symbols import LONG, Vector, off, turn, unit
+from graphplan.sheet.plates.view import View
+
+DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
+NEAR = 0.05  # mm: spots closer than this are one
+
+
+@dataclass(frozen=True)
+class Linkage:
+    """A mechanism seen through a window."""
+
+    scene: Scene
+    view: View
+
+    @cached_property
+    def spots(self) -> dict[str, Spot]:
+        return {name: self.view((float(x), float(y))) for name, (x, y) in self.scene.points.items()}
+
+    def items(self) -> Iterator[Item]:
+        """Everything, from the ground up."""
+        for name in self._pivots:
+            yield from symbols.pivot(self.spots[name], self._ground(name))
+        for slide in self.scene.slides:
+            yield from self._guide(slide)
+        for link in self.scene.moving:
+            yield from self._link(link)
+        for slide in self.scene.slides:
+            yield symbols.block(self._seat(slide), self._along(slide))
+        for drive in self.scene.drives:
+            if isinstance(drive, TurningDrive) and drive.omega:
+                yield from self._driven(drive)
+        yield from self._pairs()
+
+    def _pairs(self) -> Iterator[Item]:
+        """A circle for each joint and each driven point; a dot for a point that only traces."""
+        seen: list[Spot] = []
+        pairs = [*self.scene.joints, *self.scene.motions]
+        for name in [*pairs, *self.scene.points]:
+            spot = self.spots[name]
+            if all(math.dist(spot, other) > NEAR for other in seen):
+                seen.append(spot)
+                yield symbols.revolute(spot) if name in pairs else symbols.tracer(spot)
+
+    # ---- ground ----------------------------------------------------------------------------------------------------
+
+    @property
+    def _pivots(self) -> list[str]:
+        """The turning pairs with the frame."""
+        return [name for name in self.scene.joints if FRAME in self.scene.links_of[name]]
+
+    def neighbours(self, name: str) -> list[Spot]:
+        """The other ends of the moving links at a point."""
+        links = [link for link in self.scene.links_of[name] if link != FRAME]
+        here = self.spots[name]
+        others = [self.spots[p] for link in links for p in self.scene.links[link]]
+        return [spot for spot in others if math.dist(spot, here) > NEAR]
+
+    def _around(self, at: Spot) -> list[Spot]:
+        """The other ends of the moving links at all the points of a place."""
+        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return [other for name in here for other in self.neighbours(name)]
+
+    def _joined(self, at: Spot) -> bool:
+        """Whether several links have points at a place."""
+        here = [name for name, spot in self.spots.items() if math.dist(spot, at) < NEAR]
+        return len({link for name in here for link in self.scene.links_of[name]}) > 1
+
+    def _ground(self, name: str) -> Vector:
+        """Downwards, unless a link goes there."""
+        here = self.spots[name]
+        ways = [unit(here, other) for other in self.neighbours(name)]
+
+        def cost(choice: tuple[int, Vector]) -> float:
+            rank, (x, y) = choice
+            closest = max((x * u + y * v for u, v in ways), default=-1.0)
+            return 0.3 * rank + (2.0 + closest if closest > 0.6 else 0.0)
+
+        return min(enumerate((DOWN, LEFT, RIGHT, UP)), key=cost)[1]
+
+    def _guide(self, slide: Slide) -> Iterator[Item]:
+        """The fixed guide of a slide on the frame, or the ground of a fixed block; hatched away from the mechanism."""
+        at, along = self._seat(slide), self._along(slide)
+        if FRAME in (slide.along, slide.link):
+            yield from symbols.guideway(at, along, self._outer(slide, at, along))
+
+    def _outer(self, slide: Slide, at: Spot, along: Vector) -> float:
+        """The side of a guide that the mechanism leaves free."""
+        lean = sum(turn(at, off(at, along, 1.0), other) for other in self._around(at))
+        if abs(lean) > 1e-6:
+            return -1.0 if lean > 0 else 1.0
+        return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
+
+    # ---- links -----------------------------------------------------------------------------------------------------
+
+    def _along(self, slide: Slide) -> Vector:
+        x, y = (float(part) for part in slide.direction)
+        return unit((0.0, 0.0), (x, y))
+
+    def _seat(self, slide: Slide) -> Spot:
+        """Where the block is: at the pair's point, or where the guiding link is itself the block."""
+        at = self.spots[slide.at]
+        guide = self._distinct(slide.along) if slide.along != FRAME else []
+        rod = len(self._distinct(slide.link)) > 1 or slide.link == FRAME
+        if rod and len(guide) == 1 and abs(turn(at, off(at, self._along(slide), 1.0), guide[0])) < NEAR:
+            return guide[0]
+        return at
+
+    def _distinct(self, link: str) -> list[Spot]:
+        """The places of a link's points, coincident ones once."""
+        found: list[Spot] = []
+        for name in self.scene.links[link]:
+            if all(math.dist(self.spots[name], other) > NEAR for other in found):
+                found.append(self.spots[name])
+        return found
+
+    def _link(self, link: str) -> Iterator[Item]:
+        spots = self._distinct(link)
+        for slide in self.scene.slides:
+            seated = self._seat(slide) == self.spots[slide.at]
+            guides = slide.along == link and (len(spots) > 1 or seated)
+            if guides or (slide.link == link and not seated):
+                yield from self._rail(slide, spots)
+        if len(spots) < 2:
+            return
+        if not symbols.straight(spots):
+            yield from symbols.plate(spots)
+            return
+        along = unit(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
+        spots.sort(key=lambda s: s[0] * along[0] + s[1] * along[1])
+        yield from symbols.bar(spots)
+        for inner in filter(self._joined, spots[1:-1]):
+            yield symbols.elbow(inner, along, self._free_side(inner, along))
+
+    def _rail(self, slide: Slide, spots: list[Spot]) -> Iterator[Item]:
+        """The part of a moving link that guides: through the block and a little beyond, tied to the link's points."""
+        seat, along = self._seat(slide), self._along(slide)
+        reach = [off(seat, along, -LONG - 3.0), off(seat, along, LONG + 3.0)]
+        if not spots:
+            return
+        nearest = min(spots, key=lambda s: (math.dist(s, seat), s))
+        t = (nearest[0] - seat[0]) * along[0] + (nearest[1] - seat[1]) * along[1]
+        foot = off(seat, along, t)
+        line = sorted([*reach, foot], key=lambda s: s[0] * along[0] + s[1] * along[1])
+        yield from symbols.bar((line[0], line[-1]))
+        if math.dist(foot, nearest) > NEAR:
+            yield from symbols.bar((foot, nearest))
+
+    def _free_side(self, inner: Spot, along: Vector) -> float:
+        """The side of a bar that the other links at an inner joint leave free."""
+        ahead = off(inner, along, 1.0)
+        lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._around(inner))
+        return -1.0 if lean > 0 else 1.0
+
+    def _driven(self, drive: TurningDrive) -> Iterator[Item]:
+        """The sense of turning, about the pair of the driving link."""
+        pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.relative_to, ())]
+        others = [p for p in self.scene.links[drive.link] if p not in pairs]
+        if pairs and others:
+            here = self.spots[pairs[0]]
+            ground = self._ground(pairs[0]) if pairs[0] in self._pivots else None
+            sign = 1.0 if drive.omega > 0 else -1.0
+            yield from symbols.drive(here, unit(here, self.spots[others[0]]), sign, ground)
+
+    # ---- letters ---------------------------------------------------------------------------------------------------
+
+    def wishes(self) -> Iterator[Wish]:
+        """The numbers of the links, beside their middles."""
+        for link in self.scene.moving:
+            spots = self._distinct(link)
+            runs = sentence_runs(link)
+            if len(spots) == 1:
+                yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
+            elif symbols.straight(spots):
+                ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
+                middles = tuple(_between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+                yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
+            else:
+                n = len(spots)
+                centre = sum(x for x, _ in spots) / n, sum(y for _, y in spots) / n
+                inside = [_between(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
+                yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
+
+    def letters(self) -> dict[Spot, tuple[tuple[Run, ...], str]]:
+        """What stands at each joint: one name, or all the names of coincident points."""
+        found: dict[Spot, list[str]] = {}
+        for name, spot in self.spots.items():
+            key = next((other for other in found if math.dist(other, spot) < NEAR), spot)
+            found.setdefault(key, []).append(name)
+        runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in found.items()}
+        return {spot: (runs[spot], ",".join(names)) for spot, names in found.items()}
+
+
+def _between(p: Spot, q: Spot, t: float) -> Spot:
+    return p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])

@@ -1,0 +1,230 @@
+"""What is drawn where: which plan a mark lies on, which marks lie on a line or an arc, and how large a plan is.
+
+All of it is read from the drawn program and its values; nothing here knows paper.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any, Protocol
+
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
+from graphplan.mechanism.model import Number, Scene, TurningDrive
+from graphplan.methods.panels import LEVER, MECHANISM
+from graphplan.sheet.plates import laid_off
+from graphplan.sheet.plates.display import Rect, Spot
+from graphplan.sheet.plates.pens import FORCES
+from graphplan.words.tongue import ENGLISH, Tongue
+
+
+class Vector(Protocol):
+    """A vector that the construction asks to be drawn as an arrow."""
+
+    @property
+    def kind(self) -> str: ...
+    @property
+    def point(self) -> str: ...
+    @property
+    def label(self) -> str: ...
+    @property
+    def start(self) -> int: ...
+    @property
+    def end(self) -> int: ...
+
+
+class Drawing(Protocol):
+    """A construction as the sheet reads it."""
+
+    @property
+    def scene(self) -> Scene: ...
+    @property
+    def drawn(self) -> Program: ...
+    @property
+    def values(self) -> Sequence[Any]: ...
+    @property
+    def arrows(self) -> Sequence[Vector]: ...
+    @property
+    def kappa(self) -> float: ...
+    @property
+    def phi(self) -> Number: ...
+    @property
+    def method(self) -> dict[str, list[str]]: ...
+    @property
+    def forms(self) -> list[str]: ...
+    @property
+    def strict(self) -> bool: ...
+    def sentences(self) -> list[str]: ...
+    def read(self, domain: Domain) -> dict[str, dict[str, Any]]: ...
+
+
+def corner(step: Step) -> bool:
+    """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
+    return step.op.name != "given" and step.name.rstrip("'").isdigit()
+
+
+@dataclass(frozen=True)
+class Figure:
+    """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
+
+    `nice` is room for half circles, taken where it costs nothing.
+    """
+
+    core: Rect
+    extra: tuple[Spot, ...]
+    nice: tuple[Spot, ...] = ()
+
+
+@dataclass(frozen=True)
+class Planes:
+    """A construction seen plan by plan, and the tongue in which its sheet speaks.
+
+    Where it is `numbered`, every mark bears the number of its step, lettered marks too.
+    """
+
+    drawing: Drawing
+    tongue: Tongue = ENGLISH
+    numbered: bool = False
+
+    @cached_property
+    def homes(self) -> list[str]:
+        """The plan of every step: its own if something it reads lies there, else where what it reads lies.
+
+        A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is. Compasses alone
+        cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
+        """
+        if self.drawing.strict:
+            return [MECHANISM] * len(self.drawing.drawn)
+        out: list[str] = []
+        for step in self.drawing.drawn.steps:
+            out.append(self._home(step, out))
+        return out
+
+    def _home(self, step: Step, homes: Sequence[str]) -> str:
+        if not step.args:
+            number = step.params.get("number", 1)
+            return step.panel if number == 1 else f"{step.panel}, part {number}"
+        steps = self.drawing.drawn.steps
+        read = [homes[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [homes[step.args[0]]]
+        own = (home for home in reversed(read) if home == step.panel or home.startswith(f"{step.panel}, part "))
+        return next(own, read[0])
+
+    @cached_property
+    def panels(self) -> list[str]:
+        """The plans in drawing order, the mechanism's first."""
+        return list(dict.fromkeys((MECHANISM, *self.homes)))
+
+    @cached_property
+    def marks_on(self) -> dict[int, tuple[int, ...]]:
+        """For each line and each arc, the marks that lie on it by construction."""
+        found: dict[int, list[int]] = {}
+        for step in self.drawing.drawn.steps:
+            if step.op.gives in (LINE, CIRCLE):
+                found.setdefault(step.index, [])
+            for claim in step.op.claims:
+                if claim[0] == "on":
+                    self._note(found, step.index, step.args[claim[1]])
+        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in found.items()}
+
+    def _note(self, found: dict[int, list[int]], one: int, other: int) -> None:
+        steps = self.drawing.drawn.steps
+        curve, mark = (one, other) if steps[other].op.gives == POINT else (other, one)
+        if steps[mark].op.gives == POINT and steps[curve].op.gives in (LINE, CIRCLE):
+            found.setdefault(curve, []).append(mark)
+
+    def points(self, panel: str) -> list[int]:
+        """The points that lie on a plan, by step."""
+        steps = self.drawing.drawn.steps
+        return [i for i, home in enumerate(self.homes) if home == panel and steps[i].op.gives == POINT]
+
+    def spot(self, index: int) -> Spot:
+        """Where a point lies on its plan."""
+        x, y = self.drawing.values[index][:2]
+        return float(x), float(y)
+
+    def place(self, name: str) -> Spot:
+        """Where a point of the mechanism lies."""
+        x, y = self.drawing.scene.points[name]
+        return float(x), float(y)
+
+    def vectors(self, panel: str) -> list[Vector]:
+        """The vectors drawn on a plan; one that begins on another plan cannot be."""
+        return [v for v in self.drawing.arrows if self.homes[v.start] == self.homes[v.end] == panel]
+
+    def kinds(self, panel: str) -> set[str]:
+        """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
+        lever = {"velocity"} if panel == LEVER and self._moves else set()
+        return lever | {vector.kind for vector in self.vectors(panel)}
+
+    @property
+    def _moves(self) -> bool:
+        """Whether the scene has one drive, and it moves: else a lever has assumed velocities."""
+        rates = [d.omega if isinstance(d, TurningDrive) else d.speed for d in self.drawing.scene.drives]
+        return len(rates) == 1 and bool(rates[0])
+
+    def diameter(self, step: Step) -> int | None:
+        """One end of a half circle's diameter: of an arc struck about the middle of two points through one of them."""
+        centre, opening = (self.drawing.drawn.steps[arg] for arg in step.args)
+        if centre.op.name == "midpoint" and opening.op.name == "opening" and centre.index in opening.args:
+            return next((arg for arg in opening.args if arg in centre.args), None)
+        return None
+
+    def _apexes(self, panel: str) -> list[Spot]:
+        """The highest points of the half circles on a plan."""
+        found = []
+        for step in self.drawing.drawn.steps:
+            if step.op.gives == CIRCLE and self.homes[step.index] == panel:
+                end, crossings = self.diameter(step), self.marks_on[step.index]
+                if end is not None and crossings:
+                    found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0])))
+        return found
+
+    def figure(self, panel: str) -> Figure:
+        """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
+        ends = [self.spot(i) for i in self._ends(panel)]
+        marks = [self.spot(i) for i in self.points(panel)]
+        core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
+        box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
+        extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
+        return Figure(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
+
+    def _ends(self, panel: str) -> Iterator[int]:
+        """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
+        steps, forces = self.drawing.drawn.steps, self.kinds(panel) & FORCES
+        for vector in self.vectors(panel):
+            yield from (vector.start, vector.end)
+        for index in self.points(panel):
+            start = laid_off.root(steps[index])
+            if start is not None and self.homes[start] == panel and laid_off.given(steps, steps[index]):
+                yield from (start, index)
+            elif forces and panel != MECHANISM and steps[index].name:
+                yield index
+
+
+def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:
+    """Where a half circle is farthest from its diameter, on the side of the crossing."""
+    dx, dy = end[0] - centre[0], end[1] - centre[1]
+    left = dx * (crossing[1] - centre[1]) - dy * (crossing[0] - centre[0]) >= 0
+    return (centre[0] - dy, centre[1] + dx) if left else (centre[0] + dy, centre[1] - dx)
+
+
+def around(spots: Sequence[Spot]) -> Rect:
+    """The box around some spots."""
+    xs, ys = [x for x, _ in spots], [y for _, y in spots]
+    return Rect(min(xs), min(ys), max(xs), max(ys))
+
+
+def _beyond(box: Rect, spot: Spot) -> float:
+    """How far a spot lies outside a box."""
+    x, y = spot
+    return max(box.left - x, x - box.right, box.bottom - y, y - box.top, 0.0)
+
+
+def grown(box: Rect, spot: Spot) -> Rect:
+    """The box made large enough to hold a spot."""
+    x, y = spot
+    return Rect(min(box.left, x), min(box.bottom, y), max(box.right, x), max(box.top, y))

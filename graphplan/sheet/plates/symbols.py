@@ -1,0 +1,171 @@
+"""The symbols of a mechanism, as a textbook draws them: pairs, ground, blocks and links.
+
+Everything is in millimetres on paper and of fixed size, whatever the scale.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from itertools import combinations
+
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
+
+RADIUS = 1.2  # of a revolute pair's circle
+STAND, FOOT, GROUND = 4.6, 2.6, 4.4  # the triangle under a fixed pivot: height, half its base, half the ground line
+HATCH, PITCH = 1.7, 1.25
+LONG, HIGH, GUIDE = 4.4, 2.3, 13.0  # half the length and height of a block, half the length of its guide
+ELBOW = 2.6
+SHADED = 9.0  # of the sides of a plate, at its hatched corner
+AROUND, DRIVEN, SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: its radius, how far off the crank, how long, in degrees
+GROUNDED = 0.35  # the cosine of the angle within which it would run into the ground
+
+Vector = tuple[float, float]
+
+
+def off(spot: Spot, along: Vector, t: float, u: float = 0.0) -> Spot:
+    """t along a direction and u to its left."""
+    return spot[0] + t * along[0] - u * along[1], spot[1] + t * along[1] + u * along[0]
+
+
+def unit(start: Spot, end: Spot) -> Vector:
+    """The direction from one spot to another; to the right if they coincide."""
+    length = math.dist(start, end)
+    return ((end[0] - start[0]) / length, (end[1] - start[1]) / length) if length > 1e-9 else (1.0, 0.0)
+
+
+def revolute(at: Spot) -> Item:
+    """A turning pair; several links at one joint still have one circle."""
+    return Circle(pens.PAIR, "pairs", None, at, RADIUS)
+
+
+def tracer(at: Spot) -> Item:
+    """A point of a link that is no pair."""
+    return Circle(pens.DOT, "pairs", None, at, RADIUS / 2)
+
+
+def hatching(start: Spot, end: Spot, side: float) -> Iterator[Item]:
+    """Short strokes under a ground line; `side` is +1 for the left of the line and -1 for its right."""
+    along, long = unit(start, end), math.dist(start, end)
+    count = max(1, int(long / PITCH))
+    for i in range(count):
+        root = off(start, along, (i + 0.75) * long / count)
+        yield Polyline(pens.HATCH, "ground", None, (root, off(root, along, -0.6 * HATCH, side * 0.8 * HATCH)))
+
+
+def pivot(at: Spot, down: Vector) -> Iterator[Item]:
+    """A fixed pivot without its circle: a triangle on hatched ground; `down` is the direction to the ground."""
+    left, right = off(at, down, STAND, -FOOT), off(at, down, STAND, FOOT)
+    start, end = off(at, down, STAND, -GROUND), off(at, down, STAND, GROUND)
+    yield Polygon(pens.GROUND_FILL, "ground", None, (at, left, right))
+    yield Polyline(pens.GROUND, "ground", None, (start, end))
+    yield from hatching(start, end, -1.0)
+
+
+def guideway(at: Spot, along: Vector, side: float) -> Iterator[Item]:
+    """A fixed guide under a block: its line, hatched on the outer side."""
+    start, end = off(at, along, -GUIDE, side * HIGH), off(at, along, GUIDE, side * HIGH)
+    yield Polyline(pens.GROUND, "ground", None, (start, end))
+    yield from hatching(start, end, side)
+    yield Polyline(pens.PRODUCED, "ground", None, (off(at, along, -GUIDE), off(at, along, GUIDE)))
+
+
+def block(at: Spot, along: Vector) -> Item:
+    """A sliding block, turned to its guide."""
+    corners = tuple(off(at, along, t * LONG, u * HIGH) for t, u in ((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    return Polygon(pens.BLOCK, "blocks", None, corners)
+
+
+def bar(spots: Sequence[Spot]) -> Iterator[Item]:
+    """A link whose points lie on one line, in their order along it; inner joints do not cut it."""
+    yield Polyline(pens.BAR, "links", None, tuple(spots))
+    yield Polyline(pens.HOLLOW, "links", None, tuple(spots))
+
+
+def elbow(at: Spot, along: Vector, side: float) -> Item:
+    """The half disc that says a bar goes through at an inner joint, on one side of the bar."""
+    start = math.degrees(math.atan2(along[1], along[0])) + (0.0 if side > 0 else 180.0)
+    arc = Arc(pens.LINK, "links", None, at, ELBOW, start, start + 180.0)
+    return Polygon(pens.SOLID, "links", None, arc.spots(15.0))
+
+
+def plate(spots: Sequence[Spot]) -> Iterator[Item]:
+    """A link of three or more points: its hull, tinted, one corner hatched, with strokes to any point inside."""
+    corners = hull(spots)
+    yield Polygon(pens.PLATE, "plates", None, corners)
+    yield from rigid(corners)
+    yield Polyline(pens.LINK, "links", None, (*corners, corners[0]))
+    for inner in (spot for spot in spots if spot not in corners):
+        nearest = min(corners, key=lambda corner: (math.dist(corner, inner), corner))
+        yield Polyline(pens.LINK, "links", None, (nearest, inner))
+
+
+def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
+    """The mark of a rigid link: the widest of its corners hatched at 45 degrees, for at most a third of the sides."""
+
+    def opening(i: int) -> float:
+        (x, y), (u, v) = unit(corners[i], corners[i - 1]), unit(corners[i], corners[i + 1 - len(corners)])
+        return round(x * u + y * v, 9)
+
+    i = min(range(len(corners)), key=opening)
+    corner, sides = corners[i], (corners[i - 1], corners[i + 1 - len(corners)])
+    ends = [off(corner, unit(corner, side), min(SHADED, math.dist(corner, side) / 3)) for side in sides]
+    yield from _shading((corner, *ends))
+
+
+def _shading(corners: Sequence[Spot]) -> Iterator[Item]:
+    """Strokes at 45 degrees over a triangle."""
+    levels = [y - x for x, y in corners]
+    low, high = min(levels), max(levels)
+    count = int((high - low) / (PITCH * math.sqrt(2)))
+    for k in range(count):
+        level = low + (k + 0.5) * (high - low) / count
+        cuts = []
+        for (p, at), (q, to) in combinations(zip(corners, levels, strict=True), 2):
+            if (at < level) != (to < level):
+                cuts.append(off(p, unit(p, q), math.dist(p, q) * (level - at) / (to - at)))
+        yield Polyline(pens.HATCH, "plates", None, tuple(cuts))
+
+
+def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
+    """The corners of the convex hull, counter-clockwise (Andrew's chain)."""
+
+    def half(points: Sequence[Spot]) -> list[Spot]:
+        chain: list[Spot] = []
+        for p in points:
+            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 1e-9:
+                chain.pop()
+            chain.append(p)
+        return chain[:-1]
+
+    ordered = sorted(set(spots))
+    return tuple(half(ordered) + half(ordered[::-1]))
+
+
+def turn(a: Spot, b: Spot, c: Spot) -> float:
+    """Twice the area of a triangle, positive counter-clockwise."""
+    return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def straight(spots: Sequence[Spot]) -> bool:
+    """Whether spots lie on one line, to a quarter of a pen's width."""
+    far = max(((math.dist(p, q), p, q) for p in spots for q in spots), default=(0.0, (0.0, 0.0), (0.0, 0.0)))
+    long, p, q = far
+    return long < 1e-9 or all(abs(turn(p, q, r)) / long < 0.15 for r in spots)
+
+
+def drive(at: Spot, towards: Vector, sign: float, ground: Vector | None = None) -> Iterator[Item]:
+    """The sense of a driving crank: an arc about its pivot with an arrowhead, ahead of the crank or, where the ground
+    is, behind it."""
+    middle, side = math.atan2(towards[1], towards[0]), sign * math.radians(DRIVEN)
+    if ground and ground[0] * math.cos(middle + side) + ground[1] * math.sin(middle + side) > GROUNDED:
+        side = -side
+    centre = math.degrees(middle + side)
+    start, end = centre - SWEEP / 2, centre + SWEEP / 2
+    arc = Arc(pens.DRIVE, "drive", None, at, AROUND, start, end)
+    yield arc
+    tip = arc.at(end if sign > 0 else start)
+    back = off(tip, unit(at, tip), 0.0, -sign * 2.2)
+    across = unit(at, tip)
+    yield Polygon(pens.SOLID, "drive", None, (tip, off(back, across, 0.75), off(back, across, -0.35)))

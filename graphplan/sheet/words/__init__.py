@@ -1,0 +1,1 @@
+"""What the columns of a sheet say: the task, the steps, tables and results."""

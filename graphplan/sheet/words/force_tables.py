@@ -1,0 +1,132 @@
+"""Tables of forces: the reactions by the letters of the force plans, and the balance by every way that gives it."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.mechanism.model import Balance
+from graphplan.methods.forces.letters import pair_letter
+from graphplan.methods.panels import slide_named
+from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.plates.plans import Drawing
+from graphplan.sheet.words.deviations import Deviations
+from graphplan.sheet.words.tables import Table, figure, largest_size, with_deviations
+from graphplan.words.tongue import ENGLISH, Tongue
+
+Pair = tuple[float, float]
+WAYS = {  # the ways to find a balance, and the kinds of reading that tell it
+    phrase("by force plans"): "balance{}", phrase("with friction"): "balance{} with friction",
+    phrase("by the lever"): "lever{}",
+}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class ForceTables:
+    """What a construction says of forces, in a tongue; `values` are its readings by kind and name, `pencil` their
+    deviations."""
+
+    drawing: Drawing
+    values: Mapping[str, Mapping[str, Any]]
+    pencil: Deviations = field(default_factory=Deviations)
+    tongue: Tongue = ENGLISH
+
+    @property
+    def unit(self) -> str:
+        return self.tongue(unit(self.drawing.scene.units.force))
+
+    @property
+    def moment(self) -> str:
+        """The unit of moments."""
+        return self.tongue(unit(f"{self.drawing.scene.units.force}·m"))
+
+    # ---- reactions -------------------------------------------------------------------------------------------------
+
+    def reactions(self) -> Table:
+        """Every reaction with its components and size, those of slides with their moments about the slide's point."""
+        joints, slides = (self.values.get(kind, {}) for kind in ("reaction", "slide reaction"))
+        largest = max(largest_size(joints), largest_size(slides))
+        head = [sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]
+        table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
+        table += [self._row(*self._of_slide(name), force, largest) for name, force in slides.items()]
+        off = self.pencil.of("reaction", "slide reaction")
+        table = with_deviations([head, *table], [*joints, *slides], off) if table else []
+        return self._with_moments(table, [*joints, *slides], largest) if slides else table
+
+    def _with_moments(self, table: Table, names: list[str], largest: float) -> Table:
+        """The same with a last column for the moments of slides."""
+        column = [sentence_runs(f"M {self.moment}")]
+        for name in names:
+            moment = self.values.get("slide moment", {}).get(name)
+            told = () if moment is None else figure(self._of_slide(name)[1] * moment, largest)
+            column.append((*told, *self._off("slide moment", name)))
+        return [[*row, cell] for row, cell in zip(table, column, strict=True)]
+
+    def _off(self, kind: str, name: str) -> Runs:
+        """How far off a number is drawn, to stand behind it."""
+        deviation = self.pencil.of(kind).get(name)
+        return () if deviation is None else sentence_runs(f" ±{deviation}")
+
+    def _row(self, name: Runs, sign: int, force: Pair, largest: float) -> list[Runs]:
+        x, y = sign * force[0], sign * force[1]
+        return [name, *(figure(value, largest) for value in (x, y, math.hypot(x, y)))]
+
+    def _of_joint(self, name: str) -> tuple[Runs, int]:
+        """The letter of the reaction `LINK at POINT`, and its sign."""
+        link, _, point = name.rpartition(" at ")
+        return self._lettered(self.drawing.scene.links_of[point][0], link, point)
+
+    def _of_slide(self, name: str) -> tuple[Runs, int]:
+        slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
+        return self._lettered(slide.along, slide.link, slide.at)
+
+    def _lettered(self, one: str, other: str, point: str) -> tuple[Runs, int]:
+        """The letter of the force of one link on another at a point; its answer, with the sign -1, if that is drawn."""
+        drawn = {vector.label for vector in self.drawing.arrows}
+        letter, answer = pair_letter(one, other), pair_letter(other, one)
+        sign = -1 if answer in drawn and letter not in drawn else 1
+        place = self.tongue(said("at {0}", point))
+        return (*name_runs(letter if sign > 0 else answer), *sentence_runs(f" {place}", (point,))), sign
+
+    def seats(self) -> Iterator[Said]:
+        """Where the reactions of slides act, in words."""
+        for name, (x, y) in self.values.get("slide arm", {}).items():
+            slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
+            at = [float(part) for part in self.drawing.scene.points[slide.at]]
+            spot, off = f"({digits(at[0] + x)}, {digits(at[1] + y)})", self.pencil.of("slide arm").get(name)
+            told = [spot, unit(self.drawing.scene.units.length), *([f"±{off}"] if off else [])]
+            yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
+
+    # ---- balance ---------------------------------------------------------------------------------------------------
+
+    def balance(self) -> Table:
+        """Each balance by force plans and by the lever, side by side."""
+        loads = self.drawing.scene.loads
+        table: Table = []
+        for name, balance in loads.named_balances.items() if loads else ():
+            moment = "" if balance.at else " moment"
+            found = {way: self.values.get(kind.format(moment), {}).get(name) for way, kind in WAYS.items()}
+            ways = {way: value for way, value in found.items() if value is not None}
+            off = [self._off(WAYS[way].format(moment), name) for way in ways]
+            heads = (said("balance"), *(way() for way in ways))
+            table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
+            table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
+        return table if table and len(table[0]) > 1 else []
+
+    def _moment(self, balance: Balance, ways: Mapping[Phrase, float], off: list[Runs]) -> Table:
+        name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.moment}"))
+        values = (sentence_runs(digits(value)) for value in ways.values())
+        return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
+
+    def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
+        largest = largest_size(ways)
+        letter = f"F_{balance.link}"
+        rows = {f"{letter}x": 0, f"{letter}y": 1}
+        parts = [[(*name_runs(name), *sentence_runs(f" {self.unit}")), *(figure(v[i], largest) for v in ways.values())]
+                 for name, i in rows.items()]  # fmt: skip
+        sizes = [(*figure(math.hypot(*v), largest), *within) for v, within in zip(ways.values(), off, strict=True)]
+        return [*parts, [(*sentence_runs(f"|{letter}|"), *sentence_runs(f" {self.unit}")), *sizes]]

@@ -1,0 +1,107 @@
+"""What is given and what is to be found, in the words of a problem book."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from graphplan.mechanism.model import Balance, Loads, Pair, Scene, TurningDrive
+from graphplan.methods.panels import link_named, listed, slide_named
+from graphplan.phrases import Said, joined, said, unit
+from graphplan.sheet.layout.scales import digits
+
+FIGURES = 6  # of what is given
+
+
+def data(scene: Scene) -> Iterator[Said]:
+    """The mechanism in its pose, what drives it and what loads it, a sentence each."""
+    yield said("Points, in {0}: {1}.", unit(scene.units.length),
+               ", ".join(f"{name} {_pair(at)}" for name, at in scene.points.items()))
+    yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
+                                     for link, names in scene.links.items()))
+    if scene.slides:
+        yield said("Sliding pairs: {0}.", joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
+                                                 for slide in scene.slides))
+    yield from _motion(scene)
+    if scene.loads:
+        yield from _loads(scene, scene.loads)
+
+
+def _motion(scene: Scene) -> Iterator[Said]:
+    """The drives and the given motions of points."""
+    length = scene.units.length
+    for drive in scene.drives:
+        if isinstance(drive, TurningDrive):
+            rates = _with_unit("omega", drive.omega, "1/s"), _with_unit("alpha", drive.alpha, "1/s²")
+            yield said("{0:capital} turns against {1}: {2}.", link_named(drive.link), link_named(drive.relative_to),
+                       joined(rates))
+        else:
+            rates = _with_unit("v", drive.speed, f"{length}/s"), _with_unit("a", drive.acceleration, f"{length}/s²")
+            yield said("{0:capital} slides along {1}: {2}.", link_named(drive.link), link_named(drive.along),
+                       joined(rates))
+    for name, motion in scene.motions.items():
+        velocity = joined((f"v = {_pair(motion.velocity)}", unit(f"{length}/s")), " ")
+        acceleration = joined((f"a = {_pair(motion.acceleration)}", unit(f"{length}/s²")), " ")
+        yield said("Motion of {0}: {1}.", name, joined((velocity, acceleration)))
+
+
+def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
+    """Gravity, masses, forces, moments and friction."""
+    units = scene.units
+    if any(loads.gravity):
+        yield said("Gravity: {0}.", joined((f"g = {_pair(loads.gravity)}", unit("m/s²")), " "))
+    for link, mass in loads.masses.items():
+        inertia = [_with_unit("J", mass.inertia, f"{units.mass}·m²")] if mass.inertia else []
+        told = _with_unit("m", mass.mass, units.mass), *inertia, said("centre {0}", mass.centre)
+        yield said("Mass of {0}: {1}.", link_named(link), joined(told))
+    for force in loads.forces:
+        value = joined((f"F = {_pair(force.value)}", unit(units.force), said("at {0}", force.at)), " ")
+        yield said("Force on {0}: {1}.", link_named(force.on), value)
+    for moment in loads.moments:
+        value = _with_unit("M", moment.value, f"{units.force}·m")
+        yield said("Moment on {0}: {1}.", link_named(moment.on), value)
+    slides = {(slide.link, slide.along): slide for slide in scene.slides}
+    for friction in loads.frictions:
+        where = slide_named(slides[friction.slide]) if friction.slide else said("at {0}", friction.at)
+        radius = [] if friction.slide else [_with_unit("r", friction.radius, units.length)]
+        yield said("Friction {0}: {1}.", where, joined((f"mu = {_figure(friction.coefficient)}", *radius)))
+
+
+def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
+    """What a construction gives, as a task: `values` are its readings by kind and name."""
+    for kind, asked in (("velocity", said("Velocities: {0}.", ", ".join(values.get("velocity", ())))),
+                        ("acceleration", said("Accelerations: {0}.", ", ".join(values.get("acceleration", ()))))):
+        if values.get(kind):
+            yield asked
+    if omega := [*values.get("omega", {})]:
+        yield said("Angular velocities: {0}.", listed(omega))
+    if alpha := [*values.get("alpha", {})]:
+        yield said("Angular accelerations: {0}.", listed(alpha))
+    slides = {slide.name: slide_named(slide) for slide in scene.slides}
+    if values.get("slide velocity") or values.get("slide acceleration"):
+        moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
+        yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
+    joints = dict.fromkeys(name.rpartition(" at ")[2] for name in values.get("reaction", ()))
+    if joints or values.get("slide reaction"):
+        yield said("Reactions: {0}.", joined((*joints, *(slides[name] for name in values.get("slide reaction", ())))))
+    if scene.loads and any(kind.startswith(("balance", "lever")) for kind in values):
+        yield from map(_keeping, scene.loads.balances)
+
+
+def _keeping(balance: Balance) -> Said:
+    """The unknown that keeps the motion."""
+    if balance.at:
+        return said("The force on {0} at {1} that keeps this motion.", link_named(balance.link), balance.at)
+    return said("The moment on {0} that keeps this motion.", link_named(balance.link))
+
+
+def _with_unit(letter: str, value: Any, symbol: str) -> Said:
+    return joined((f"{letter} = {_figure(value)}", unit(symbol)), " ")
+
+
+def _pair(pair: Pair) -> str:
+    return f"({_figure(pair[0])}, {_figure(pair[1])})"
+
+
+def _figure(value: Any) -> str:
+    return digits(float(value), FIGURES)

@@ -1,0 +1,84 @@
+"""What stands in the text columns: rows of lettering, and how they run down one column after the other."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+from graphplan.sheet.lettering.lettering import SIZE, Runs, width
+from graphplan.sheet.plates.display import Rect, Text
+from graphplan.sheet.plates.pens import LETTERS
+
+LEADING = 1.42  # of the letter size, base line to base line
+
+
+@dataclass(frozen=True)
+class Cell:
+    """A piece of a row: `x` is its distance from the column's left edge."""
+
+    x: float
+    runs: Runs
+    anchor: str = "start"
+    bold: bool = False
+
+
+@dataclass(frozen=True)
+class Row:
+    """One line of a column; `gap` is left free above it, and `keep` more rows must stand in the same column.
+
+    A row belongs to a drawing step, or to the results that are read when all is drawn, or is always there.
+    """
+
+    cells: tuple[Cell, ...]
+    size: float = SIZE
+    gap: float = 0.0
+    step: int | None = None
+    keep: int = 0
+    layer: str = "text"
+
+    @property
+    def height(self) -> float:
+        return self.size * LEADING
+
+    @property
+    def right(self) -> float:
+        """How far the row reaches."""
+        return max((_right(cell, self.size) for cell in self.cells), default=0.0)
+
+
+def _right(cell: Cell, size: float) -> float:
+    long = width(cell.runs, size, cell.bold)
+    return cell.x + long * {"start": 1.0, "middle": 0.5, "end": 0.0}[cell.anchor]
+
+
+Placed = tuple[Row, float, float]
+
+
+def fill(rows: Sequence[Row], columns: Sequence[Rect]) -> list[Placed] | None:
+    """Every row with its left edge and base line, running down the columns; none if they do not hold them."""
+    placed: list[Placed] = []
+    places = iter(columns)
+    column = next(places, None)
+    y = column.top if column else 0.0
+    for i, row in enumerate(rows):
+        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : i + 1 + row.keep])
+        while column is not None and y - _gap(row, y, column) - block < column.bottom:
+            column = next(places, None)
+            y = column.top if column else 0.0
+        if column is None:
+            return None
+        y -= _gap(row, y, column) + row.height
+        placed.append((row, column.left, y + row.size * (LEADING - 1)))
+    return placed
+
+
+def _gap(row: Row, y: float, column: Rect) -> float:
+    """No gap at the head of a column."""
+    return row.gap if y < column.top else 0.0
+
+
+def lettered(placed: Sequence[Placed]) -> Iterator[Text]:
+    """The rows as items."""
+    for row, x, y in placed:
+        for cell in row.cells:
+            yield Text(LETTERS, row.layer, row.step, (x + cell.x, y), cell.runs, row.size, cell.anchor, cell.bold)

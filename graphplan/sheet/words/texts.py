@@ -1,0 +1,152 @@
+"""The words of a sheet: the numbered steps, the results, the check and the forms chosen, as rows of a column."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from typing import Any
+
+from graphplan.kernel.expand import RATHER
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.panels import slide_named, spoken
+from graphplan.methods.results import kind_named
+from graphplan.phrases import Said, arranged, joined, said, unit
+from graphplan.sheet.layout.scales import digits
+from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
+from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.words.deviations import Deviations
+from graphplan.sheet.words.rows import Cell, Row
+from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, rows, scalars, vectors
+
+HEADING, INDENT = 3.0, 8.5
+RESULTS = "results"  # the layer of what is read when all is drawn
+
+
+@dataclass(frozen=True, eq=False)
+class Words:
+    """All that is said beside the plans; `check` is the difference from the analytic solver, by kind.
+
+    A sheet is composed more than once, with other drawing errors: what does not hang on them is set once for a width.
+    """
+
+    planes: Planes
+    check: Mapping[str, Any] = field(default_factory=dict)
+    _set: dict[float, tuple[list[Row], list[Row]]] = field(default_factory=dict)
+
+    @property
+    def drawing(self) -> Drawing:
+        return self.planes.drawing
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The letters that may stand in a sentence."""
+        return tuple(step.name for step in self.drawing.drawn.steps if step.name)
+
+    @cached_property
+    def values(self) -> Mapping[str, Mapping[str, Any]]:
+        """What the construction reads off, by kind and name."""
+        return self.drawing.read(Floats())
+
+    def rows(self, wide: float, pencil: Deviations) -> list[Row]:
+        """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
+        if wide not in self._set:
+            self._set[wide] = [*self._steps(wide)], [*self._check(wide), *self._forms(wide)]
+        before, after = self._set[wide]
+        found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
+        return [*before, *(replace(row, layer=RESULTS) for row in found)]
+
+    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
+        """A paragraph, hanging from its number."""
+        indent = INDENT if number else 0.0
+        lines = wrap(sentence_runs(self.planes.tongue(text), self.names), SIZE, wide - indent)
+        for i, runs in enumerate(lines):
+            label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
+            yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
+
+    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> Row:
+        runs = sentence_runs(self.planes.tongue(text))
+        return Row((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
+
+    def _steps(self, wide: float) -> Iterator[Row]:
+        drawn, told = self.drawing.drawn, set[str]()
+        yield self._heading(said("Construction"))
+        given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
+        yield from self._said(said("Given, on the mechanism plan: {0}.", given), wide)
+        panel = ""
+        for step in drawn.steps[drawn.givens :]:
+            if step.panel != panel:
+                panel = step.panel
+                yield self._heading(said("On the {0}", spoken(panel)), SIZE, 1.2, step.index)
+            sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
+            told.add(step.why)
+            yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))
+
+    def _results(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+        yield self._heading(said("Results"))
+        for one, two in self._motion(pencil):
+            yield from joined_tables(one, two, wide)
+        if self.drawing.scene.loads:
+            yield from self._forces(wide, pencil)
+
+    def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
+        """The tables of points, links and slides: each that of velocities and that of accelerations."""
+        values, scene, say = self.values, self.drawing.scene, self.planes.tongue
+        point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
+        yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
+        yield (scalars(link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
+               scalars(link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
+        slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
+        yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
+
+    def _vectors(self, what: str, kinds: tuple[str, str], order: Iterable[str], pencil: Deviations,
+                 spoken: Callable[[str], str] = str) -> tuple[Table, Table]:
+        """The tables of two kinds of vector, whose numbers are rounded beside the fastest and the sharpest of points.
+        """
+        speed = self.planes.tongue(unit(f"{self.drawing.scene.units.length}/s"))
+        heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
+        one, two = (vectors(what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
+                            largest_size(self.values.get(beside, {})), spoken)
+                    for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
+        return one, two
+
+    def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+        from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
+
+        tables = ForceTables(self.drawing, self.values, pencil, self.planes.tongue)
+        yield from rows(tables.reactions())
+        for sentence in tables.seats():
+            yield from self._said(sentence, wide)
+        yield from rows(tables.balance())
+
+    def _errors(self, wide: float, told: str) -> Iterator[Row]:
+        if told:
+            yield self._heading(said("Drawing errors"))
+            yield from self._said(told, wide)
+
+    def _check(self, wide: float) -> Iterator[Row]:
+        if self.check:
+            yield self._heading(said("Check"))
+            parts = joined(joined((kind_named(kind), _within(float(gap))), " ") for kind, gap in self.check.items())
+            yield from self._said(said("Largest difference from the analytic solver, beside the number's own "
+                                       "size: {0}.", parts), wide)
+
+    def _forms(self, wide: float) -> Iterator[Row]:
+        yield self._heading(said("Method and forms"))
+        for kind, ways in self.drawing.method.items():
+            yield from self._said(arranged("{0:capital}: {1}.", kind_named(kind), joined(ways)), wide)
+        for form in self.drawing.forms:
+            yield from self._said(_shortened(form), wide)
+
+
+def _shortened(form: str) -> str:
+    """A form and its reason, beside its nearest rival only."""
+    match form:
+        case Said(put=[number, Said(key=RATHER.english, put=[best, Said(put=[nearest, *_])])]):
+            return said("step {0}: {1}", number, RATHER(best, nearest))
+    return form
+
+
+def _within(gap: float) -> str:
+    """A difference as it is said on a sheet: rounding is not told in figures, which differ from machine to machine."""
+    return said("below 10⁻¹²") if gap <= ROUNDING else digits(gap, 2)

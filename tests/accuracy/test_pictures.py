@@ -1,0 +1,129 @@
+"""The charts and their command: a row of the table for every mark, text that stays the same, files whole or untouched.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.survey import best_forms, growth, machine, stability
+from graphplan.accuracy.survey.degeneracies import DEGENERACIES
+from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
+from graphplan.accuracy.survey.pictures import draughtsman as board
+from graphplan.accuracy.survey.pictures import forms as strips
+from graphplan.accuracy.survey.pictures import growth as lines
+from graphplan.accuracy.survey.pictures import machine as precision
+from graphplan.accuracy.survey.pictures import stability as ways
+from graphplan.commands import main
+from graphplan.output.charts import drawn
+
+DRAFTS = [
+    Draft("triad", "pose's own, auxiliary", "orthogonal", SQUARES, "A1", 40, 0.02, front=True),
+    Draft("triad", "trial", "polar", STRICT, "A1", 90, 0.01, front=True),
+    Draft("triad", "poles", "polar", STRICT, "A1", 95, 0.03),
+    Draft("triad", "poles", "polar", SQUARES, "A1", None, None, why="refused"),
+]
+
+
+def measure(arithmetic: str, time: float | None, error: float | None, scene: str = "shaper") -> machine.Measure:
+    """A made-up measure of a scene."""
+    why = "refused" if time is None else ""
+    return machine.Measure(scene, "every method", "polar", arithmetic, time, time, time, error, why)
+
+
+MEASURES = [measure("rules, floats", 10.0, 1e-15), measure("rules, fractions", 200.0, 0.0),
+            measure("rules, enclosures of 30 digits", 90.0, 1e-40), measure(machine.COMPILED, None, None)]
+
+
+def test_every_mark_is_a_row_of_its_table() -> None:
+    """Each row with numbers is one mark, those without none; of the front there is a line and no mark."""
+    chart = board.picture(DRAFTS, str(Pencil()))
+    assert chart.marks == 3
+    assert chart.panels[0].series[0].spots == ((40.0, 3.0), (40.0, 2.0), (90.0, 1.0), (95.0, 1.0))
+    assert "(1 not drawn)" in chart.panels[0].title
+    assert precision.picture(MEASURES).marks == 3
+    samples = list(stability.samples(DEGENERACIES[2], (1.0, 1e-3, 0.0)))
+    assert ways.picture(samples).marks == len(samples)
+
+
+def test_exact_and_singular_stand_on_rails() -> None:
+    """No error stands on the exact rail, proven digits on theirs, and what has no number on that of its method."""
+    levels = [series.spots[0][1] for series in precision.picture(MEASURES).panels[0].series]
+    assert levels == [1e-15, "exact", "proven"]
+    singular = stability.Sample("dead centre", "poles", 0.0, float("inf"), None, "singular")
+    spots = [series.spots for series in ways.picture([singular]).panels[0].series if series.spots]
+    assert spots == [(("0", "poles"),)]
+
+
+def test_the_median_is_over_all_scenes() -> None:
+    """With several scenes one picture more tells medians and quartiles, not of what few scenes have."""
+    rows = [measure("rules, floats", time, 1e-15, scene) for scene, time in (("a", 1.0), ("b", 3.0), ("c", 5.0))]
+    (series,) = precision.picture([*rows, measure(machine.COMPILED, 1.0, 1e-15, "a")]).panels[-1].series
+    assert series.spots == ((3.0, 1e-15),)
+    assert series.spreads == (((2.0, 1e-15), (4.0, 1e-15)),)
+
+
+@pytest.mark.parametrize(("best", "name"), [
+    ([], ""), (["trial, polar"], "trial, polar"), (["poles, polar", "trial, orthogonal"], "trial, orthogonal"),
+    (["auxiliary, polar", "trial, polar", "poles, polar"], "any method, polar")])
+def test_equally_good_forms_have_one_colour(best: list[str], name: str) -> None:
+    """Orthogonal plans before polar ones, and every method on a plan as any."""
+    assert strips.shown(best) == name
+
+
+def test_strips_cover_the_cycle() -> None:
+    """Neighbouring poses with one best form are one stretch, and the stretches fill the turn without a gap."""
+    one = best_forms.Sample("triad", 0, 0.0, best_forms.PENCIL, "trial, polar", 1.0, True)
+    rows = [replace(one, pose=k, travel=90.0 * k, best=k != 2) for k in range(4)]
+    bands = [band for band in strips.picture(rows).panels[0].bands if band.rail == best_forms.PENCIL]
+    assert [(band.start, band.end) for band in bands] == [(0.0, 180.0), (180.0, 270.0), (270.0, 360.0)]
+
+
+def test_the_exponent_is_that_of_long_chains() -> None:
+    """A time that is the square of the number of links is told as such, whatever short chains take."""
+    rows = [growth.Stage(n, 6 * n - 10, stage, float(n * n) if n > 10 else 1e9, 1.0, 1.0)
+            for n in (4, 100, 500) for stage in growth.STAGES]
+    assert growth.exponent(rows, growth.STAGES[0]) == pytest.approx(2)
+    words = [words for words, _ in lines.picture(rows).key]
+    assert words[0] == f"{growth.STAGES[0]}: $n^{{2.00}}$"
+    assert words[-1] == "steps: 6 n − 10"
+
+
+def test_the_same_picture_is_the_same_text() -> None:
+    """Pictures are valid SVG without a date, drawn twice alike."""
+    chart = board.picture(DRAFTS, str(Pencil()))
+    text = drawn(chart)
+    assert text == drawn(chart)
+    assert "dc:date" not in text
+    assert ElementTree.fromstring(text).tag.endswith("svg")
+
+
+def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
+    """The named chart of the named scene comes as two files that replace what was there."""
+    (tmp_path / "draughtsman.csv").write_text("old")
+    assert main(["chart", "draughtsman", str(tmp_path), "--scenes", "five-bar"]) == 0
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["draughtsman.csv", "draughtsman.svg"]
+    heading, *rows = (tmp_path / "draughtsman.csv").read_text().splitlines()
+    assert heading.startswith("scene,form,plan,tools")
+    assert all(row.startswith("five-bar,") for row in rows)
+
+
+@pytest.mark.parametrize(("arguments", "told"), [
+    (("speed", "."), "chart speed: there is no such chart"),
+    (("growth", "nowhere"), "nowhere: folder: there is no such folder"),
+    (("machine", ".", "--scenes", "no-such"), "no-such"),
+    (("growth", ".", "--pencil", "nib=1"), "--pencil nib=1: a pencil has no such error"),
+])
+def test_bad_names_are_one_line(arguments: tuple[str, ...], told: str, tmp_path: Path,
+                                monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """An unknown chart, folder, scene or pencil is status 2 and one line, and nothing is written."""
+    monkeypatch.chdir(tmp_path)
+    assert main(["chart", *arguments]) == 2
+    error = capsys.readouterr().err
+    assert told in error
+    assert error.count("\n") == 1
+    assert not list(tmp_path.iterdir())

@@ -1,0 +1,95 @@
+"""Which form is preferred, and what is told of it."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import pytest
+
+import graphplan as gp
+from graphplan.accuracy.drafted import Drafted
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.preference import FORMS, Form, forms, preferred, weighed
+from graphplan.commands import main
+from graphplan.errors import Refused
+
+SCENE = gp.load("alt-eight-link")
+POSE = """
+[points]
+O = [-11, -24]
+A = [-114, 60]
+E = [45, 34]
+F = [190, 114]
+G = [86, 20]
+B = [30, 233]
+C = [113, 1]
+
+[links]"""
+TRIAD = re.sub(r"\n\[points\].*\[links\]", POSE, gp.load("triad").text, flags=re.DOTALL)
+
+
+@pytest.fixture(scope="module")
+def found() -> list[Form]:
+    """The forms of a triad on polar plans, in a pose in which the shortest is not the most accurate."""
+    return forms(gp.parse(TRIAD, "triad"), Pencil(), plan="polar", paper="A2")
+
+
+@pytest.fixture(scope="module")
+def drawn(found: list[Form]) -> dict[str, Drafted]:
+    """The same drawn, by method."""
+    return {method: form.drafted for form in found for method in form.methods if form.drafted is not None}
+
+
+def test_every_form_is_drawn_once(drawn: dict[str, Drafted]) -> None:
+    """Every method has its form; those that draw the same share it."""
+    assert set(drawn) == set(FORMS)
+    assert drawn[""] is drawn["poles"] is not drawn["auxiliary"]
+
+
+def test_quick_and_accurate_are_the_best_of_their_kind(found: list[Form], drawn: dict[str, Drafted]) -> None:
+    """The quick form has the fewest operations, the accurate one the smallest error; here they are two."""
+    quick, accurate = (drawn[weighed(found, prefer).method] for prefer in ("quick", "accurate"))
+    assert quick.operations == min(one.operations for one in drawn.values()) < accurate.operations
+    assert accurate.error == min(one.error for one in drawn.values()) < quick.error
+
+
+def test_balanced_has_the_smallest_product(found: list[Form], drawn: dict[str, Drafted]) -> None:
+    """No form has less of operations times error than the balanced one."""
+    balanced = drawn[weighed(found, "balanced").method]
+    assert balanced.operations * balanced.error == min(one.operations * one.error for one in drawn.values())
+
+
+def test_what_was_weighed_is_told(found: list[Form], drawn: dict[str, Drafted]) -> None:
+    """The choice is told with every alternative, its operations and its error, a line each."""
+    head, *others = weighed(found, "quick").told
+    assert head == "quick form preferred: auxiliary; weighed on A2:"
+    assert {line.partition(":")[0] for line in others} == {"pose's own, poles", "auxiliary", "trial"}
+    assert any(line.startswith("trial") and f"{drawn['trial'].operations} operations" in line for line in others)
+
+
+def test_preference_and_method_exclude_each_other(capsys: pytest.CaptureFixture[str]) -> None:
+    """A form that is named needs no preference: asked for both, the command refuses."""
+    assert main(["draw", "four-bar", "--prefer", "quick", "--method", "trial"]) == 2
+    assert capsys.readouterr().err.startswith("--prefer quick: --method trial names the form already")
+    with pytest.raises(Refused, match="nothing is weighed so"):
+        preferred(SCENE, "cheap", Pencil())
+
+
+def test_a_form_that_cannot_be_drawn_says_why() -> None:
+    """On paper too small for its words a form is not drawn and keeps the reason; where none is drawn that is raised."""
+    refused = forms(SCENE, Pencil(), paper="A4")
+    assert {form.name for form in refused} == {"pose's own", "auxiliary", "trial", "poles"}
+    assert all(re.search("cannot be drawn: .* words and plans do not fit", form.told) for form in refused)
+    with pytest.raises(Refused, match="words and plans do not fit"):
+        preferred(SCENE, "quick", Pencil(), paper="A4")
+
+
+def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    """`steps --prefer` draws the form preferred, and its protocol says what was weighed."""
+    scene = tmp_path / "triad.toml"
+    scene.write_text(TRIAD)
+    assert main(["steps", str(scene), "--plan", "polar", "--prefer", "accurate"]) == 0
+    told = capsys.readouterr().out
+    assert "accurate form preferred: trial; weighed on A2:" in told
+    assert re.search(r"step \d+: trial figure", told)

@@ -1,0 +1,131 @@
+"""The rows of the surveys: true values and right choices on small scenes; times are never looked at."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import replace
+from fractions import Fraction
+
+import numpy as np
+import pytest
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.survey import best_forms
+from graphplan.accuracy.survey.binary import binary, truth
+from graphplan.accuracy.survey.chains import chain
+from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts, front
+from graphplan.accuracy.survey.growth import STAGES, stages
+from graphplan.accuracy.survey.machine import ARITHMETICS, COMPILED, LAPACK, SOLVERS, Measure, measures
+from graphplan.accuracy.survey.table import table
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene import load
+from graphplan.solver import solve
+
+
+@pytest.fixture(scope="module")
+def four_bar() -> Scene:
+    """The four-bar, which all methods draw alike."""
+    return load("four-bar")
+
+
+def test_every_arithmetic_is_measured_against_the_truth(four_bar: Scene) -> None:
+    """Both plans in every arithmetic, and the solver: fractions are exact, enclosures all but, floats to rounding."""
+    rows = list(measures(four_bar, compiled=False))
+    assert {(row.plan, row.arithmetic) for row in rows} == {
+        *(("", name) for name in SOLVERS), *((plan, name) for plan in ("orthogonal", "polar") for name in ARITHMETICS)}
+    for row in rows:
+        if row.arithmetic == COMPILED:
+            assert row.error is None
+            assert "--scenes" in row.why
+        elif "fractions" in row.arithmetic:
+            assert row.error == 0
+        elif "enclosures" in row.arithmetic and row.error is not None:
+            assert row.error < 1e-30
+        else:
+            assert row.error is not None
+            assert 0 < row.error < 1e-14
+    assert next(row.time for row in rows if row.arithmetic == LAPACK) == 1
+
+
+def test_a_root_leaves_fractions_without_a_number() -> None:
+    """Where an actuator goes along a direction of irrational length, fractions have a reason and floats a number."""
+    pytest.importorskip("flint")
+    rows = {(row.plan, row.arithmetic): row for row in measures(load("ozols-5-3"), compiled=False)}
+    exact, floats = (rows["polar", name] for name in ("rules, fractions", "rules, floats"))
+    assert exact.error is None
+    assert "irrational" in exact.why or "not-rational" in exact.why
+    assert floats.error is not None
+    assert floats.error < 1e-13
+
+
+def test_the_truth_is_that_of_the_floats() -> None:
+    """A scene placed by compasses becomes one of binary fractions, whose exact rates are those of the solver's floats.
+    """
+    scene = load("ozols-5-1")
+    exact, floats = truth(binary(scene)), solve(scene)
+    for name, pair in exact.velocity.items():
+        assert all(isinstance(number, Fraction) for number in pair)
+        assert complex(*map(float, pair)) == pytest.approx(complex(*floats.velocity[name]), rel=1e-12, abs=1e-9)
+
+
+def test_the_front_holds_what_nothing_beats() -> None:
+    """Of places in operations and error those stay that no other beats in both, equal ones once."""
+    places = [(10, 3.0), (10, 2.0), (12, 2.0), (15, 1.0), (15, 1.0), (20, 1.5), (30, 0.5)]
+    assert front(places) == [(10, 2.0), (15, 1.0), (30, 0.5)]
+
+
+def test_forms_of_a_four_bar(four_bar: Scene) -> None:
+    """Both plans by both sets of tools; the front holds the fewest operations and the smallest error."""
+    rows = drafts(four_bar, Pencil())
+    assert len({(row.plan, row.tools) for row in rows}) == 4
+    assert all(row.operations and row.error for row in rows)
+    best = [row for row in rows if row.front]
+    assert min(row.operations or 0 for row in rows) in {row.operations for row in best}
+    assert min(row.error or 0.0 for row in rows) in {row.error for row in best}
+
+
+def test_forms_that_are_not_drawn_have_a_reason() -> None:
+    """Strict forms with loads, left out for their time, are rows that say so."""
+    rows = drafts(load("jaanimets-11"), Pencil(), long=False)
+    assert [row.why for row in rows if row.operations is None] == [LONG] * 2
+
+
+def test_best_forms_over_a_cycle() -> None:
+    """Each pose has all forms by both measures; the best are the least, and where nothing comes there is none."""
+    rows = list(best_forms.samples(load("triad"), Pencil(), 4))
+    assert len(rows) == 4 * 2 * len(best_forms.FORMS)
+    for pose in range(4):
+        for measure in (best_forms.ROUNDING, best_forms.PENCIL):
+            here = [row for row in rows if (row.pose, row.measure) == (pose, measure)]
+            values = [row.value for row in here if row.value is not None]
+            assert all(row.value is not None or row.why for row in here)
+            assert any(row.best for row in here) == bool(values)
+            assert all(row.value <= 1.05 * min(values) for row in here if row.best and row.value is not None)
+    assert {row.pose for row in rows if row.value is None} == {2}
+
+
+def test_steps_grow_by_equal_increments() -> None:
+    """Every dyad of a chain adds as many steps as the one before."""
+    rows = list(stages((4, 6, 8, 10, 12), rounds=1))
+    assert [row.stage for row in rows] == [*STAGES] * 5
+    steps = [row.steps for row in rows if row.stage == STAGES[0]]
+    assert len(set(np.diff(steps))) == 1
+    assert steps[1] > steps[0]
+
+
+def test_velocities_neither_die_away_nor_grow_along_a_chain() -> None:
+    """Every joint of a long chain goes as fast as the crank's; a chain has twice as many links as dyads, and two."""
+    scene = chain(20)
+    assert len(scene.links) == 42
+    assert {x * x + y * y for x, y in (solve(scene, exact=True).velocity[f"P{k}"] for k in range(21))} == {25}
+
+
+def test_a_table_has_a_line_for_each_row() -> None:
+    """A heading of the fields, then the rows; what there is not is empty, and numbers come back as they were."""
+    row = Measure("four-bar", "trial, poles", "polar", "floats", 0.1, None, 1 / 3, 0.0, "a, b")
+    lines = list(csv.DictReader(io.StringIO(table(Measure, [row, replace(row, time=None)]))))
+    assert [line["time"] for line in lines] == ["0.1", ""]
+    assert float(lines[0]["high"]) == 1 / 3
+    assert (lines[0]["form"], lines[0]["why"]) == ("trial, poles", "a, b")
+    assert len(list(csv.reader(io.StringIO(table(Draft, []))))) == 1

@@ -1,0 +1,83 @@
+"""Judgements made by hand: a construction as a student drew it, some marks moved, each verdict known beforehand."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from functools import cache
+
+import graphplan as gp
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.program import Step
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSEEN, WRONG, Ellipse, Judgement, Verdict
+from graphplan.marking.traces import Frame, Trace
+from graphplan.methods.construction import Construction
+from graphplan.phrases import Said
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import Composition
+
+TURNED = complex(0.9, 0.3)  # the student's sheet beside ours: turned, and a little smaller
+TOLERANCE = 0.5
+
+
+@cache
+def composed(name: str) -> Composition:
+    return compose(gp.construct(gp.load(name)))
+
+
+def judgement(name: str, wrong: Mapping[int, complex] | None = None, mistake: Said | None = None, kind: str = "",
+              file: str = "student.csv") -> Judgement:
+    """A drawing of which some steps, by index, are so many mm off; what rests on them follows."""
+    composition = composed(name)
+    drawing = composition.planes.drawing
+    frames = {panel: Frame(complex(40, 30), view.scale * TURNED) for panel, view in composition.views.items()}
+    made = Maker(drawing, composition, frames, wrong or {}, mistake, kind)
+    return Judgement(file, drawing, composition, frames, tuple(made.verdicts()))
+
+
+class Maker:
+    """Makes the verdicts, step by step."""
+
+    def __init__(self, drawing: Construction, composition: Composition, frames: Mapping[str, Frame],
+                 wrong: Mapping[int, complex], mistake: Said | None, kind: str):
+        self.drawing, self.planes, self.frames = drawing, composition.planes, frames
+        self.wrong, self.mistake, self.kind = wrong, mistake, kind
+
+    def verdicts(self) -> Iterator[Verdict]:
+        after = set(self.wrong)
+        for step in self.drawing.drawn.steps:
+            value = tuple(map(float, self.drawing.values[step.index]))
+            if step.op.gives == OPENING:
+                yield Verdict(step.index, UNSEEN, own=value)
+                continue
+            off = self.wrong.get(step.index, 0j)
+            state = WRONG if off else FOLLOWS if after & set(step.args) else RIGHT
+            if state == FOLLOWS:
+                after.add(step.index)
+            ellipse = Ellipse(TOLERANCE, TOLERANCE / 2, 30.0) if step.op.gives == POINT else None
+            yield Verdict(step.index, state, abs(off), TOLERANCE, abs(off), self.trace(step, value, off), value,
+                          ellipse, self.mistake if off else None, self.kind if off else "")
+
+    def trace(self, step: Step, value: tuple[float, ...], off: complex) -> Trace:
+        """A true mark on the student's sheet, moved by so many mm."""
+        frame = self.frames[self.planes.homes[step.index]]
+        on = [complex(*self.planes.spot(mark)) for mark in self.planes.marks_on.get(step.index, ())]
+        found = [frame.onto(spot) + off for spot in spots(step, value, on)]
+        label = self.drawing.drawn.text(step.index)
+        return Trace(step.op.gives, tuple((spot.real, spot.imag) for spot in found), label)
+
+
+def spots(step: Step, value: tuple[float, ...], on: list[complex]) -> list[complex]:
+    """Spots of a mark, in plan units: a line from the first to the last mark on it, of an arc a little each way."""
+    if step.op.gives == POINT:
+        return [complex(*value)]
+    if step.op.gives == LINE:
+        a, b, c = value
+        way = complex(b, -a) / math.hypot(a, b)
+        foot = -complex(a, b) * c / (a * a + b * b)
+        along = [((spot - foot) * way.conjugate()).real for spot in on] or [0.0]
+        return [foot + way * (min(along) - 3.0), foot + way * (max(along) + 3.0)]
+    assert step.op.gives == CIRCLE
+    centre, radius = complex(*value[:2]), math.sqrt(value[2])
+    turn = (on[0] - centre) / radius if on else 1.0
+    return [centre + radius * turn * complex(math.cos(t), math.sin(t)) for t in (-0.2, 0.0, 0.2)]

@@ -1,0 +1,111 @@
+"""The drawings of a class: a line for each, and what goes wrong most often."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import pytest
+from judged import judgement
+
+import graphplan as gp
+from graphplan.marking.classroom import MISTAKEN, Classroom, Marked, Unread, lines
+from graphplan.marking.judge.findings import Called, called
+from graphplan.marking.judge.mistakes import MISTAKES
+from graphplan.marking.judge.score import score
+from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, Verdict
+from graphplan.phrases import said
+from graphplan.sheet.layout.compose import compose
+
+WRONG_LINE = "wrong line"
+
+
+def handed(file: str, wrong: int | None = None, kind: str = "") -> Marked:
+    """A drawing of the four-bar with this step wrong."""
+    told = said("parallel to {0} instead of {1}", "AB", "BC") if kind == WRONG_LINE else None
+    found = judgement("four-bar", {} if wrong is None else {wrong: 2.5 + 1j}, told, kind, file)
+    return Marked(found, score(found))
+
+
+def by_construction(file: str, plan: str, wrong: int) -> Marked:
+    """A drawing of the four-bar by the construction of a plan, with this step wrong, counted from the last."""
+    drawing = gp.construct(gp.load("four-bar"), plan=plan)
+    steps = [Verdict(step.index, RIGHT) for step in drawing.drawn.steps]
+    steps[wrong] = replace(steps[wrong], state=WRONG)
+    found = Judgement(file, drawing, compose(drawing), {}, tuple(steps))
+    return Marked(found, score(found))
+
+
+def parallels() -> list[int]:
+    """The parallels that the four-bar's construction draws."""
+    return [step.index for step in judgement("four-bar").drawing.drawn.steps if step.op.name == "parallel"]
+
+
+def room(*marked: Marked, unread: tuple[Unread, ...] = ()) -> Classroom:
+    return Classroom(judgement("four-bar").drawing.scene.title, marked, unread)
+
+
+def step(index: int) -> Called:
+    """What a step of the four-bar's construction is called."""
+    return called(judgement("four-bar").drawing.drawn, index)
+
+
+def test_the_most_frequent_mistake_and_step_are_told() -> None:
+    """Of four drawings three go wrong, two of them at the same step by the same mistake."""
+    one, two = parallels()[:2]
+    found = room(handed("a"), handed("b", two, WRONG_LINE), handed("c", one, "reversed"), handed("d", two, WRONG_LINE))
+    assert found.histogram == {step(one): 1, step(two): 2}
+    assert found.hardest == step(two)
+    assert found.mistakes == {WRONG_LINE: 2, "reversed": 1}
+    told = [str(line) for line in lines(found)]
+    number = step(two).number
+    assert told[0] == "a: 100 of 100; no wrong step"
+    assert f"b: 97 of 100; Step {number}: parallel to AB instead of BC, 2.7 mm off, 0.5 mm allowed" in told
+    assert "Drawings: 4, of which 1 have no wrong step." in told
+    assert "Most frequent mistake: parallel or perpendicular to the wrong line (2)." in told
+    assert f"Most frequent first wrong step: step {number}, line {number} (2)." in told
+
+
+def test_of_equally_frequent_steps_the_earlier_is_told() -> None:
+    """Where two steps are wrong as often, the one that is drawn first comes first."""
+    one, two = parallels()[:2]
+    assert room(handed("a", two), handed("b", one)).hardest == step(one)
+
+
+def test_a_class_may_follow_several_constructions() -> None:
+    """A step is told after the construction of its own drawing, however many steps the others have."""
+    drawings = [by_construction("a", "", -1), by_construction("b", "polar", -1), by_construction("c", "polar", -1)]
+    orthogonal, polar = (called(one.judgement.drawing.drawn, one.judgement.guilty or 0) for one in drawings[:2])
+    assert orthogonal != polar
+    found = room(*drawings)
+    assert found.histogram == {orthogonal: 1, polar: 2}
+    assert [row.step for row in found.rows] == [orthogonal, polar, polar]
+    assert found.data["most_frequent_first_wrong"] == polar.number
+    assert f"Most frequent first wrong step: {polar.told} (2)." in map(str, lines(found))
+
+
+def test_a_drawing_of_which_nothing_is_judged_is_not_faultless() -> None:
+    """Where nothing is to be seen, that is told, and the drawing is none without a wrong step."""
+    found = judgement("four-bar", file="b")
+    unseen = replace(found, verdicts=tuple(replace(v, state=UNSEEN) for v in found.verdicts))
+    told = [str(line) for line in lines(room(handed("a"), Marked(unseen, score(unseen))))]
+    assert "b: nothing to judge" in told
+    assert "Drawings: 2, of which 1 have no wrong step." in told
+
+
+def test_the_mean_is_that_of_what_could_be_judged() -> None:
+    """A file that could not be read counts neither as a score nor as a drawing, but it is told."""
+    found = room(handed("a"), handed("b", parallels()[0]), unread=(Unread("c", "it is empty; give a drawing"),))
+    assert found.mean == pytest.approx((100 + found.data["drawings"][1]["score"]) / 2)
+    assert found.data["not_judged"] == [{"file": "c", "why": "it is empty; give a drawing"}]
+    assert "Not judged: 1." in map(str, lines(found))
+
+
+def test_a_class_of_which_nothing_can_be_read_has_no_findings() -> None:
+    """Without a single drawing there is no mean, no mistake and no step."""
+    data = room(unread=(Unread("a", "no"),)).data
+    assert (data["mean_score"], data["most_frequent_mistake"], data["most_frequent_first_wrong"]) == (None, None, None)
+
+
+def test_every_kind_of_mistake_can_be_told() -> None:
+    """The table of mistakes has no kind that a class report has no words for, nor the other way round."""
+    assert set(MISTAKEN) == set(MISTAKES)

@@ -1,0 +1,72 @@
+"""Scans and photos of handouts judged: the pencil on them is laid over the construction."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from pathlib import Path
+
+import pytest
+
+cv2 = pytest.importorskip("cv2")
+
+from hands import draw, frames, slipped, strokes  # noqa: E402
+from raster import Printed, photo, printed, scan  # noqa: E402
+
+import graphplan as gp  # noqa: E402
+from graphplan.accuracy.pencil import Pencil  # noqa: E402
+from graphplan.kernel.kinds import LINE  # noqa: E402
+from graphplan.marking.judge.judge import judge  # noqa: E402
+from graphplan.marking.judge.mistakes import Slip  # noqa: E402
+from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
+from graphplan.marking.submission import read  # noqa: E402
+from graphplan.methods.construction import Construction  # noqa: E402
+from graphplan.sheet.handout import code, solution, task  # noqa: E402
+from graphplan.sheet.layout.compose import compose  # noqa: E402
+from graphplan.sheet.layout.composition import Composition  # noqa: E402
+from graphplan.sheet.plates.display import Sheet  # noqa: E402
+
+
+@cache
+def handout() -> tuple[Construction, Composition, Sheet, Printed]:
+    """A task, and its page from the printer."""
+    drawing = gp.construct(gp.load("four-bar"))
+    sheet = compose(drawing)
+    page = task(solution(sheet), sheet)[0]
+    return drawing, sheet, page, printed(page)
+
+
+def judged(folder: Path, seed: int, slips: dict[int, Slip] | None = None, *, phone: bool = False) -> Judgement:
+    """A drawing on the handout, before a scanner or a phone, and what is said of it."""
+    drawing, sheet, page, paper = handout()
+    ways = frames(drawing, sheet)
+    drawn = draw(drawing, ways, Pencil(), seed, slips)
+    picture = (photo if phone else scan)(paper, strokes(drawn, sheet, seed), seed)
+    path = folder / ("photo.jpg" if phone else "scan.png")
+    cv2.imwrite(str(path), picture.image)
+    handed = read(path, list(sheet.views), ways, lambda: page, code(sheet))
+    return judge(drawing, sheet, handed, Pencil())
+
+
+@pytest.mark.parametrize("phone", [False, True])
+def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) -> None:
+    """No step is wrong, and most of what can be seen is found."""
+    found = judged(tmp_path, 39, phone=phone)
+    states = [verdict.state for verdict in found.verdicts]
+    assert found.first is None
+    assert states.count(RIGHT) > len(states) / 3
+    assert states.count(MISSING) <= 2
+    lines = [trace.spots for trace in found.spare if trace.kind == LINE]
+    assert all(math.dist(*spots[:2]) < 20 for spots in lines)  # what is drawn over print is not spare
+
+
+def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:
+    """A perpendicular to the wrong side of the link is named, with the line that was taken for it."""
+    drawing, *_ = handout()
+    beta = next(step.index for step in drawing.drawn.steps if step.name == "beta")
+    slip = next(slip for slip in slipped(drawing, beta) if slip.told == "perpendicular to AB instead of BC")
+    found = judged(tmp_path, 32, {beta: slip})
+    assert found.guilty == beta
+    assert found.first
+    assert str(found.first.mistake) == "perpendicular to AB instead of BC"
+    assert found.first.off > 3 * found.first.tolerance

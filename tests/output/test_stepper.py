@@ -1,0 +1,286 @@
+"""The stepper: one whole page that needs no network; in a browser, steps, marks, keys and the turn of the drive."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import math
+import re
+import shutil
+from collections import Counter
+from collections.abc import Iterator
+from functools import cache
+from html import unescape
+from html.parser import HTMLParser
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import graphplan as gp
+from graphplan.cycle import follow
+from graphplan.output.stepper import stepper
+from graphplan.sheet.cycle_frames import Round, standing, turning
+from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.lettering.lettering import sentence_runs
+
+POSES = 12
+VOID = {"meta", "br", "hr", "input", "link", "img"}
+
+
+@cache
+def round_of(name: str) -> Round:
+    """A scene in twelve poses of its cycle."""
+    drawing = gp.construct(gp.load(name))
+    turn = follow(drawing.scene, POSES)
+    return turning(drawing, compose(drawing), [math.degrees(angle) for angle in turn.travel], turn.points, turn.guides)
+
+
+@cache
+def page_of(name: str) -> str:
+    return stepper(round_of(name))
+
+
+class Reader(HTMLParser):
+    """Reads a page: whether its elements are balanced, their attributes, and the text of scripts by id."""
+
+    def __init__(self, page: str):
+        super().__init__()
+        self.open: list[str] = []
+        self.elements: list[tuple[str, dict[str, str | None]]] = []
+        self.scripts: dict[str, str] = {}
+        self.feed(page)
+        self.close()
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+        if tag not in VOID:
+            self.open.append(tag)
+
+    def handle_startendtag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.elements.append((tag, dict(attrs)))
+
+    def handle_endtag(self, tag: str) -> None:
+        assert self.open.pop() == tag
+
+    def handle_data(self, data: str) -> None:
+        if self.open and self.open[-1] == "script":
+            self.scripts[self.elements[-1][1].get("id") or ""] = data
+
+
+def unpacked(page: str) -> Any:
+    """The other poses of a page."""
+    return json.loads(gzip.decompress(base64.b64decode(Reader(page).scripts["poses"])))
+
+
+def test_the_page_is_whole_and_well_formed() -> None:
+    """Elements are closed in order, no id is given twice, and no place of the template is left unfilled."""
+    reader = Reader(page_of("slotted-link"))
+    assert reader.open == []
+    ids = Counter(look["id"] for _, look in reader.elements if "id" in look)
+    assert max(ids.values()) == 1
+    assert "{{" not in page_of("slotted-link")
+
+
+def test_the_page_needs_no_network() -> None:
+    """Nothing is referred to but what is in the page; of the network's addresses there is none but that of SVG."""
+    page = page_of("slotted-link")
+    assert set(re.findall(r"https?://[\w./]+", page)) <= {"http://www.w3.org/2000/svg"}
+    looks = [look for _, look in Reader(page).elements]
+    assert not [look for look in looks if {"src", "href", "xlink:href", "srcset"} & set(look)]
+    assert set(re.findall(r"url\((.)", page)) <= {"#"}
+
+
+def test_every_step_is_there_with_its_group_its_sentence_and_what_it_reads() -> None:
+    """The list, the picture and the data have all steps of the construction."""
+    found, page = round_of("slotted-link"), page_of("slotted-link")
+    drawn, reader = found.drawing.drawn, Reader(page)
+    data = json.loads(reader.scripts["data"])
+    assert [step["reads"] for step in data["steps"]] == [list(step.args) for step in drawn.steps]
+    assert [tag for tag, _ in reader.elements].count("li") == len(drawn) - drawn.givens
+    groups = {int(look["data-step"] or -1) for tag, look in reader.elements if look.get("class") == "words"}
+    assert groups == set(range(drawn.givens, len(drawn)))
+    names = tuple(step.name for step in drawn.steps if step.name)
+    for step in drawn.steps[drawn.givens:]:
+        told = "".join(run.text for run in sentence_runs(drawn.told(step.index), names))
+        assert unescape(re.sub("</?sub>", "", data["steps"][step.index]["told"])) == told
+
+
+def test_other_poses_have_the_groups_of_the_given_one() -> None:
+    """Each varied group has its inside for every pose, the first as it stands on the page; its lines are elsewhere."""
+    page, found = page_of("slotted-link"), round_of("slotted-link")
+    poses = unpacked(page)
+    shown = {look["data-key"] for _, look in Reader(page).elements if "data-key" in look}
+    assert set(poses["groups"]) <= shown
+    assert {len(insides) for insides in poses["groups"].values()} == {len(found.stills)}
+    assert {"links", "pairs", "results"} <= set(poses["groups"])
+    assert "paper" not in poses["groups"]
+    assert len(poses["spots"]) == len(found.stills)
+
+
+def test_the_scene_is_in_the_page_once() -> None:
+    """The scene as it was written stands in a script of its own; text that would end the script is escaped."""
+    page, scene = page_of("slotted-link"), gp.load("slotted-link")
+    assert Reader(page).scripts["scene"] == scene.text
+    assert page.count(scene.text) == 1
+    text = scene.text.replace('"Swinging', '"</script><!--', 1)
+    drawing = gp.construct(gp.parse(text, "scene"))
+    reader = Reader(stepper(standing(drawing, compose(drawing))))
+    assert gp.parse(reader.scripts["scene"], "scene").title.startswith("</script><!--")
+
+
+def test_without_a_turn_the_page_says_why() -> None:
+    """An open chain has no slider, and a line that says why; nothing is packed."""
+    drawing = gp.construct(gp.load("open-chain"))
+    reader = Reader(stepper(standing(drawing, compose(drawing), "nothing drives it")))
+    assert ("div", {"class": "slider", "hidden": None}) in reader.elements
+    assert reader.scripts.get("poses", "") == ""
+    assert "nothing drives it" in stepper(standing(drawing, compose(drawing), "nothing drives it"))
+
+
+def test_it_is_the_same_every_time() -> None:
+    """The same scene is the same bytes."""
+    round_of.cache_clear()
+    assert stepper(round_of("four-bar")) == page_of("four-bar")
+
+
+# ---- in a browser ------------------------------------------------------------------------------------------------
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A browser without a window."""
+    api = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium is installed")
+    with api.sync_playwright() as play:
+        running = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+@pytest.fixture
+def page(browser: Any, tmp_path: Path) -> Iterator[Any]:
+    """The page of a slider-crank, opened; it may say nothing on the console and ask nothing of the network."""
+    file = tmp_path / "steps.html"
+    file.write_text(page_of("slider-crank"), encoding="utf-8")
+    found = browser.new_page(viewport={"width": 1280, "height": 800}, reduced_motion="reduce")
+    complaints: list[str] = []
+    found.on("console", lambda message: complaints.append(message.text))
+    found.on("pageerror", lambda error: complaints.append(str(error)))
+    found.on("request", lambda request: None if request.url == file.as_uri() else complaints.append(request.url))
+    found.goto(file.as_uri())
+    found.wait_for_selector("#turn:enabled")
+    yield found
+    found.close()
+    assert complaints == []
+
+
+def shown_steps(page: Any) -> set[int]:
+    """The steps whose groups can be seen."""
+    return set(page.eval_on_selector_all("g.step", "all => all.filter(g => getComputedStyle(g).display != 'none')"
+                                                   ".map(g => Number(g.dataset.step))"))
+
+
+def test_keys_go_through_the_steps(page: Any) -> None:
+    """Arrows, Home and End move; the live region says the step, the list marks it, later steps are hidden."""
+    drawn = round_of("slider-crank").drawing.drawn
+    assert {step for step in shown_steps(page) if step >= drawn.givens} == set()
+    for key, place in (("ArrowRight", 1), ("ArrowDown", 2), ("ArrowLeft", 1), ("End", len(drawn) - drawn.givens)):
+        page.keyboard.press(key)
+        last = place - 1 + drawn.givens
+        told = page.inner_text("#sentence")
+        assert told.startswith(f"Step {place}/")
+        assert page.get_attribute("#sentence", "aria-live") == "polite"
+        assert max(shown_steps(page)) <= last
+        current = page.eval_on_selector_all("li button", "all => all.map(one => one.getAttribute('aria-current'))")
+        assert [i for i, marked in enumerate(current, 1) if marked == "step"] == [place]
+        assert page.input_value("#place") == str(place)
+    page.keyboard.press("Home")
+    assert page.query_selector("[aria-current]") is None
+
+
+def test_marks_that_a_step_reads_and_makes_are_told_apart(page: Any) -> None:
+    """A crossing lights up the two lines it reads and the point it makes: by colour, width, dashes and words."""
+    drawn = round_of("slider-crank").drawing.drawn
+    step = next(step for step in drawn.steps if step.op.name == "meet")
+    page.click(f"li:nth-of-type({drawn.number(step.index)}) button")
+    assert page.eval_on_selector_all("g.step.read", "all => all.map(g => Number(g.dataset.step))") == sorted(step.args)
+    assert page.eval_on_selector_all("g.step.made", "all => all.map(g => Number(g.dataset.step))") == [step.index]
+    looks = [page.eval_on_selector(f"#halos .{role} > *", "g => [getComputedStyle(g).stroke, "
+                                   "getComputedStyle(g).strokeWidth, getComputedStyle(g).strokeDasharray]")
+             for role in ("read", "made")]
+    assert all(one != other for one, other in zip(*looks, strict=True))
+    assert page.inner_text("#makes b") == drawn.text(step.index).replace("_", "")
+    assert page.inner_text("#reads b").split(", ") == [drawn.text(arg) for arg in step.args]
+
+
+def test_the_turn_changes_the_drawing_and_keeps_the_step(page: Any) -> None:
+    """The slider of the drive redraws links and steps; the step stays, and back at 0° all is as it was."""
+    page.keyboard.press("End")
+    for _ in range(3):
+        page.keyboard.press("ArrowLeft")
+    step, before = page.input_value("#place"), page.inner_html("#picture")
+    seen = shown_steps(page)
+    page.focus("#turn")
+    page.keyboard.press("ArrowRight")
+    assert page.inner_text("#travel") == "30°"
+    assert page.get_attribute("#turn", "aria-valuetext") == "30°"
+    assert page.input_value("#place") == step
+    assert shown_steps(page) == seen
+    there = page.inner_html("#picture")
+    assert there != before
+    page.keyboard.press("Home")
+    assert page.inner_text("#travel") == "0°"
+    assert page.inner_html("#picture") == before
+
+
+def test_zoom_follows_the_plan_of_the_step(page: Any) -> None:
+    """Zoomed, the window is the panel of the current step's plan, and the whole sheet again when let go."""
+    found = round_of("slider-crank")
+    sheet, planes = found.stills[0].sheet, found.composition.planes
+    whole = page.get_attribute("#picture", "viewBox")
+    page.click("#zoom")
+    for place in (1, len(found.drawing.drawn) - found.drawing.drawn.givens):
+        page.click(f"li:nth-of-type({place}) button")
+        rect = sheet.panels[planes.homes[place - 1 + found.drawing.drawn.givens]]
+        box = [float(part) for part in page.get_attribute("#picture", "viewBox").split()]
+        assert box == pytest.approx([rect.left, sheet.height - rect.top, rect.width, rect.height], abs=0.01)
+    assert page.get_attribute("#zoom", "aria-pressed") == "true"
+    page.click("#zoom")
+    assert page.get_attribute("#picture", "viewBox") == whole
+
+
+def test_play_runs_and_space_stops_it(page: Any) -> None:
+    """Space plays, and space again rests; at the end it rests by itself."""
+    page.keyboard.press("End")
+    page.keyboard.press("ArrowLeft")
+    page.keyboard.press(" ")
+    assert page.inner_text("#play") == "Pause"
+    page.keyboard.press(" ")
+    assert page.inner_text("#play") == "Play"
+    page.keyboard.press(" ")
+    page.wait_for_function("document.getElementById('next').disabled")
+    assert page.inner_text("#play") == "Play"
+
+
+def test_a_phone_shows_it_without_sideways_scrolling(page: Any) -> None:
+    """At 400 pixels nothing is wider than the screen, and every control is on it."""
+    page.set_viewport_size({"width": 400, "height": 800})
+    assert page.evaluate("document.documentElement.scrollWidth") <= 400
+    for box in (control.bounding_box() for control in page.query_selector_all("#controls button, #controls input")):
+        assert box["x"] >= 0
+        assert box["x"] + box["width"] <= 400
+
+
+def test_printed_it_is_the_solution(page: Any) -> None:
+    """In print every step is there, nothing is lit up, and the controls are gone."""
+    page.keyboard.press("ArrowRight")
+    page.emulate_media(media="print")
+    groups = set(page.eval_on_selector_all("g.step", "all => all.map(g => Number(g.dataset.step))"))
+    assert shown_steps(page) == groups
+    for part in ("nav", "#controls", "#told", "#halos"):
+        assert page.eval_on_selector(part, "part => getComputedStyle(part).display") == "none"

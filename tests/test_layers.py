@@ -135,7 +135,8 @@ def test_a_command_loads_no_more_than_it_needs() -> None:
     code = ("import sys, graphplan; print([m for m in sys.modules if m.startswith('graphplan.')], file=sys.stderr); "
             "from graphplan.commands import SUBCOMMANDS, main; assert main(['solve', 'four-bar']) == 0; "
             "others = {f'graphplan.commands.{name}' for name in SUBCOMMANDS} - {'graphplan.commands.solve'}; "
-            "unused = [m for m in sys.modules if m in others or m.startswith(('graphplan.sheet', 'graphplan.output'))]; "
+            "unused = [m for m in sys.modules"
+            " if m in others or m.startswith(('graphplan.sheet', 'graphplan.output'))]; "
             "print(unused, file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.split() == ["[]", "[]"], done.stderr

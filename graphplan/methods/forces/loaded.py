@@ -21,7 +21,6 @@ from graphplan.mechanism.units import metre
 from graphplan.methods.construct import Draughtsman
 from graphplan.methods.construction import Construction
 from graphplan.methods.forces.friction import SHORT, Rubbed
-from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.groups import (
     Freed,
     Plans,
@@ -33,6 +32,7 @@ from graphplan.methods.forces.groups import (
     results,
     with_friction,
 )
+from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.reactions import Forces, Shown
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.motion.acceleration import Normal

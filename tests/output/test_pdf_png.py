@@ -112,8 +112,8 @@ def test_the_bytes_are_the_same_every_time(tmp_path: Path) -> None:
     settings = tmp_path / "matplotlibrc"
     settings.write_text("savefig.bbox: tight\nsavefig.facecolor: red\npdf.fonttype: 3\npdf.compression: 0\n")
     code = ("import sys, graphplan as gp; from graphplan.sheet.layout.layout import layout; "
-            "from graphplan.output import ink; sheet = layout(gp.construct(gp.load('four-bar'))); "
-            "sys.stdout.buffer.write(ink.pdf([sheet]) + ink.png(sheet))")
+            "from graphplan.output import pdf_png; sheet = layout(gp.construct(gp.load('four-bar'))); "
+            "sys.stdout.buffer.write(pdf_png.pdf([sheet]) + pdf_png.png(sheet))")
     env = {"PYTHONHASHSEED": "7", "PYTHONPATH": ":".join(sys.path), "MATPLOTLIBRC": str(settings)}
     run = subprocess.run([sys.executable, "-c", code], env=env, capture_output=True, check=True)
     sheet = sheet_of("four-bar")

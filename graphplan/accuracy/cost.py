@@ -12,7 +12,7 @@ from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
 
 def _off_sheet(drawing: Construction, composition: Composition) -> tuple[int, ...]:
     """The steps whose points lie outside the paper of their plans."""
-    planes = Planes(drawing)
-    off = [index for panel, view in composition.views.items() for index in planes.points(panel)
-           if not view.rect.holds(view(planes.spot(index)))]
+    plans = Plans(drawing)
+    off = [index for panel, view in composition.views.items() for index in plans.points(panel)
+           if not view.rect.holds(view(plans.spot(index)))]
     return tuple(drawing.drawn.number(index) for index in sorted(off))

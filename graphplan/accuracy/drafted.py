@@ -121,7 +121,7 @@ class Drafted:
         return {"kind": worst.kind, "of": worst.of, "relative": worst.relative, "shares": shares}
 
     def _step(self, index: int) -> dict[str, Any]:
-        drawn, say = self.drawing.drawn, self.composition.planes.tongue
+        drawn, say = self.drawing.drawn, self.composition.plans.tongue
         number = drawn.number(index) if index >= drawn.givens else 0
         return {"number": number, "makes": say(drawn.text(index)), "sentence": say(drawn.sentence(index))}
 

@@ -24,7 +24,7 @@ from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.results import Reading, kind_named, thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.deviations import Deviation
 
 ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
@@ -78,14 +78,14 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     def variance(parts: Sequence[Any]) -> Any:
         return np.sum([domain.partials(part) ** 2 for part in parts], axis=0)
 
-    homes, largest = Planes(drawing).homes, largest_values(drawing, hand.values)
+    plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
     found = []
     for reading, _, value in readings(drawing, hand.draw(domain, errors), domain):
         if not reading.marks:
             continue  # it is given, not drawn
         squares = variance(value if isinstance(value, tuple) else (value,))
         wanted = [drawing.drawn.wanted[position] for position in reading.marks]
-        of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, homes[wanted[-1]])
+        of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
         deviation = Deviation(_root(squares), _root(squares) / of_mm if of_mm else None)
         shares = np.bincount(owner, squares, len(hand.slips))
         found.append(Result(reading.kind, reading.of, deviation, _beside(drawing.scene, reading.kind, deviation.value,

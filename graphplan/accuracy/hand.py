@@ -27,7 +27,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 Slips = tuple[float, ...]
 Errors = Callable[[int], Sequence[Any]]  # the errors of a step, in a number domain
@@ -98,8 +98,8 @@ def hand(drawing: Construction, scales: Scales, pencil: Pencil) -> Hand:
 
 def hand_at(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
     """The hand that draws a construction with this pencil; `unit` is the length of a millimetre on a plan, by name."""
-    homes = Planes(drawing).homes
-    slips = [_slips(drawing, step, unit(homes[step.index]), pencil) for step in drawing.drawn.steps]
+    plan_of_step = Plans(drawing).plan_of_step
+    slips = [_slips(drawing, step, unit(plan_of_step[step.index]), pencil) for step in drawing.drawn.steps]
     return Hand(drawing.drawn, drawing.values, slips)
 
 

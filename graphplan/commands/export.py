@@ -139,7 +139,7 @@ def _data(data: Mapping[str, Any]) -> str:
 def _figure(on_sheet: Drafted) -> Any:
     from graphplan.output.exports.figure import figure
 
-    return figure(on_sheet.drawing, on_sheet.composition, on_sheet.composition.planes.tongue)
+    return figure(on_sheet.drawing, on_sheet.composition, on_sheet.composition.plans.tongue)
 
 
 def _sheet(on_sheet: Drafted) -> Any:
@@ -157,7 +157,7 @@ def _steps(on_sheet: Drafted) -> Any:
     from graphplan.mechanism.structure import structure
     from graphplan.output.text import steps
 
-    drawing, say = on_sheet.drawing, on_sheet.composition.planes.tongue
+    drawing, say = on_sheet.drawing, on_sheet.composition.plans.tongue
     return steps(drawing, structure(drawing.scene).lines(), say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
 
 

@@ -119,7 +119,7 @@ class Desk:
 
     def said(self, lines: Iterator[Said]) -> str:
         """Lines in the language of the sheet."""
-        return "".join(f"{self.composition.planes.tongue(line)}\n" for line in lines)
+        return "".join(f"{self.composition.plans.tongue(line)}\n" for line in lines)
 
 
 def printable(name: str) -> str:
@@ -270,4 +270,4 @@ def _class_report(desk: Desk, found: Classroom, ending: str) -> str:
         return _data(found)
     from graphplan.output.class_report import class_list
 
-    return class_list(found, desk.composition.planes.tongue)
+    return class_list(found, desk.composition.plans.tongue)

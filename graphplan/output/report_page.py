@@ -89,7 +89,7 @@ class _Report:
 
     @cached_property
     def tongue(self) -> Tongue:
-        return self.judgement.composition.planes.tongue
+        return self.judgement.composition.plans.tongue
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -142,12 +142,12 @@ class _Report:
                          [self.say(head) for head in heads], rows)
 
     def _step(self, verdict: Verdict) -> tuple[Cell, ...]:
-        drawn, planes = self.judgement.drawing.drawn, self.judgement.composition.planes
+        drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
         seen = measured(self.judgement, verdict)
         sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
             Cell(self.set(called(drawn, verdict.step).short), FIGURE),
-            Cell(self.say(spoken(planes.homes[verdict.step]))),
+            Cell(self.say(spoken(plans.plan_of_step[verdict.step]))),
             Cell(self.set(drawn.sentence(verdict.step))),
             Cell(self.say(STATES[verdict.state]()), STATE),
             *(Cell(size, FIGURE) for size in sizes),

@@ -63,7 +63,7 @@ def _parts(found: Round) -> dict[str, str]:
 
 
 def _say(found: Round, text: str) -> str:
-    return found.composition.planes.tongue(text)
+    return found.composition.plans.tongue(text)
 
 
 def _set(found: Round, text: str) -> str:
@@ -96,11 +96,11 @@ def _entries(found: Round) -> Iterator[str]:
 
 def _data(found: Round) -> dict[str, Any]:
     """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
-    drawn, planes, sheet = found.drawing.drawn, found.composition.planes, found.stills[0].sheet
+    drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.stills[0].sheet
     panels = list(sheet.panels)
     steps = [{
         "name": _set(found, drawn.text(step.index)), "told": _set(found, drawn.told(step.index)),
-        "plan": panels.index(planes.homes[step.index]), "reads": list(step.args),
+        "plan": panels.index(plans.plan_of_step[step.index]), "reads": list(step.args),
         "span": list(step.args) if step.op.name in SPANNED else [],
     } for step in drawn.steps]  # fmt: skip
     return {
@@ -148,7 +148,7 @@ def _inside(group: Element) -> str:
 
 def _picture(found: Round, groups: list[Groups]) -> str:
     """The sheet of the given pose, with a group for whatever is drawn in any pose."""
-    sheet, planes = found.stills[0].sheet, found.composition.planes
+    sheet, plans = found.stills[0].sheet, found.composition.plans
     panels, size = list(sheet.panels), f"0 0 {sheet.width:g} {sheet.height:g}"
     root = Element("svg", {"id": "picture", "viewBox": size, "role": "img", "aria-label": sheet.title})
     SubElement(root, "desc").text = sheet.description
@@ -161,7 +161,7 @@ def _picture(found: Round, groups: list[Groups]) -> str:
     drawn = {key for pose in groups for key in pose}
     for key in sorted(drawn, key=_place):
         root.append(_group(key, groups[0].get(key, ""), sheet.sentences,
-                           panels.index(planes.homes[int(key)]) if key.isdigit() else 0))
+                           panels.index(plans.plan_of_step[int(key)]) if key.isdigit() else 0))
     return tostring(root, encoding="unicode")
 
 

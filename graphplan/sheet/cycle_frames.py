@@ -24,7 +24,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
-from graphplan.sheet.plates.plans import Planes, around, grown
+from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.texts import Words
@@ -173,22 +173,22 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
             lost[-1].append(k)
         else:
             lost.append([k])
-    base = _roomy(composition, [Planes(found) for found in poses.values()])
+    base = _roomy(composition, [Plans(found) for found in poses.values()])
     stills = (_still(travel, _composed(base, found)) for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
     return Round(drawing, base, (_still(0.0, base), *stills), ends)
 
 
-def _roomy(composition: Composition, poses: Sequence[Planes]) -> Composition:
+def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
     """The composition with its windows slid so that they hold the mechanism and the vectors of as many poses as can be.
     """
     views = dict(composition.views)
     for panel, window in views.items():
-        boxes = sorted((planes.figure(panel).core for planes in poses), key=_extent)
+        boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
-            links = (around([planes.place(name) for name in planes.drawing.scene.points]) for planes in poses)
+            links = (around([plans.place(name) for name in plans.drawing.scene.points]) for plans in poses)
             boxes = [*sorted(links, key=_extent), *boxes]
-        views[panel] = slid(window, _gathered([composition.figures[panel].core, *boxes], window))
+        views[panel] = slid(window, _gathered([composition.extents[panel].core, *boxes], window))
     return replace(composition, views=views)
 
 
@@ -208,18 +208,18 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
 
 def _still(travel: float, composition: Composition) -> Still:
     """A composed construction on its sheet."""
-    planes, views = composition.planes, composition.views
-    steps = planes.drawing.drawn.steps
-    spots = {step.index: views[home](planes.spot(step.index)) for step, home in zip(steps, planes.homes, strict=True)
+    plans, views = composition.plans, composition.views
+    steps = plans.drawing.drawn.steps
+    spots = {step.index: views[plans.plan_of_step[step.index]](plans.spot(step.index)) for step in steps
              if step.op.gives == POINT}
-    return Still(travel, layout(planes.drawing, composition=composition), spots)
+    return Still(travel, layout(plans.drawing, composition=composition), spots)
 
 
 def _composed(base: Composition, drawing: Posed) -> Composition:
     """The same composition of another pose; its words tell the results of that pose."""
-    planes = Planes(drawing, base.planes.tongue)
-    rows = Words(planes).rows(base.arrangement.columns[0].width, Deviations())
-    return replace(base, planes=planes, arrangement=replace(base.arrangement, rows=tuple(rows)))
+    plans = Plans(drawing, base.plans.tongue)
+    rows = Words(plans).rows(base.arrangement.columns[0].width, Deviations())
+    return replace(base, plans=plans, arrangement=replace(base.arrangement, rows=tuple(rows)))
 
 
 def slid(view: View, box: Rect) -> View:

@@ -33,14 +33,14 @@ FREE = 4.0  # mm about a beginning without crosses
 def solution(composition: Composition) -> Sheet:
     """The solved sheet of a handout: every mark with the number of its step."""
     composition = with_numbers(composition)
-    return layout(composition.planes.drawing, composition=composition, document=SOLUTION)
+    return layout(composition.plans.drawing, composition=composition, document=SOLUTION)
 
 
 def code(composition: Composition) -> int:
     """What tells a handout's sheet from any other: its scene, and where its plans lie."""
-    plans = (f"{panel}: {view.scale:.6g} mm, {view.origin[0]:.2f} {view.origin[1]:.2f}"
+    windows = (f"{panel}: {view.scale:.6g} mm, {view.origin[0]:.2f} {view.origin[1]:.2f}"
              for panel, view in composition.views.items())
-    return sheet_code("\n".join((composition.planes.drawing.scene.text, composition.arrangement.paper, *plans)))
+    return sheet_code("\n".join((composition.plans.drawing.scene.text, composition.arrangement.paper, *windows)))
 
 
 def task(solved: Sheet, composition: Composition) -> list[Sheet]:
@@ -56,16 +56,16 @@ def guided(solved: Sheet, composition: Composition) -> list[Sheet]:
 def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The sheet with its plans, and the pages of words that do not fit beside them."""
     arrangement = composition.arrangement
-    words = Task(composition.planes).lines(arrangement.columns[0].width, document == GUIDED)
+    words = Task(composition.plans).lines(arrangement.columns[0].width, document == GUIDED)
     apart = (*arrangement.columns, arrangement.title)
     bare = [item for item in solved.items if item.step is None and not _within(item, apart)]
-    plans = [item for panel in composition.views for item in _plan(composition, panel, bare)]
+    begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not _within(item, arrangement.panels.values())]
     pages = packed(words, arrangement)
     marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
     for number, page in enumerate(pages, 1):
         block = titled(composition, document, number, len(pages))
-        items = [*(bare + plans + marks if number == 1 else empty), *block, *written(page)]
+        items = [*(bare + begun + marks if number == 1 else empty), *block, *written(page)]
         yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
 
 
@@ -91,10 +91,10 @@ def _spots(item: Item) -> tuple[Spot, ...]:
 def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterator[Item]:
     """What a plan has before its first step: where it begins, and crosses to measure by unless the mechanism is there.
     """
-    planes, window = composition.planes, composition.views[panel]
-    begins = [step for step in planes.drawing.drawn.steps
-              if step.op.name == "begin" and planes.homes[step.index] == panel]
-    spots = [window(planes.spot(step.index)) for step in begins]
+    plans, window = composition.plans, composition.views[panel]
+    begins = [step for step in plans.drawing.drawn.steps
+              if step.op.name == "begin" and plans.plan_of_step[step.index] == panel]
+    spots = [window(plans.spot(step.index)) for step in begins]
     dots = [Circle(ORIGIN, "construction", step.index, spot, 0.5) for step, spot in zip(begins, spots, strict=True)]
     wishes = [Wish(listed([step.name]), (spot,), step=step.index, label=step.name)
               for step, spot in zip(begins, spots, strict=True) if step.name]

@@ -24,7 +24,7 @@ from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
 from graphplan.sheet.plates.picture import picture
-from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.plans import Drawing, Plans
 from graphplan.sheet.plates.selection import inked
 from graphplan.sheet.plates.view import View, least, plan_scale, view
 from graphplan.sheet.words.rows import LEADING, Cell, Row, lettered
@@ -47,20 +47,20 @@ def strip(drawing: Drawing, paper: str | None = None, *, single: bool = False,
     """
     wished = drawing.scene.sheet
     say = tongue or tongue_of(wished.language or "en")
-    return Strip(Planes(drawing, say, numbered=True), single).sheets(paper or wished.paper or "A3")
+    return Strip(Plans(drawing, say, numbered=True), single).sheets(paper or wished.paper or "A3")
 
 
 @dataclass(frozen=True)
 class Strip:
     """The pictures of one construction."""
 
-    planes: Planes
+    plans: Plans
     single: bool
 
     @cached_property
     def groups(self) -> list[Group]:
         """The steps of each picture: on one plan, up to the next lettered mark, if it is not too far."""
-        drawn, groups, group = self.planes.drawing.drawn, list[Group](), list[Step]()
+        drawn, groups, group = self.plans.drawing.drawn, list[Group](), list[Step]()
         for step in drawn.steps[drawn.givens :]:
             if group and self._home(step) != self._home(group[-1]):
                 groups.append(tuple(group))
@@ -72,26 +72,26 @@ class Strip:
         return [*groups, tuple(group)] if group else groups
 
     def _home(self, step: Step) -> str:
-        return self.planes.homes[step.index]
+        return self.plans.plan_of_step[step.index]
 
     @cached_property
-    def plans(self) -> dict[str, Plan]:
+    def pictured(self) -> dict[str, Plan]:
         """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
         for wide in WIDTHS:
             frame = Rect(0.0, 0.0, wide, ASPECT * wide)
-            plans = {panel: self._plan(panel, frame) for panel in self.planes.panels}
-            if not any(plan.crowded for plan in plans.values()):
+            found = {panel: self._plan(panel, frame) for panel in self.plans.panels}
+            if not any(plan.crowded for plan in found.values()):
                 break
-        return plans
+        return found
 
     def _plan(self, panel: str, frame: Rect) -> Plan:
-        _, box = plan_scale(self.planes.figure(panel), inside(frame))
+        _, box = plan_scale(self.plans.extent(panel), inside(frame))
         window = view(box, frame, least(box, inside(frame)) or 1.0)
-        return Plan(window, tuple(stacked(picture(self.planes, panel, window))))
+        return Plan(window, tuple(stacked(picture(self.plans, panel, window))))
 
     def sheets(self, paper: str) -> list[Sheet]:
         """The strip on sheets of this paper."""
-        scene, say = self.planes.drawing.scene, self.planes.tongue
+        scene, say = self.plans.drawing.scene, self.plans.tongue
         style = frame_of(scene)
         paper = style.paper(paper)
         wide, high = sheet_size(paper)
@@ -107,7 +107,7 @@ class Strip:
         return sheets
 
     def _sheet(self, wide: float, high: float, frame: Rect, items: tuple[Item, ...]) -> Sheet:
-        drawing, say = self.planes.drawing, self.planes.tongue
+        drawing, say = self.plans.drawing, self.plans.tongue
         steps, scene = len(drawing.drawn) - drawing.drawn.givens, drawing.scene
         told = said("Film strip of a graphical construction: {0} steps in {1} pictures.", steps, len(self.groups))
         return Sheet(wide, high, frame, {}, items, scene.title, say(told), tuple(map(say, drawing.sentences())),
@@ -116,7 +116,7 @@ class Strip:
     @cached_property
     def size(self) -> tuple[float, float]:
         """Width and height of all pictures."""
-        rect = next(iter(self.plans.values())).window.rect
+        rect = next(iter(self.pictured.values())).window.rect
         return rect.width, rect.height
 
     def _pages(self, frame: Rect, block: Rect) -> Iterator[list[tuple[int, Spot]]]:
@@ -147,9 +147,9 @@ class Strip:
         first, last = group[0].index, group[-1].index
         x, y = corner[0], corner[1] - CAPTION
         head = arranged("{0}. {1:capital}", place + 1, spoken(self._home(group[-1])))
-        yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.planes.tongue(head)), SIZE, bold=True)
+        yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.plans.tongue(head)), SIZE, bold=True)
         yield Polygon(pens.BORDER, "paper", None, Rect(x, y - high, x + wide, y).corners)
-        for item in self.plans[self._home(group[-1])].items:
+        for item in self.pictured[self._home(group[-1])].items:
             if item.step is None or item.step <= last:
                 yield moved(inked(item, first), x, y - high)
         level = y - high - 1.2
@@ -159,16 +159,16 @@ class Strip:
 
     def _lines(self, group: Group) -> list[Row]:
         """The steps of a picture in words."""
-        drawn, rows = self.planes.drawing.drawn, list[Row]()
+        drawn, rows = self.plans.drawing.drawn, list[Row]()
         names = tuple(step.name for step in drawn.steps if step.name)
         for step in group:
-            told = sentence_runs(self.planes.tongue(drawn.sentence(step.index)), names)
+            told = sentence_runs(self.plans.tongue(drawn.sentence(step.index)), names)
             lines = wrap(told, SIZE, self.size[0] - INDENT)
             rows += [self._row(step, runs, i == 0) for i, runs in enumerate(lines)]
         return rows
 
     def _row(self, step: Step, runs: Runs, first: bool) -> Row:
-        number = sentence_runs(str(self.planes.drawing.drawn.number(step.index)))
+        number = sentence_runs(str(self.plans.drawing.drawn.number(step.index)))
         head = (Cell(INDENT - 1.6, number, "end"),) if first else ()
         return Row((*head, Cell(INDENT, runs)), step=step.index)
 

@@ -40,7 +40,7 @@ from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import code, solution, task
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 PENCIL, TRIES = Pencil(), 60
 LARGE, LEAST = 3.0, 0.4  # how many tolerances a mistake is large, and mm of a tolerance at least
@@ -163,12 +163,12 @@ def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, 
 
 def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
     """How far off, in mm, the marks of a drawing were seen, those that were: of strokes the farthest spot."""
-    homes = Planes(drawn.drawing).homes
+    plan_of_step = Plans(drawn.drawing).plan_of_step
     for verdict in found.verdicts:
         value, trace, step = drawn.values[verdict.step], verdict.trace, drawn.drawing.drawn.steps[verdict.step]
         if trace is None or value is None or step.op.name in ("given", "begin", "pick"):
             continue
-        frame = found.frames[homes[verdict.step]]
+        frame = found.frames[plan_of_step[verdict.step]]
         spots = [frame.back(complex(*spot)) for spot in trace.spots]
         yield apart_by(trace.kind, [float(part) for part in value], spots) * abs(frame.unit)
 

@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 import graphplan as gp
 from graphplan.commands import main, result_schemas
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 SCALE = 0.4  # mm of the student's sheet for a unit of the scene
 LAST = 39  # the last step of the four-bar's construction, where lines 37 and 38 meet
@@ -25,13 +25,13 @@ LAST = 39  # the last step of the four-bar's construction, where lines 37 and 38
 def points(off: float = 0.0) -> str:
     """The measured points of a four-bar, the last one so many mm off."""
     drawing = gp.construct(gp.load("four-bar"))
-    planes, drawn = Planes(drawing), drawing.drawn
+    plans, drawn = Plans(drawing), drawing.drawn
     rows = ["mark,x,y,panel"]
     for step in drawn.steps:
         if step.op.gives == POINT:
-            x, y = (SCALE * part for part in planes.spot(step.index))
+            x, y = (SCALE * part for part in plans.spot(step.index))
             x += off if drawn.number(step.index) == LAST else 0.0
-            rows.append(f"{step.name or drawn.number(step.index)},{x:.3f},{y:.3f},{planes.homes[step.index]}")
+            rows.append(f"{step.name or drawn.number(step.index)},{x:.3f},{y:.3f},{plans.plan_of_step[step.index]}")
     return "\n".join(rows) + "\n"
 
 

@@ -24,7 +24,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Polyline, Rect
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 
 @dataclass(frozen=True)
@@ -69,7 +69,7 @@ def draw(drawing: Construction, where: Mapping[str, Frame], pencil: Pencil, seed
 def slipped(drawing: Construction, index: int) -> list[Slip]:
     """The mistakes that can be made at a step: nobody marks where lines cross that are one, or never meet."""
     found = []
-    for slip in slips(drawing.drawn, drawing.drawn.steps[index], Planes(drawing).homes):
+    for slip in slips(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
         with suppress(Undrawable):
             slip.value(Floats(), drawing.values)
             found.append(slip)
@@ -84,23 +84,23 @@ def points(drawn: Drawn, name: str = "drawing.csv", digits: int | None = 2) -> H
 
 def traced(drawn: Drawn, digits: int | None = None) -> list[Trace]:
     """Every mark of the drawing on the sheet, labelled; lines and circles as long as what lies on them."""
-    program, homes = drawn.drawing.drawn, Planes(drawn.drawing).homes
+    program, plan_of_step = drawn.drawing.drawn, Plans(drawn.drawing).plan_of_step
     found = []
     for step, value in zip(program.steps, drawn.values, strict=True):
         if value is None or step.op.gives == OPENING:
             continue
-        frame = drawn.frames[homes[step.index]]
+        frame = drawn.frames[plan_of_step[step.index]]
         spots = [frame.onto(z) for z in _spots(drawn, step, value)]
         rounded = tuple((z.real, z.imag) if digits is None else (round(z.real, digits), round(z.imag, digits))
                         for z in spots)
         label = step.name or str(program.number(step.index))
-        found.append(Trace(step.op.gives, rounded, label, homes[step.index]))
+        found.append(Trace(step.op.gives, rounded, label, plan_of_step[step.index]))
     return found
 
 
 def _spots(drawn: Drawn, step: Step, value: Any) -> list[complex]:
     """Where a thing was drawn: a line between the outermost of its marks, and a little beyond."""
-    on = [complex(*drawn.values[mark][:2]) for mark in Planes(drawn.drawing).marks_on.get(step.index, ())
+    on = [complex(*drawn.values[mark][:2]) for mark in Plans(drawn.drawing).marks_on.get(step.index, ())
           if drawn.values[mark] is not None]
     if step.op.gives == POINT:
         return [complex(*value[:2])]
@@ -119,7 +119,7 @@ def _spots(drawn: Drawn, step: Step, value: Any) -> list[complex]:
 def wrong_by(drawn: Drawn, step: Step) -> float:
     """How far a step is from what its own marks ask for, in mm: of a line or an arc where it was drawn."""
     drawing, value = drawn.drawing, drawn.values[step.index]
-    frame = drawn.frames[Planes(drawing).homes[step.index]]
+    frame = drawn.frames[Plans(drawing).plan_of_step[step.index]]
     try:
         right = step.op.rule(Floats(), *[drawn.values[arg] for arg in step.args], **step.params)
     except Undrawable:
@@ -136,8 +136,8 @@ def wrong_by(drawn: Drawn, step: Step) -> float:
 
 def off_paper(drawn: Drawn) -> bool:
     """Whether a mark lies a quarter of a metre from where it should be: nobody's sheet is so large."""
-    homes, steps = Planes(drawn.drawing).homes, drawn.drawing.drawn.steps
-    return any(abs(complex(*value[:2]) - complex(*true[:2])) * abs(drawn.frames[homes[step.index]].unit) > 250
+    plan_of_step, steps = Plans(drawn.drawing).plan_of_step, drawn.drawing.drawn.steps
+    return any(abs(complex(*value[:2]) - complex(*true[:2])) * abs(drawn.frames[plan_of_step[step.index]].unit) > 250
                for step, value, true in zip(steps, drawn.values, drawn.drawing.values, strict=True)
                if value is not None and step.op.gives == POINT)
 
@@ -185,10 +185,10 @@ def _rim(spots: Sequence[tuple[float, float]]) -> tuple[tuple[float, float], ...
 
 def in_panel(drawn: Drawn, sheet: Composition) -> bool:
     """Whether every point lies where it is drawn on its plan's panel, or where it should be if that is off it too."""
-    homes = Planes(drawn.drawing).homes
+    plan_of_step = Plans(drawn.drawing).plan_of_step
     for step, value, true in zip(drawn.drawing.drawn.steps, drawn.values, drawn.drawing.values, strict=True):
         if step.op.gives == POINT and value is not None:
-            home = homes[step.index]
+            home = plan_of_step[step.index]
             rect, frame = _room(sheet, home), drawn.frames[home]
             spots = [frame.onto(complex(*spot[:2])) for spot in (value, true)]
             if rect.holds((spots[1].real, spots[1].imag)) and not rect.holds((spots[0].real, spots[0].imag)):

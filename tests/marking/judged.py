@@ -29,7 +29,7 @@ def judgement(name: str, wrong: Mapping[int, complex] | None = None, mistake: Sa
               file: str = "student.csv") -> Judgement:
     """A drawing of which some steps, by index, are so many mm off; what rests on them follows."""
     composition = composed(name)
-    drawing = composition.planes.drawing
+    drawing = composition.plans.drawing
     frames = {panel: Frame(complex(40, 30), view.scale * TURNED) for panel, view in composition.views.items()}
     made = Maker(drawing, composition, frames, wrong or {}, mistake, kind)
     return Judgement(file, drawing, composition, frames, tuple(made.verdicts()))
@@ -40,7 +40,7 @@ class Maker:
 
     def __init__(self, drawing: Construction, composition: Composition, frames: Mapping[str, Frame],
                  wrong: Mapping[int, complex], mistake: Said | None, kind: str):
-        self.drawing, self.planes, self.frames = drawing, composition.planes, frames
+        self.drawing, self.plans, self.frames = drawing, composition.plans, frames
         self.wrong, self.mistake, self.kind = wrong, mistake, kind
 
     def verdicts(self) -> Iterator[Verdict]:
@@ -60,8 +60,8 @@ class Maker:
 
     def trace(self, step: Step, value: tuple[float, ...], off: complex) -> Trace:
         """A true mark on the student's sheet, moved by so many mm."""
-        frame = self.frames[self.planes.homes[step.index]]
-        on = [complex(*self.planes.spot(mark)) for mark in self.planes.marks_on.get(step.index, ())]
+        frame = self.frames[self.plans.plan_of_step[step.index]]
+        on = [complex(*self.plans.spot(mark)) for mark in self.plans.marks_on.get(step.index, ())]
         found = [frame.onto(spot) + off for spot in spots(step, value, on)]
         label = self.drawing.drawn.text(step.index)
         return Trace(step.op.gives, tuple((spot.real, spot.imag) for spot in found), label)

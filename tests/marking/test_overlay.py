@@ -38,12 +38,12 @@ def wrong_step(found: Judgement, op: str, which: int = 0) -> int:
 def test_right_marks_lie_on_the_true_ones(name: str) -> None:
     """However the student's sheet lies, every point that is right is drawn where ours has it."""
     found = judgement(name)
-    student, planes = Student(found), found.composition.planes
+    student, plans = Student(found), found.composition.plans
     centres = {item.step: item.centre for item in student.items() if isinstance(item, Circle) and item.step is not None}
     assert centres
     for index, centre in centres.items():
-        window = found.composition.views[planes.homes[index]]
-        assert math.dist(centre, window(planes.spot(index))) < 1e-9
+        window = found.composition.views[plans.plan_of_step[index]]
+        assert math.dist(centre, window(plans.spot(index))) < 1e-9
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -52,8 +52,8 @@ def test_a_wrong_point_stands_where_it_was_drawn(name: str) -> None:
     place where it should be."""
     index = wrong_step(judgement(name), "meet")
     found = judgement(name, {index: 3 + 1j})
-    planes = found.composition.planes
-    true = found.composition.views[planes.homes[index]](planes.spot(index))
+    plans = found.composition.plans
+    true = found.composition.views[plans.plan_of_step[index]](plans.spot(index))
     (stroke,) = [item for item in Student(found).items() if item.pen == WANTED and isinstance(item, Polyline)]
     assert math.dist(stroke.spots[1], true) < 1e-9
     assert math.dist(stroke.spots[0], true) == pytest.approx(abs((3 + 1j) / TURNED))
@@ -67,7 +67,7 @@ def test_tolerances_are_as_large_as_they_are_on_the_students_sheet() -> None:
     assert len(ellipses) == len(points)
     index = ellipses[0].step
     assert index is not None
-    centre = found.composition.views["mechanism"](found.composition.planes.spot(index))
+    centre = found.composition.views["mechanism"](found.composition.plans.spot(index))
     radii = [math.dist(centre, spot) * abs(TURNED) for spot in ellipses[0].spots]
     assert (max(radii), min(radii)) == (pytest.approx(TOLERANCE), pytest.approx(TOLERANCE / 2))
 

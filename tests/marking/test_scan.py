@@ -42,7 +42,7 @@ SMALL = 2800, 2100  # pixels of a phone, beside which A4 is as large as A3 is be
 def page() -> Sheet:
     """A task with its marks."""
     composition = compose(gp.construct(gp.load("slider-crank")), "A4")
-    sheet = task(layout(composition.planes.drawing, composition=composition), composition)[0]
+    sheet = task(layout(composition.plans.drawing, composition=composition), composition)[0]
     return replace(sheet, items=(*sheet.items, *corner_marks(sheet.width, sheet.height, sheet.frame, CODE)))
 
 

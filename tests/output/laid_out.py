@@ -11,7 +11,7 @@ from graphplan.methods.construction import Construction
 from graphplan.output.exports.figure import Figure, figure
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.plans import Planes, around
+from graphplan.sheet.plates.plans import Plans, around
 from graphplan.sheet.plates.view import view
 
 SIDE = 150.0  # mm of paper for each plan
@@ -21,8 +21,8 @@ SIDE = 150.0  # mm of paper for each plan
 def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Construction, Figure]:
     """A packaged scene constructed, and its figure; with `times` the plans are so much too large for their windows."""
     drawing = gp.construct(gp.load(name), strict=strict)
-    planes = Planes(drawing)
-    boxes = {panel: around([planes.spot(index) for index in planes.points(panel)]) for panel in planes.panels}
+    plans = Plans(drawing)
+    boxes = {panel: around([plans.spot(index) for index in plans.points(panel)]) for panel in plans.panels}
     views: dict[str, Any] = {}
     for place, (panel, box) in enumerate(boxes.items()):
         rect = Rect(SIDE * place + 5, 5, SIDE * (place + 1) - 5, SIDE - 5)

@@ -70,7 +70,7 @@ def judgement() -> Judgement:
         if step.op.gives != POINT:
             verdicts.append(Verdict(step.index, UNSEEN))
             continue
-        here = composition.views[composition.planes.homes[step.index]](composition.planes.spot(step.index))
+        here = composition.views[composition.plans.plan_of_step[step.index]](composition.plans.spot(step.index))
         told = said("parallel to {0} instead of {1}", HOSTILE, HOSTILE) if step.index == wrong else None
         verdicts.append(Verdict(step.index, WRONG if told else RIGHT, 2.0, 0.5, 2.0, Trace(POINT, (here,), HOSTILE),
                                 drawing.values[step.index], None, told, "wrong line" if told else ""))

@@ -241,12 +241,12 @@ def test_the_turn_changes_the_drawing_and_keeps_the_step(page: Any) -> None:
 def test_zoom_follows_the_plan_of_the_step(page: Any) -> None:
     """Zoomed, the window is the panel of the current step's plan, and the whole sheet again when let go."""
     found = round_of("slider-crank")
-    sheet, planes = found.stills[0].sheet, found.composition.planes
+    sheet, plans = found.stills[0].sheet, found.composition.plans
     whole = page.get_attribute("#picture", "viewBox")
     page.click("#zoom")
     for place in (1, len(found.drawing.drawn) - found.drawing.drawn.givens):
         page.click(f"li:nth-of-type({place}) button")
-        rect = sheet.panels[planes.homes[place - 1 + found.drawing.drawn.givens]]
+        rect = sheet.panels[plans.plan_of_step[place - 1 + found.drawing.drawn.givens]]
         box = [float(part) for part in page.get_attribute("#picture", "viewBox").split()]
         assert box == pytest.approx([rect.left, sheet.height - rect.top, rect.width, rect.height], abs=0.01)
     assert page.get_attribute("#zoom", "aria-pressed") == "true"

@@ -14,7 +14,7 @@ from graphplan.sheet.layout.pages import packed, paged
 from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.answer_boxes import TALL, TIGHT, Blank, tightened
 from graphplan.sheet.words.rows import Cell, Row
 from graphplan.sheet.words.task import Task
@@ -25,7 +25,7 @@ def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> Non
     """A guided handout whose last table would need a page of its own is set closer; any other is not."""
     composition = compose(drawing_of(name))
     arrangement = composition.arrangement
-    rows = Task(composition.planes).lines(arrangement.columns[0].width, guided=True)
+    rows = Task(composition.plans).lines(arrangement.columns[0].width, guided=True)
     loose, found = list(paged(rows, arrangement)), packed(rows, arrangement)
     assert len(found) == len(loose) - saved
     assert (found == loose) != saved
@@ -63,9 +63,9 @@ def test_the_arrow_of_a_drive_stays_off_the_ground(angle: int, sign: float) -> N
 
 def test_plans_that_lie_as_one_say_so() -> None:
     """Over a strict drawing stands that mechanism, velocities and accelerations have one plane; forces too."""
-    planes = Planes(gp.construct(gp.load("four-bar"), strict=True))
-    assert planes.panels == ["mechanism"]
-    told = caption("mechanism", planes.kinds("mechanism"))
+    plans = Plans(gp.construct(gp.load("four-bar"), strict=True))
+    assert plans.panels == ["mechanism"]
+    told = caption("mechanism", plans.kinds("mechanism"))
     assert told == "Mechanism, velocities and accelerations in one plane"
     loaded = {"acceleration", "load", "part", "reaction"}
     assert caption("mechanism", loaded) == "Mechanism, velocities, accelerations and forces in one plane"

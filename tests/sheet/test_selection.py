@@ -8,7 +8,7 @@ from sheets import SCENES, drawing_of, outside, sheet_of
 from graphplan.errors import Refused
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Arrow, Text
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import numbered, selected
 from graphplan.sheet.strip import Strip, strip
 from graphplan.sheet.words.texts import RESULTS
@@ -43,8 +43,8 @@ def test_what_was_drawn_before_is_grey() -> None:
 @pytest.mark.parametrize("name", SCENES)
 def test_an_arrow_waits_for_both_its_ends(name: str) -> None:
     """No vector is drawn before both its ends are."""
-    planes = Planes(drawing_of(name))
-    vectors = [vector for panel in planes.panels for vector in planes.vectors(panel)]
+    plans = Plans(drawing_of(name))
+    vectors = [vector for panel in plans.panels for vector in plans.vectors(panel)]
     for arrow in (item for item in sheet_of(name).items if isinstance(item, Arrow) and item.label):
         assert arrow.step in {max(v.start, v.end) for v in vectors if f"{v.kind} {v.point}" == arrow.label}
 
@@ -60,10 +60,10 @@ def test_steps_that_are_not_there_are_refused(text: str) -> None:
 def test_the_strip_shows_every_step_once(name: str) -> None:
     """The pictures' steps are all steps in order, each picture's on one plan, its words below it inside the frame."""
     drawing = drawing_of(name)
-    film, pages = Strip(Planes(drawing), single=False), strip(drawing)
+    film, pages = Strip(Plans(drawing), single=False), strip(drawing)
     drawn = drawing.drawn
     assert [step.index for group in film.groups for step in group] == list(range(drawn.givens, len(drawn)))
-    assert all(len({film.planes.homes[step.index] for step in group}) == 1 for group in film.groups)
+    assert all(len({film.plans.plan_of_step[step.index] for step in group}) == 1 for group in film.groups)
     texts = [plain(item.runs) for page in pages for item in page.items if isinstance(item, Text)]
     assert all(str(drawn.number(index)) in texts for index in range(drawn.givens, len(drawn)))
     assert not [item for page in pages for item in outside(page)]
@@ -79,9 +79,9 @@ def test_letters_of_a_strip_stand_apart(name: str) -> None:
 
 def test_a_single_strip_has_a_picture_for_each_step() -> None:
     """A picture for every step; they are more than those for every mark."""
-    planes = Planes(drawing_of("four-bar"))
-    steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
-    assert len(Strip(planes, single=True).groups) == steps > len(Strip(planes, single=False).groups)
+    plans = Plans(drawing_of("four-bar"))
+    steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
+    assert len(Strip(plans, single=True).groups) == steps > len(Strip(plans, single=False).groups)
 
 
 def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -15,7 +15,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, plain
 from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.strip import Strip
 
@@ -37,13 +37,13 @@ def numbers(sheet: Sheet) -> list[int]:
 
 def marked(composition: Composition, sheet: Sheet) -> set[int]:
     """The numbers of the steps whose mark is on paper: their strokes, and of points those that no panel cuts off."""
-    planes = composition.planes
-    drawn = planes.drawing.drawn
+    plans = composition.plans
+    drawn = plans.drawing.drawn
     found = {item.step for item in sheet.items
              if item.step is not None and isinstance(item, Polyline | Arc | Circle) and item.layer == "construction"}
     for index in [index for index in found if drawn.steps[index].op.gives == POINT]:
-        window = composition.views[planes.homes[index]]
-        if not window.rect.holds(window(planes.spot(index))):
+        window = composition.views[plans.plan_of_step[index]]
+        if not window.rect.holds(window(plans.spot(index))):
             found.remove(index)
     return {drawn.number(index) for index in found}
 
@@ -52,7 +52,7 @@ def marked(composition: Composition, sheet: Sheet) -> set[int]:
 def test_every_mark_bears_its_number_once(name: str) -> None:
     """Every step of the list that makes a mark has its number in the figure, once; no other number stands there."""
     composition, sheet = numbered(name)
-    drawn, found = composition.planes.drawing.drawn, numbers(sheet)
+    drawn, found = composition.plans.drawing.drawn, numbers(sheet)
     assert len(set(found)) == len(found)
     assert marked(composition, sheet) <= set(found) <= set(range(1, len(drawn) - drawn.givens + 1))
 
@@ -104,6 +104,6 @@ def test_a_number_without_room_has_a_leader() -> None:
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10", "alt-eight-link"])
 def test_pictures_of_a_strip_bear_numbers_apart(name: str) -> None:
     """The plans of a film strip are no larger for their numbers, and none is crowded."""
-    plain_strip, strip = (Strip(Planes(drawing_of(name), numbered=option), False) for option in (False, True))
+    plain_strip, strip = (Strip(Plans(drawing_of(name), numbered=option), False) for option in (False, True))
     assert strip.size == plain_strip.size
     assert not [panel for panel, plan in strip.plans.items() if plan.crowded]

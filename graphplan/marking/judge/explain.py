@@ -60,7 +60,7 @@ def _suspects(walk: Walk, step: Step) -> Iterator[Suspect]:
     """Every slip at the step, and at those before that cannot be seen."""
     order = {kind: place for place, kind in enumerate(MISTAKES)}
     for far, source in enumerate(_unseen(walk, step)):
-        for slip in slips(walk.board.drawing.drawn, source, walk.board.homes):
+        for slip in slips(walk.board.drawing.drawn, source, walk.board.plan_of_step):
             yield Suspect(slip, source, FARTHER * far + RARER * order[slip.kind])
 
 

@@ -77,7 +77,7 @@ def _read(walk: Walk, reading: Reading, marks: Sequence[Any]) -> float:
     """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
     if not marks:
         return 0.0
-    home = walk.board.homes[walk.board.drawing.drawn.wanted[reading.marks[-1]]]
+    home = walk.board.plan_of_step[walk.board.drawing.drawn.wanted[reading.marks[-1]]]
     length = READ * walk.board.pencil.point / walk.board.mm(home)
     shaken = [_difference(walk, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
     return math.hypot(*shaken) / math.sqrt(1 if reading.kind in NUMBERS else 2)

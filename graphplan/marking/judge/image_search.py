@@ -83,15 +83,15 @@ class Sought:
         return list(filter(self._panel(step).holds, spots))
 
     def _panel(self, step: Step) -> Rect:
-        return self.panels[self.board.homes[step.index]]
+        return self.panels[self.board.plan_of_step[step.index]]
 
     def _onto(self, step: Step, z: complex) -> Spot:
-        spot = self.board.fits[self.board.homes[step.index]].frame.onto(z)
+        spot = self.board.fits[self.board.plan_of_step[step.index]].frame.onto(z)
         return spot.real, spot.imag
 
     def _arc(self, step: Step, value: tuple[float, ...], marks: Sequence[complex], struck: float) -> list[Spot]:
         """Spots of an arc about its marks; none of one that is too small, or has no marks."""
-        mm = self.board.mm(self.board.homes[step.index])
+        mm = self.board.mm(self.board.plan_of_step[step.index])
         centre, radius = complex(value[0], value[1]), math.sqrt(max(value[2], 0.0))
         if radius * mm < STRUCK:
             return []
@@ -103,7 +103,7 @@ class Sought:
         """Where a line would be drawn, as far as it is on its panel: between the outermost of its marks, or about its
         only one."""
         a, b, c = line
-        mm = self.board.mm(self.board.homes[step.index])
+        mm = self.board.mm(self.board.plan_of_step[step.index])
         way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
         along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
         spare = ALONE / mm if max(along) - min(along) < ALONE / mm else 0.0
@@ -116,7 +116,7 @@ class Sought:
             return self.page.near(spots[0], spots[-1], within)
         if step.op.gives == POINT:
             return self.page.dot(spots[0], within)
-        radius = math.sqrt(value[2]) * self.board.mm(self.board.homes[step.index])
+        radius = math.sqrt(value[2]) * self.board.mm(self.board.plan_of_step[step.index])
         return self.page.rim(self._onto(step, complex(*value[:2])), radius, spots, within)
 
     def _marks(self, step: Step, value: tuple[float, ...], own: Way) -> list[complex]:

@@ -47,10 +47,10 @@ class Judge:
 
     def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil):
         self.drawing, self.composition, self.handed, self.pencil = drawing, composition, handed, pencil
-        homes = Board(drawing, {}, pencil).homes
+        plan_of_step = Board(drawing, {}, pencil).plan_of_step
         self.sought: Sought | None = None
         self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
-        self.labels = labelled(drawing.drawn, homes, handed.traces)
+        self.labels = labelled(drawing.drawn, plan_of_step, handed.traces)
         taken = {place for place in self.labels.values() if sure(handed.traces[place])}
         self.loose = [place for place, trace in enumerate(handed.traces) if place not in taken and not (
             handed.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
@@ -91,10 +91,10 @@ class Judge:
 
     def _relaid(self, fits: dict[str, Fit], register: Register) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
-        homes, start = register.homes, self._start(fits)
+        plan_of_step, start = register.plan_of_step, self._start(fits)
         for panel in [panel for panel in register.panels[1:] if panel not in self.handed.frames]:
-            end = len(homes) - homes[::-1].index(panel)
-            start = start.moved(self._start(fits)).until(homes.index(panel))
+            end = len(plan_of_step) - plan_of_step[::-1].index(panel)
+            start = start.moved(self._start(fits)).until(plan_of_step.index(panel))
             walk = start.fork().until(end)
             wrong, best = float(_wrong(walk, panel)), fits[panel]
             for rival in register.rivals(panel, walk) if wrong else ():
@@ -141,7 +141,7 @@ class Judge:
 
 def _on(walk: Walk, panel: str) -> Iterator[Taken]:
     """What the steps of a plan were taken for."""
-    return (taken for taken in walk.taken if walk.board.homes[taken.step.index] == panel)
+    return (taken for taken in walk.taken if walk.board.plan_of_step[taken.step.index] == panel)
 
 
 def _wrong(walk: Walk, panel: str) -> int:

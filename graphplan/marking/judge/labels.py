@@ -11,12 +11,12 @@ from graphplan.marking.traces import Trace
 from graphplan.phrases import Said
 
 
-def labelled(program: Program, homes: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
+def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
     """For each step that a trace is labelled as, the place of that trace; the first of several.
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names = _names(program, homes)
+    names = _names(program, plan_of_step)
     found: dict[int, int] = {}
     for place, trace in enumerate(traces):
         numbered = not sure(trace) and trace.label.isdigit()
@@ -41,7 +41,7 @@ def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None
     return None
 
 
-def _names(program: Program, homes: Sequence[str]) -> dict[tuple[str, str, str], int]:
+def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
     """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
     found: dict[tuple[str, str, str], int] = {}
     loose: dict[tuple[str, str, str], set[int]] = {}
@@ -49,7 +49,7 @@ def _names(program: Program, homes: Sequence[str]) -> dict[tuple[str, str, str],
         kind, text = step.op.gives, program.text(step.index)
         letters = [spelled(step.name), "" if isinstance(text, Said) else spelled(text)]
         number = str(program.number(step.index))
-        for panel in (homes[step.index], ""):
+        for panel in (plan_of_step[step.index], ""):
             for letter in filter(None, letters):
                 found.setdefault((kind, panel, letter), step.index)
                 for less in (letter.replace("_", ""), letter.replace("_", "").casefold()):

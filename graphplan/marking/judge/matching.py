@@ -181,7 +181,7 @@ class Walk:
 
     def _fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The loose trace that fits an expected value best, if any does."""
-        places, off = self.loose.near(step.op.gives, self.board.homes[step.index], plain(expected))
+        places, off = self.loose.near(step.op.gives, self.board.plan_of_step[step.index], plain(expected))
         best: tuple[bool, bool, float, int] | None = None
         for k in np.argsort(off)[:NEAREST] if len(places) else ():
             if not off[k] < ASTRAY:
@@ -198,9 +198,9 @@ class Walk:
         """Whether a line was drawn as far as to the points that it goes through."""
         if step.op.gives != LINE:
             return True
-        board, frame = self.board, self.board.fits[self.board.homes[step.index]].frame
+        board, frame = self.board, self.board.fits[self.board.plan_of_step[step.index]].frame
         start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
-        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / board.mm(board.homes[step.index])
+        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / board.mm(board.plan_of_step[step.index])
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
         along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)

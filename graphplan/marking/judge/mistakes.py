@@ -62,11 +62,11 @@ def _root(step: Step) -> int:
 
 @dataclass(frozen=True)
 class Occasion:
-    """A step of a program, where a mistake can be made; `homes` is the plan of every step."""
+    """A step of a program, where a mistake can be made; `plan_of_step` is the plan of every step."""
 
     program: Program
     step: Step
-    homes: Sequence[str]
+    plan_of_step: Sequence[str]
 
     def text(self, place: int) -> str:
         """What the step reads at a place, by its letters."""
@@ -74,9 +74,9 @@ class Occasion:
 
     def instead(self, place: int, kind: str) -> Iterator[tuple[str, Step]]:
         """The step with another mark of the same plan read at a place, by the name of that mark."""
-        step, home = self.step, self.homes[self.step.args[place]]
+        step, home = self.step, self.plan_of_step[self.step.args[place]]
         for other in self.program.steps[:step.index]:
-            if other.op.gives == kind and self.homes[other.index] == home and other.index not in step.args:
+            if other.op.gives == kind and self.plan_of_step[other.index] == home and other.index not in step.args:
                 args = (*step.args[:place], other.index, *step.args[place + 1:])
                 yield self.program.text(other.index), replace(step, args=args)
 
@@ -106,11 +106,11 @@ def mistake(kind: str, *ops: str) -> Callable[[Rule], Rule]:
     return enter
 
 
-def slips(program: Program, step: Step, homes: Sequence[str]) -> Iterator[Slip]:
+def slips(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Slip]:
     """All the slips of the table that can be made at a step."""
     for entry in MISTAKES.values():
         if step.op.name in entry.ops:
-            yield from entry.rule(Occasion(program, step, homes))
+            yield from entry.rule(Occasion(program, step, plan_of_step))
 
 
 LAID_OFF = ("transfer", "step_off", "step_across", "quarter", "lay_along", "lay_off", "balance", "couple",

@@ -34,7 +34,7 @@ CALLED = Pen(0.35, RED)
 def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     """The sheet with both drawings and the remarks, and pages of further remarks where there are very many."""
     composition = judgement.composition
-    arrangement, tongue = composition.arrangement, composition.planes.tongue
+    arrangement, tongue = composition.arrangement, composition.plans.tongue
     solution = layout(judgement.drawing, composition=composition)
     apart = (*arrangement.columns, arrangement.title)
     around = [item for item in solution.items if item.layer in BESIDE and not _within(item, apart)]
@@ -42,7 +42,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
     over += Student(judgement).items()
     over += [item for panel in composition.views for item in _told(judgement, panel, over)]
-    words = Remarks(composition.planes).lines(arrangement.columns[0].width, judgement, score)
+    words = Remarks(composition.plans).lines(arrangement.columns[0].width, judgement, score)
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
     sheets = []
     for number, page in enumerate(pages, 1):
@@ -78,7 +78,7 @@ def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[I
     if first in wrong:
         assert first is not None
         names = tuple(step.name for step in drawn.steps if step.name)
-        sentence = judgement.composition.planes.tongue(complaint(judgement, first))
+        sentence = judgement.composition.plans.tongue(complaint(judgement, first))
         here += (boxed := [*callout(sentence, names, student.at(first), here, rect, CALLED)])
         yield from boxed
     wishes = [_numbered(judgement, verdict, student) for verdict in wrong if verdict is not first]

@@ -77,7 +77,7 @@ class Glance:
 
     def _differs(self, step: Step, made: tuple[float, ...]) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
-        own, home = self.own[step.index], self.walk.board.homes[step.index]
+        own, home = self.own[step.index], self.walk.board.plan_of_step[step.index]
         if step.op.gives == LINE:
             off = max(abs(_off(own, z) - _off(made, z)) for z in self._about[home])
         elif step.op.gives == OPENING:
@@ -91,7 +91,7 @@ class Glance:
     def _about(self) -> dict[str, list[complex]]:
         """The corners of what is drawn on each plan."""
         found: dict[str, list[complex]] = {}
-        for step, home, value in zip(self.walk.steps, self.walk.board.homes, self.own, strict=True):
+        for step, home, value in zip(self.walk.steps, self.walk.board.plan_of_step, self.own, strict=True):
             if step.op.gives == POINT:
                 found.setdefault(home, []).append(complex(*value))
         return {home: [complex(pick(z.real for z in spots), also(z.imag for z in spots))
@@ -117,12 +117,12 @@ class Glance:
             share = walk.sought.share(step, made, way)
             kind = step.op.gives
             return 0.0 if share is None else ROUGH * weighed(THERE[kind], GONE[kind], None, share), made
-        return self._weight(step, bool(walk.loose.near(step.op.gives, walk.board.homes[step.index], made)[1].min(
+        return self._weight(step, bool(walk.loose.near(step.op.gives, walk.board.plan_of_step[step.index], made)[1].min(
             initial=math.inf) < NEAR)), made
 
     def _point(self, step: Step, made: tuple[float, ...], way: Way) -> tuple[float, tuple[float, ...]]:
         """The same of a point, which may have drifted."""
-        walk, home = self.walk, self.walk.board.homes[step.index]
+        walk, home = self.walk, self.walk.board.plan_of_step[step.index]
         if walk.sought:
             if walk.sought.share(step, made, way) is None:
                 return 0.0, made

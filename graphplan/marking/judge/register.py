@@ -25,7 +25,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.laid_off import root
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
 RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
@@ -49,12 +49,12 @@ class Register:
     def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
                  labels: Mapping[int, int]):
         self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
-        self.homes, self.labels, self.taken = Planes(drawing).homes, labels, set(labels.values())
+        self.plan_of_step, self.labels, self.taken = Plans(drawing).plan_of_step, labels, set(labels.values())
         self.values: tuple[Sequence[Any], ...] = (drawing.values,)
 
     @property
     def panels(self) -> list[str]:
-        return Planes(self.drawing).panels
+        return Plans(self.drawing).panels
 
     def mechanism(self) -> Fit:
         """Where the mechanism lies; refused where its points are not found."""
@@ -121,7 +121,7 @@ class Register:
         """The labelled points of a plan, by step: where each truly is, and where on the sheet."""
         return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.handed.traces[place].spots[0])))
                 for index, place in sorted(self.labels.items())
-                if self.homes[index] == panel and self.handed.traces[place].kind == POINT]
+                if self.plan_of_step[index] == panel and self.handed.traces[place].kind == POINT]
 
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
@@ -175,7 +175,7 @@ class Register:
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
         plan begins."""
-        steps = [step for step, home in zip(self.drawing.drawn.steps, self.homes, strict=True)
+        steps = [step for step, home in zip(self.drawing.drawn.steps, self.plan_of_step, strict=True)
                  if home == panel and step.op.gives == POINT]
         loose = np.array(self._crossings())
         if not len(loose):
@@ -209,7 +209,7 @@ class Register:
                   if trace.kind == POINT and place not in self.labels.values()]
         for step in self.drawing.drawn.steps:
             if step.op.name == "begin" and step.index not in self.labels and points:
-                here = fits[self.homes[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
+                here = fits[self.plan_of_step[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
                 place, spot = min(points, key=lambda point: abs(point[1] - here))
                 if abs(spot - here) < VOTES * self.pencil.point:
                     found[step.index] = place

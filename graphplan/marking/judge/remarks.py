@@ -59,7 +59,7 @@ class Remarks(Words):
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, None):
             told = NOT_NEEDED() if state is None else STATES[state]()
-            yield Key((Cell(KEY, sentence_runs(self.planes.tongue(told))),), gap=0.6, state=state)
+            yield Key((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
         yield from self._said(said("Grey: the true drawing. Ellipses: where a point may be, after the student's own "
                                    "earlier marks. Dashed: where a wrong mark should be."), wide)
 
@@ -99,7 +99,7 @@ class Remarks(Words):
                 yield from self._said(arranged("{0:capital}: {1}.", STATES[state](), told), wide)
 
     def _runs(self, text: str) -> Runs:
-        return sentence_runs(self.planes.tongue(text), self.names)
+        return sentence_runs(self.plans.tongue(text), self.names)
 
 
 def written(number: Number) -> str:

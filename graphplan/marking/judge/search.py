@@ -125,7 +125,7 @@ class Search:
 
     def _others(self, walk: Walk, taken: Taken) -> Iterator[Guess]:
         """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
-        step, home = taken.step, walk.board.homes[taken.step.index]
+        step, home = taken.step, walk.board.plan_of_step[taken.step.index]
         assert taken.place is not None
         for place in walk.loose.beside(taken.place, home, plain(walk.own[step.index])):
             if walk.deviation(step, taken.expected, place, walk.own).fits(walk.rules.chance):
@@ -137,7 +137,7 @@ class Search:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
         of one kind."""
         step = taken.step
-        table = list(slips(walk.board.drawing.drawn, step, walk.board.homes))
+        table = list(slips(walk.board.drawing.drawn, step, walk.board.plan_of_step))
         alike = Counter(slip.kind for slip in table)
         for slip in table:
             prior = RARE - math.log(len(alike)) - math.log(alike[slip.kind])

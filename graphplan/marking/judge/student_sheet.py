@@ -25,7 +25,7 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge.fits import Fit
 from graphplan.marking.traces import Trace
 from graphplan.methods.construction import Construction
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a trace: each of up to three spots
 SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
@@ -102,14 +102,14 @@ class Board:
     pencil: Pencil
 
     @cached_property
-    def homes(self) -> list[str]:
+    def plan_of_step(self) -> list[str]:
         """The plan of every step."""
-        return Planes(self.drawing).homes
+        return Plans(self.drawing).plan_of_step
 
     @cached_property
     def marks_on(self) -> Mapping[int, tuple[int, ...]]:
         """The marks that lie on each line and arc."""
-        return Planes(self.drawing).marks_on
+        return Plans(self.drawing).marks_on
 
     @cached_property
     def hand(self) -> Hand:
@@ -157,7 +157,7 @@ class Board:
 
     def spots(self, index: int, trace: Trace) -> list[tuple[Any, Any]]:
         """The spots of a step's trace on its plan, with the errors of the frame and of reading them."""
-        panel = self.homes[index]
+        panel = self.plan_of_step[index]
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
         lead = fit.tied or panel
         turn = [self._frame_error(lead, i, self.fits[lead].turn) for i in (0, 1)]
@@ -184,7 +184,7 @@ class Board:
             parts = [_off_line(domain, expected, spot) for spot in spots]
         else:
             parts = [_off_circle(domain, expected, spot) for spot in spots]
-        scale = self.mm(self.homes[step.index])
+        scale = self.mm(self.plan_of_step[step.index])
         partials = np.array([domain.partials(part) for part in parts]) * scale
         off = np.array([_plain(part) for part in parts]) * scale
         return (PointDeviation if kind == POINT else Deviation)(off, partials @ partials.T)

@@ -53,7 +53,7 @@ class Student:
 
     def home(self, verdict: Verdict) -> str:
         """The plan that a step is drawn on."""
-        return self.judgement.composition.planes.homes[verdict.step]
+        return self.judgement.composition.plans.plan_of_step[verdict.step]
 
     def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
         """A trace on paper, where its plan is known to lie."""

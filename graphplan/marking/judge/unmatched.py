@@ -16,10 +16,10 @@ def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
     lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
     board, kind = walk.board, step.op.gives
-    mm = board.mm(board.homes[step.index])
+    mm = board.mm(board.plan_of_step[step.index])
     on = [plain(walk.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
     for place in walk.loose.of(kind) if kind in (POINT, LINE) else ():
-        if place in walk.used or walk.traces[place].panel not in ("", board.homes[step.index]):
+        if place in walk.used or walk.traces[place].panel not in ("", board.plan_of_step[step.index]):
             continue
         spots = board.spots(step.index, walk.traces[place])
         value = plain(board.seen(step, walk.own[step.index], spots, steady=True))

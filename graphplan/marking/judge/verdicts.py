@@ -58,7 +58,7 @@ def _assumed(walk: Walk, taken: Taken) -> Verdict:
         made = plain(walk.own[step.index])
         deviation = board.deviation(step, taken.expected, [(made[0], made[1])], walk.own)
         off, tolerance = deviation.size, deviation.tolerance(walk.rules.chance)
-        astray = math.dist(made, board.drawing.values[step.index]) * board.mm(board.homes[step.index])
+        astray = math.dist(made, board.drawing.values[step.index]) * board.mm(board.plan_of_step[step.index])
     return Verdict(step.index, WRONG, off, tolerance, astray, own=plain(taken.expected), mistake=taken.slip.told,
                    kind=taken.slip.kind, guilty=step.index)
 

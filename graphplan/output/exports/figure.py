@@ -23,7 +23,7 @@ from graphplan.sheet.plates import clip, laid_off, pens
 from graphplan.sheet.plates.display import Arc, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.strokes import ALONE, BEYOND, FLATTEST, LOCUS_BEYOND, STRIKE, WIDEST
 from graphplan.sheet.plates.symbols import hull, straight
 from graphplan.sheet.plates.view import View
@@ -233,10 +233,10 @@ class Figure:
 
 def figure(drawing: Construction, composition: Composition, tongue: Tongue = ENGLISH) -> Figure:
     """A construction as objects, each plan where the composition of its sheet puts it."""
-    found = _Figures(Planes(drawing, tongue), composition)
+    found = _Figures(Plans(drawing, tongue), composition)
     objects = found.objects
     arrows = tuple(Arrow(objects[v.start], objects[v.end], v.kind, v.point, v.label)
-                   for panel in found.plans for v in found.planes.vectors(panel))
+                   for panel in found.plans for v in found.seen.vectors(panel))
     links = tuple(Link(name, tuple(found.pose[point] for point in drawing.scene.links[name]))
                   for name in drawing.scene.moving)
     plans, ordered = tuple(found.plans.values()), tuple(found.ordered())
@@ -249,7 +249,7 @@ def figure(drawing: Construction, composition: Composition, tongue: Tongue = ENG
 class _Figures:
     """The making of a figure."""
 
-    planes: Planes
+    seen: Plans
     composition: Composition
 
     @cached_property
@@ -257,16 +257,16 @@ class _Figures:
         return {panel: self._plan(panel, view) for panel, view in self.composition.views.items()}
 
     def _plan(self, panel: str, view: View) -> Plan:
-        told = self.planes.tongue(caption(panel, self.planes.kinds(panel)))
+        told = self.seen.tongue(caption(panel, self.seen.kinds(panel)))
         return Plan(panel, told, view.scale, view.origin, view.rect)
 
     @cached_property
     def objects(self) -> list[Object]:
         """The steps of the drawn program."""
-        drawing = self.planes.drawing
+        drawing = self.seen.drawing
         found: list[Object] = []
-        sentences = map(self.planes.tongue, drawing.sentences())
-        told = zip(drawing.drawn.steps, drawing.values, sentences, self.planes.homes, strict=True)
+        sentences = map(self.seen.tongue, drawing.sentences())
+        told = zip(drawing.drawn.steps, drawing.values, sentences, self.seen.plan_of_step, strict=True)
         for step, value, sentence, home in told:
             number = max(0, drawing.drawn.number(step.index))
             args = tuple(found[arg] for arg in step.args)
@@ -278,7 +278,7 @@ class _Figures:
     def pose(self) -> dict[str, Object]:
         """Every point of the scene."""
         found = {object.name: object for object in self.objects if object.step.op.name == "given"}
-        for name in self.planes.drawing.scene.points:
+        for name in self.seen.drawing.scene.points:
             if name not in found:
                 taken = {object.id for object in (*self.objects, *found.values())}
                 found[name] = self._bystander(name, min((0, *(object.index for object in found.values()))) - 1, taken)
@@ -286,15 +286,15 @@ class _Figures:
 
     def _bystander(self, name: str, index: int, taken: set[str]) -> Object:
         """A point of the pose that no step reads; its index is negative, and its own."""
-        spot = self.planes.place(name)
+        spot = self.seen.place(name)
         step = Step(index, name, TABLE["given"], (), {"x": spot[0], "y": spot[1]}, MECHANISM)
         told = spoken("given", step.op.sentence, (), {"out": name, "x": f"{spot[0]:g}", "y": f"{spot[1]:g}"})
-        return Object(index, 0, _unique(step, taken), step, self.plans[MECHANISM], (), spot, self.planes.tongue(told))
+        return Object(index, 0, _unique(step, taken), step, self.plans[MECHANISM], (), spot, self.seen.tongue(told))
 
     def symbols(self) -> Iterator[Symbol]:
         """The ground, the blocks and the sense of the drives, as on the sheet."""
         window = self.composition.views[MECHANISM]
-        for item in Linkage(self.planes.drawing.scene, window).items():
+        for item in Linkage(self.seen.drawing.scene, window).items():
             cuts = clip.clipped(item, window.rect) if item.layer in SYMBOLS else ()
             for cut in cuts:
                 if isinstance(cut, Polyline | Polygon):
@@ -306,12 +306,12 @@ class _Figures:
     def marks(self) -> dict[Object, tuple[Object, ...]]:
         """The points on each line and arc; those on another plan are not seen there."""
         on = ((self.objects[curve], [self.objects[mark] for mark in found])
-              for curve, found in self.planes.marks_on.items())
+              for curve, found in self.seen.marks_on.items())
         return {curve: tuple(mark for mark in found if mark.plan is curve.plan) for curve, found in on}
 
     def ordered(self) -> Iterator[Object]:
         """The pose, all of it, then the steps."""
-        givens = self.planes.drawing.drawn.givens
+        givens = self.seen.drawing.drawn.givens
         yield from self.objects[:givens]
         yield from (point for point in self.pose.values() if point.index < 0)
         yield from self.objects[givens:]

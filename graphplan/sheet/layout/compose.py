@@ -8,7 +8,7 @@ from typing import Any
 
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.layout.composition import Composition, composed
-from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.plans import Drawing, Plans
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
@@ -33,10 +33,10 @@ class Composer:
                  tongue: Tongue | None = None):
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
-        self.planes, self.paper = Planes(drawing, say), paper or scene.sheet.paper or None
-        self.words, self.title = Words(self.planes, check or {}), frame_of(scene).block(scene, say)
+        self.plans, self.paper = Plans(drawing, say), paper or scene.sheet.paper or None
+        self.words, self.title = Words(self.plans, check or {}), frame_of(scene).block(scene, say)
 
     def compose(self, pencil: Deviations | None = None) -> Composition:
         """The composition with these drawing errors told on it."""
         rows = cache(partial(self.words.rows, pencil=pencil or Deviations()))
-        return composed(self.planes, rows, self.title, self.paper)
+        return composed(self.plans, rows, self.title, self.paper)

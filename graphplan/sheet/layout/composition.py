@@ -15,7 +15,7 @@ from graphplan.sheet.layout.given_scales import ROUNDING, GivenScales, given_sca
 from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
-from graphplan.sheet.plates.plans import Figure, Planes, around
+from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
 from graphplan.sheet.words.rows import Row
 
@@ -35,8 +35,8 @@ class Composition:
     scales: Scales
     views: dict[str, View]
     needs: Mapping[str, float]
-    figures: Mapping[str, Figure]
-    planes: Planes
+    extents: Mapping[str, Extent]
+    plans: Plans
 
     @property
     def score(self) -> tuple[float, float]:
@@ -55,39 +55,39 @@ class Composition:
     @property
     def oversized(self) -> dict[str, float]:
         """The plans that do not fit their panels at a given scale, and by how much they are too large."""
-        much = {panel: least(self.figures[panel].core, inside(window.rect)) * window.scale
+        much = {panel: least(self.extents[panel].core, inside(window.rect)) * window.scale
                 for panel, window in self.views.items()}
         return {panel: times for panel, times in much.items() if times > 1 + ROUNDING}
 
     def _scale(self, panel: str) -> float:
         """How large a plan is; one of which marks are cut off counts no larger than all of it would be."""
         view = self.views[panel]
-        return view.scale if panel == MECHANISM else min(view.scale, whole(self.figures[panel], inside(view.rect)))
+        return view.scale if panel == MECHANISM else min(view.scale, whole(self.extents[panel], inside(view.rect)))
 
     def _size(self, panel: str) -> float:
         """The larger side of a plan on paper."""
-        core = self.figures[panel].core
+        core = self.extents[panel].core
         return max(core.width, core.height) * self.views[panel].scale
 
 
-def composed(planes: Planes, rows: Measure[Sequence[Row]], title: TitleBlock, paper: str | None) -> Composition:
+def composed(plans: Plans, rows: Measure[Sequence[Row]], title: TitleBlock, paper: str | None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
-    figures = {panel: planes.figure(panel) for panel in planes.panels}
-    needs = {panel: math.sqrt(len(planes.points(panel))) for panel in planes.panels}
-    frame, given = frame_of(planes.drawing.scene), given_scales(planes)
+    extents = {panel: plans.extent(panel) for panel in plans.panels}
+    needs = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
+    frame, given = frame_of(plans.drawing.scene), given_scales(plans)
     best: Composition | None = None
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
         found = list(arrangements(name, needs, rows, frame, title))
         good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
-        tried = [_windows(a, figures, needs, planes, given) for a in good] or tried
+        tried = [_windows(a, extents, needs, plans, given) for a in good] or tried
         fitting = [composition for composition in tried if not composition.oversized]
         if good and fitting:
             best = max(fitting, key=lambda c: c.score)
-            if given.k_s or _legible(planes, best.views, name):
+            if given.k_s or _legible(plans, best.views, name):
                 return best
     if best is None:
         raise _too_large(tried) if tried else _too_small(paper)
@@ -126,18 +126,18 @@ def _open(arrangement: Arrangement) -> bool:
     return all(min(rect.width, rect.height) >= TIGHTEST for rect in arrangement.panels.values())
 
 
-def _windows(arrangement: Arrangement, figures: Mapping[str, Figure], needs: Mapping[str, float], planes: Planes,
+def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    k_s = given.k_s or plan_scale(figures[MECHANISM], inside(rooms[MECHANISM]))[0]
-    multiples = _alike({p: plan_multiple(figures[p], inside(rooms[p]), k_s) for p in planes.panels[1:]})
-    drawing, names = planes.drawing, planes.drawing.scene.units
+    k_s = given.k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))[0]
+    multiples = _alike({p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]})
+    drawing, names = plans.drawing, plans.drawing.scene.units
     scales = Scales(k_s, drawing.kappa, names.length, multiples | given.multiples, float(drawing.phi), names.force,
                     drawing.scene.sheet.convention)  # fmt: skip
-    boxes = {panel: plan_box(figure, inside(rooms[panel]), scales.of(panel)) for panel, figure in figures.items()}
+    boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
     views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
-    return Composition(arrangement, scales, views, needs, figures, planes)
+    return Composition(arrangement, scales, views, needs, extents, plans)
 
 
 def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
@@ -146,19 +146,19 @@ def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
             for panel in multiples}
 
 
-def _legible(planes: Planes, views: Mapping[str, View], paper: str) -> bool:
+def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
     """Whether the links are long enough for letters, and no plan is crowded; large sheets are soon good enough."""
     for panel, window in views.items():
-        spots = [spot for spot in (window(planes.spot(i)) for i in planes.points(panel)) if window.rect.holds(spot)]
+        spots = [spot for spot in (window(plans.spot(i)) for i in plans.points(panel)) if window.rect.holds(spot)]
         box = around(spots or [(0.0, 0.0)])
         size = max(box.area, (box.width**2 + box.height**2) / 4)
         if 1e-6 < size < LARGE.get(paper, CROWDED) * len(spots):  # marks that all coincide are nowhere apart
             return False
-    return paper in LARGE or _shortest(planes) * views[MECHANISM].scale >= SHORTEST
+    return paper in LARGE or _shortest(plans) * views[MECHANISM].scale >= SHORTEST
 
 
-def _shortest(planes: Planes) -> float:
+def _shortest(plans: Plans) -> float:
     """The shortest distance of two joints of a link."""
-    links = planes.drawing.scene.links.values()
-    apart = (math.dist(planes.place(p), planes.place(q)) for names in links for p in names for q in names)
+    links = plans.drawing.scene.links.values()
+    apart = (math.dist(plans.place(p), plans.place(q)) for names in links for p in names for q in names)
     return min((distance for distance in apart if distance > 0), default=math.inf)

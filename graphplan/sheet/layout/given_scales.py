@@ -11,7 +11,7 @@ from graphplan.errors import Refused
 from graphplan.methods.panels import FORCE_PLAN, MECHANISM, smooth
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES
 from graphplan.sheet.plates.pens import FORCES
-from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.plans import Drawing, Plans
 
 ROUNDING = 1e-9  # of a scale: closer than this two are one
 
@@ -24,15 +24,15 @@ class GivenScales:
     multiples: dict[str, Fraction]
 
 
-def given_scales(planes: Planes) -> GivenScales:
+def given_scales(plans: Plans) -> GivenScales:
     """The scales that a scene gives for its sheet.
 
     All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
     plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
     """
-    k_s = _mechanism_scale(planes.drawing)
-    multiples = {panel: _multiple(planes, panel) for panel in planes.panels if panel != MECHANISM}
-    _check_force_plans(planes)
+    k_s = _mechanism_scale(plans.drawing)
+    multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
+    _check_force_plans(plans)
     return GivenScales(k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None})
 
 
@@ -57,18 +57,18 @@ def _given(drawing: Drawing) -> Iterator[tuple[str, float, float]]:
     yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
 
 
-def _multiple(planes: Planes, panel: str) -> Fraction | None:
+def _multiple(plans: Plans, panel: str) -> Fraction | None:
     """The multiple given for a plan, or 1 where a scale of its vectors is given."""
-    sheet, kinds = planes.drawing.scene.sheet, planes.kinds(panel)
+    sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
     plan = panel.partition(", part ")[0]
     told = sheet.multiples.get(plan, sheet.multiples.get(smooth(plan)))
     scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
     return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
 
 
-def _check_force_plans(planes: Planes) -> None:
+def _check_force_plans(plans: Plans) -> None:
     """Every force plan that is spoken of is one that is drawn, unless none is."""
-    drawn = [panel for panel in planes.panels if panel.startswith(FORCE_PLAN)]
-    for plan in planes.drawing.scene.sheet.multiples:
+    drawn = [panel for panel in plans.panels if panel.startswith(FORCE_PLAN)]
+    for plan in plans.drawing.scene.sheet.multiples:
         if drawn and plan.startswith(FORCE_PLAN) and plan not in drawn:
             raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")

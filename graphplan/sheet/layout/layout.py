@@ -14,7 +14,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Sheet
 from graphplan.sheet.plates.picture import picture
-from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.plans import Drawing, Plans
 from graphplan.sheet.words.captions import captions
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
@@ -31,35 +31,35 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
-    planes = composition.planes
+    plans = composition.plans
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_framed(composition))
     for panel, window in composition.views.items():
-        items += captions(arrangement.panels[panel], panel, planes, scales)
-        items += picture(planes, panel, window)
+        items += captions(arrangement.panels[panel], panel, plans, scales)
+        items += picture(plans, panel, window)
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
     items += titled(composition, document)
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
-        drawing.scene.title, _description(composition, planes), tuple(map(planes.tongue, drawing.sentences())), scales,
-        planes.tongue.code, drawing.scene.text,
+        drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
+        plans.tongue.code, drawing.scene.text,
     )  # fmt: skip
 
 
 def _framed(composition: Composition) -> Iterator[Item]:
     """The frame with its border, and the panels."""
-    arrangement, planes = composition.arrangement, composition.planes
-    yield from frame_of(planes.drawing.scene).items(arrangement.paper, arrangement.frame, planes.tongue)
+    arrangement, plans = composition.arrangement, composition.plans
+    yield from frame_of(plans.drawing.scene).items(arrangement.paper, arrangement.frame, plans.tongue)
     for rect in arrangement.panels.values():
         yield Polygon(pens.BORDER, "paper", None, rect.corners)
 
 
 def titled(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:
     """The title block of a page."""
-    arrangement, scene = composition.arrangement, composition.planes.drawing.scene
+    arrangement, scene = composition.arrangement, composition.plans.drawing.scene
     page = Page(document, arrangement.paper, composition.scales.ratio, number, of)
-    return frame_of(scene).block(scene, composition.planes.tongue).items(arrangement.title, page)
+    return frame_of(scene).block(scene, composition.plans.tongue).items(arrangement.title, page)
 
 
 def stacked(items: Iterable[Item]) -> list[Item]:
@@ -68,9 +68,9 @@ def stacked(items: Iterable[Item]) -> list[Item]:
     return sorted(items, key=lambda item: 10**6 + item.step if item.step is not None else rank[item.layer])
 
 
-def _description(composition: Composition, planes: Planes) -> str:
+def _description(composition: Composition, plans: Plans) -> str:
     """What a reader who cannot see the sheet is told."""
-    steps = len(planes.drawing.drawn) - planes.drawing.drawn.givens
-    told = [joined((spoken(panel), joined(composition.scales.said(panel, planes.kinds(panel)))), ": ")
+    steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
+    told = [joined((spoken(panel), joined(composition.scales.said(panel, plans.kinds(panel)))), ": ")
             for panel in composition.views]
-    return planes.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
+    return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))

@@ -36,7 +36,7 @@ class Letters:
 
     @property
     def drawn(self) -> Program:
-        return self.strokes.planes.drawing.drawn
+        return self.strokes.plans.drawing.drawn
 
     def wishes(self) -> Iterator[Wish]:
         """The letters of the plan: marks, loci, vectors, and the numbers of marks that are spoken of by them."""
@@ -66,7 +66,7 @@ class Letters:
 
     @property
     def _numbered(self) -> bool:
-        return self.strokes.planes.numbered
+        return self.strokes.plans.numbered
 
     def _numbers(self, *steps: Step) -> str:
         return ", ".join(str(self.drawn.number(step.index)) for step in steps)
@@ -87,8 +87,8 @@ class Letters:
         return places
 
     def _at_joint(self, spot: Spot) -> bool:
-        planes, view = self.strokes.planes, self.strokes.view
-        return any(math.dist(view(planes.place(name)), spot) < 1.0 for name in planes.drawing.scene.points)
+        plans, view = self.strokes.plans, self.strokes.view
+        return any(math.dist(view(plans.place(name)), spot) < 1.0 for name in plans.drawing.scene.points)
 
     def _spoken(self, step: Step) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
@@ -112,7 +112,7 @@ class Letters:
             yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, step.index, f"line {number}", free=True)
         for tip, tail, mark in stretch.breaks:
             name, near = drawn.text(mark), (towards(tip, tail, 2.0),)
-            runs = sentence_runs(self.strokes.planes.tongue(said("to {0}", name)), (name,))
+            runs = sentence_runs(self.strokes.plans.tongue(said("to {0}", name)), (name,))
             yield Wish(runs, near, 0.6, 2.2, pens.FAINT, step.index, f"to {name} {step.index}")
 
     def _along(self, step: Step, stretch: Stretch) -> Sequence[float]:

@@ -9,19 +9,19 @@ from graphplan.sheet.lettering.letters import Letters
 from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.linkage import Linkage
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.strokes import Strokes
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.view import View
 
 
-def picture(planes: Planes, panel: str, window: View) -> list[Item]:
+def picture(plans: Plans, panel: str, window: View) -> list[Item]:
     """The items of a plan, in no order but that of drawing."""
-    strokes = Strokes(planes, panel, window)
+    strokes = Strokes(plans, panel, window)
     items, wishes = list(strokes.items()), list(Letters(strokes).wishes())
     marks: list[Spot] = [spot for i, spot in strokes.spots.items() if strokes.shown(i)]
     if panel == MECHANISM:
-        linkage = Linkage(planes.drawing.scene, window)
+        linkage = Linkage(plans.drawing.scene, window)
         items += [cut for item in linkage.items() for cut in clip.clipped(item, window.rect)]
         letters = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in linkage.letters().items()]
         wishes = [*letters, *linkage.wishes(), *wishes]

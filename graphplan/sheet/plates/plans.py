@@ -68,7 +68,7 @@ def corner(step: Step) -> bool:
 
 
 @dataclass(frozen=True)
-class Figure:
+class Extent:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
 
     `nice` is room for half circles, taken where it costs nothing.
@@ -80,7 +80,7 @@ class Figure:
 
 
 @dataclass(frozen=True)
-class Planes:
+class Plans:
     """A construction seen plan by plan, and the tongue in which its sheet speaks.
 
     Where it is `numbered`, every mark bears the number of its step, lettered marks too.
@@ -91,7 +91,7 @@ class Planes:
     numbered: bool = False
 
     @cached_property
-    def homes(self) -> list[str]:
+    def plan_of_step(self) -> list[str]:
         """The plan of every step: its own if something it reads lies there, else where what it reads lies.
 
         A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is. Compasses alone
@@ -104,19 +104,19 @@ class Planes:
             out.append(self._home(step, out))
         return out
 
-    def _home(self, step: Step, homes: Sequence[str]) -> str:
+    def _home(self, step: Step, found: Sequence[str]) -> str:
         if not step.args:
             number = step.params.get("number", 1)
             return step.panel if number == 1 else f"{step.panel}, part {number}"
         steps = self.drawing.drawn.steps
-        read = [homes[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [homes[step.args[0]]]
+        read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
         own = (home for home in reversed(read) if home == step.panel or home.startswith(f"{step.panel}, part "))
         return next(own, read[0])
 
     @cached_property
     def panels(self) -> list[str]:
         """The plans in drawing order, the mechanism's first."""
-        return list(dict.fromkeys((MECHANISM, *self.homes)))
+        return list(dict.fromkeys((MECHANISM, *self.plan_of_step)))
 
     @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
@@ -139,7 +139,7 @@ class Planes:
     def points(self, panel: str) -> list[int]:
         """The points that lie on a plan, by step."""
         steps = self.drawing.drawn.steps
-        return [i for i, home in enumerate(self.homes) if home == panel and steps[i].op.gives == POINT]
+        return [i for i, home in enumerate(self.plan_of_step) if home == panel and steps[i].op.gives == POINT]
 
     def spot(self, index: int) -> Spot:
         """Where a point lies on its plan."""
@@ -153,7 +153,7 @@ class Planes:
 
     def vectors(self, panel: str) -> list[Vector]:
         """The vectors drawn on a plan; one that begins on another plan cannot be."""
-        return [v for v in self.drawing.arrows if self.homes[v.start] == self.homes[v.end] == panel]
+        return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
 
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
@@ -177,20 +177,20 @@ class Planes:
         """The highest points of the half circles on a plan."""
         found = []
         for step in self.drawing.drawn.steps:
-            if step.op.gives == CIRCLE and self.homes[step.index] == panel:
+            if step.op.gives == CIRCLE and self.plan_of_step[step.index] == panel:
                 end, crossings = self.diameter(step), self.marks_on[step.index]
                 if end is not None and crossings:
                     found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0])))
         return found
 
-    def figure(self, panel: str) -> Figure:
+    def extent(self, panel: str) -> Extent:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
         ends = [self.spot(i) for i in self._ends(panel)]
         marks = [self.spot(i) for i in self.points(panel)]
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        return Figure(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
+        return Extent(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
@@ -199,7 +199,7 @@ class Planes:
             yield from (vector.start, vector.end)
         for index in self.points(panel):
             start = laid_off.root(steps[index])
-            if start is not None and self.homes[start] == panel and laid_off.given(steps, steps[index]):
+            if start is not None and self.plan_of_step[start] == panel and laid_off.given(steps, steps[index]):
                 yield from (start, index)
             elif forces and panel != MECHANISM and steps[index].name:
                 yield index

@@ -35,7 +35,7 @@ def selected(sheet: Sheet, last: int, first: int = 0) -> Sheet:
 
 def with_numbers(composition: Composition) -> Composition:
     """The composition with every mark numbered by its step, lettered marks too."""
-    return replace(composition, planes=replace(composition.planes, numbered=True))
+    return replace(composition, plans=replace(composition.plans, numbered=True))
 
 
 def inked(item: Item, first: int) -> Item:

@@ -16,7 +16,7 @@ from graphplan.kernel.program import Step
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.plates import clip, laid_off, pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Spot
-from graphplan.sheet.plates.plans import Planes, Vector, corner
+from graphplan.sheet.plates.plans import Plans, Vector, corner
 from graphplan.sheet.plates.view import View
 
 LAYER = "construction"
@@ -46,19 +46,19 @@ class Stretch:
 class Strokes:
     """One plan on its panel, stroke by stroke."""
 
-    planes: Planes
+    plans: Plans
     panel: str
     view: View
 
     @cached_property
     def steps(self) -> list[Step]:
-        homes = self.planes.homes
-        return [step for step in self.planes.drawing.drawn.steps if homes[step.index] == self.panel]
+        plan_of_step = self.plans.plan_of_step
+        return [step for step in self.plans.drawing.drawn.steps if plan_of_step[step.index] == self.panel]
 
     @cached_property
     def spots(self) -> dict[int, Spot]:
         """Where the points of this plan lie on paper."""
-        return {i: self.view(self.planes.spot(i)) for i in self.planes.points(self.panel)}
+        return {i: self.view(self.plans.spot(i)) for i in self.plans.points(self.panel)}
 
     def shown(self, index: int) -> bool:
         """Whether a point lies on the panel."""
@@ -93,29 +93,29 @@ class Strokes:
 
     def _laid_off(self, step: Step, root: Spot, here: Spot) -> Iterator[Item]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
-        if laid_off.given(self.planes.drawing.drawn.steps, step) and math.dist(root, here) > SHORT:
+        if laid_off.given(self.plans.drawing.drawn.steps, step) and math.dist(root, here) > SHORT:
             kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
             yield Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
             return
-        brought = step.op.name not in laid_off.MEASURED and self.planes.homes[step.args[0]] != self.panel
+        brought = step.op.name not in laid_off.MEASURED and self.plans.plan_of_step[step.args[0]] != self.panel
         for piece in _bare(root, here, self._forces_along(step, root, here)):
             yield Polyline(pens.NORMAL if brought else pens.THIN, LAYER, step.index, piece)
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
-        ends = ((self.spots[v.start], self.spots[v.end]) for v in self.planes.vectors(self.panel))
+        ends = ((self.spots[v.start], self.spots[v.end]) for v in self.plans.vectors(self.panel))
         return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
                    for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
 
     @cached_property
     def _force_heads(self) -> set[int]:
-        return {vector.end for vector in self.planes.vectors(self.panel) if vector.kind in pens.FORCES}
+        return {vector.end for vector in self.plans.vectors(self.panel) if vector.kind in pens.FORCES}
 
     @cached_property
     def vectors(self) -> list[Vector]:
         """The vectors that are long enough to be drawn."""
         least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
-        return [v for v in self.planes.vectors(self.panel) if self.length(v) >= least.get(v.kind, SHORT)]
+        return [v for v in self.plans.vectors(self.panel) if self.length(v) >= least.get(v.kind, SHORT)]
 
     def length(self, vector: Vector) -> float:
         """How long a vector is on paper."""
@@ -132,7 +132,7 @@ class Strokes:
     # ---- lines -----------------------------------------------------------------------------------------------------
 
     def _direction(self, step: Step) -> Spot:
-        a, b = (float(part) for part in self.planes.drawing.values[step.index][:2])
+        a, b = (float(part) for part in self.plans.drawing.values[step.index][:2])
         size = math.hypot(a, b) or 1.0
         return b / size, -a / size
 
@@ -152,9 +152,9 @@ class Strokes:
 
     def _links_along(self, start: Spot, end: Spot) -> Iterator[tuple[float, float]]:
         """Where links lie along a segment, as fractions of its length: there the link is the line."""
-        scene = self.planes.drawing.scene
+        scene = self.plans.drawing.scene
         for link in scene.moving:
-            spots = [self.view(self.planes.place(name)) for name in scene.links[link]]
+            spots = [self.view(self.plans.place(name)) for name in scene.links[link]]
             hit = _along(start, end, spots)
             if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
                 yield min(hit), max(hit)
@@ -169,7 +169,7 @@ class Strokes:
 
     def _on(self, step: Step) -> list[int]:
         """The marks of this plan on a line or an arc."""
-        return [mark for mark in self.planes.marks_on.get(step.index, ()) if mark in self.spots]
+        return [mark for mark in self.plans.marks_on.get(step.index, ()) if mark in self.spots]
 
     @cached_property
     def stretches(self) -> dict[int, Stretch]:
@@ -209,12 +209,12 @@ class Strokes:
 
     def arcs(self, step: Step) -> Iterator[Arc]:
         """What of an arc is struck: about its crossings, or a half circle over its diameter."""
-        x, y, r2 = (float(part) for part in self.planes.drawing.values[step.index])
+        x, y, r2 = (float(part) for part in self.plans.drawing.values[step.index])
         centre, radius = self.view((x, y)), math.sqrt(max(r2, 0.0)) * self.view.scale
         if radius < 1e-6:
             return
         crossings = [self.spots[mark] for mark in self._on(step)]
-        diameter = self.planes.diameter(step)
+        diameter = self.plans.diameter(step)
         if diameter in self.spots and crossings:
             half = _half(step, centre, radius, self.spots[diameter], crossings[0])
             if all(map(self.view.rect.holds, half.spots())):

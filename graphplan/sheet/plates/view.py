@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from graphplan.sheet.layout.scales import multiple_below, round_up
 from graphplan.sheet.plates.display import Rect, Spot
-from graphplan.sheet.plates.plans import Figure, grown
+from graphplan.sheet.plates.plans import Extent, grown
 
 COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and any other plan, may be for auxiliary marks
 
@@ -30,44 +30,44 @@ def least(box: Rect, room: Rect) -> float:
     return max(box.width / room.width, box.height / room.height)
 
 
-def _box(figure: Figure, room: Rect, most: float, nice: bool = False) -> Rect:
+def _box(extent: Extent, room: Rect, most: float, nice: bool = False) -> Rect:
     """The core's box, made larger mark by mark as long as it does not need more than `most` units per mm."""
-    box = figure.core
-    for spot in (*figure.extra, *(figure.nice if nice else ())):
+    box = extent.core
+    for spot in (*extent.extra, *(extent.nice if nice else ())):
         larger = grown(box, spot)
         if least(larger, room) <= most:
             box = larger
     return box
 
 
-def whole(figure: Figure, room: Rect) -> float:
+def whole(extent: Extent, room: Rect) -> float:
     """The mm per unit at which all the marks of a plan just fit."""
-    box = figure.core
-    for spot in figure.extra:
+    box = extent.core
+    for spot in extent.extra:
         box = grown(box, spot)
     return 1 / (least(box, room) or 1e-9)
 
 
-def plan_scale(figure: Figure, room: Rect) -> tuple[float, Rect]:
+def plan_scale(extent: Extent, room: Rect) -> tuple[float, Rect]:
     """The round k_s of the mechanism plan in this room, and the box that is then on paper."""
-    core = round_up(least(figure.core, room))
-    box = _box(figure, room, core * COARSER if figure.core.width or figure.core.height else math.inf)
+    core = round_up(least(extent.core, room))
+    box = _box(extent, room, core * COARSER if extent.core.width or extent.core.height else math.inf)
     k_s = round_up(least(box, room))
-    return k_s, plan_box(figure, room, k_s)
+    return k_s, plan_box(extent, room, k_s)
 
 
-def plan_multiple(figure: Figure, room: Rect, k_s: float) -> Fraction:
+def plan_multiple(extent: Extent, room: Rect, k_s: float) -> Fraction:
     """The round multiple of the mechanism plan's scale for another plan."""
-    fits = least(figure.core, room)
+    fits = least(extent.core, room)
     core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _box(figure, room, float(k_s / core) * MUCH_COARSER)
+    box = _box(extent, room, float(k_s / core) * MUCH_COARSER)
     wide = least(box, room)
     return multiple_below(k_s / wide) if wide else Fraction(1)
 
 
-def plan_box(figure: Figure, room: Rect, units_per_mm: float) -> Rect:
+def plan_box(extent: Extent, room: Rect, units_per_mm: float) -> Rect:
     """What of a plan is on paper at a scale."""
-    return _box(figure, room, units_per_mm, nice=True)
+    return _box(extent, room, units_per_mm, nice=True)
 
 
 def view(box: Rect, room: Rect, units_per_mm: float) -> View:

@@ -11,18 +11,18 @@ from graphplan.sheet.layout.scales import Scales, times
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Rect, Text
-from graphplan.sheet.plates.plans import Planes
+from graphplan.sheet.plates.plans import Plans
 
 HEAD = 3.0  # mm: the size of a plan's name
 LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base line, and from base line to base line
 
 
-def captions(rect: Rect, panel: str, planes: Planes, scales: Scales) -> Iterator[Text]:
+def captions(rect: Rect, panel: str, plans: Plans, scales: Scales) -> Iterator[Text]:
     """Over a plan what it is, and its scales."""
-    kinds, multiple = planes.kinds(panel), scales.multiples.get(panel, Fraction(1))
+    kinds, multiple = plans.kinds(panel), scales.multiples.get(panel, Fraction(1))
     head = caption(panel, kinds) if multiple == 1 else joined((caption(panel, kinds), times(multiple)))
-    heads = wrap(sentence_runs(planes.tongue(head)), HEAD, rect.width - 5, bold=True)
-    told = planes.tongue(joined(scales.said(panel, kinds), ",  "))
+    heads = wrap(sentence_runs(plans.tongue(head)), HEAD, rect.width - 5, bold=True)
+    told = plans.tongue(joined(scales.said(panel, kinds), ",  "))
     lines: list[Runs] = [*heads, *wrap(sentence_runs(told), SIZE, rect.width - 5)]
     first, pitch = LINES[min(max(len(lines), 2), 3)]
     for i, runs in enumerate(lines[:3]):

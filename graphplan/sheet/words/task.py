@@ -45,7 +45,7 @@ class Task(Words):
         if not number:
             yield from super()._said(text, wide, step)
             return
-        lines = wrap(sentence_runs(self.planes.tongue(text), self.names), SIZE, wide - TICKED)
+        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - TICKED)
         for i, runs in enumerate(lines):
             row = Row((Cell(TICKED, runs),), step=step, keep=min(3, len(lines) - 1 - i))
             yield row if i else ticked(Row((Cell(TICKED - 1.6, sentence_runs(number), "end"), *row.cells),
@@ -79,13 +79,13 @@ class Task(Words):
         if self.drawing.scene.loads:
             from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
 
-            tables = ForceTables(self.drawing, self.values, Deviations(), self.planes.tongue)
+            tables = ForceTables(self.drawing, self.values, Deviations(), self.plans.tongue)
             yield tables.reactions(), self._seats()
             yield tables.balance(), []
 
     def _seats(self) -> Table:
         """Where the reactions of slides act, as a table."""
-        say, slides = self.planes.tongue, {slide.name: slide_named(slide) for slide in self.drawing.scene.slides}
+        say, slides = self.plans.tongue, {slide.name: slide_named(slide) for slide in self.drawing.scene.slides}
         arms = self.values.get("slide arm", {})
         heads = [sentence_runs(say(text)) for text in (said("line of action of"), "x",
                                                        joined(("y", unit(self.drawing.scene.units.length)), " "))]

@@ -14,7 +14,7 @@ from graphplan.methods.results import kind_named
 from graphplan.phrases import Said, arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
-from graphplan.sheet.plates.plans import Drawing, Planes
+from graphplan.sheet.plates.plans import Drawing, Plans
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.rows import Cell, Row
 from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, rows, scalars, vectors
@@ -30,13 +30,13 @@ class Words:
     A sheet is composed more than once, with other drawing errors: what does not hang on them is set once for a width.
     """
 
-    planes: Planes
+    plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
     _set: dict[float, tuple[list[Row], list[Row]]] = field(default_factory=dict)
 
     @property
     def drawing(self) -> Drawing:
-        return self.planes.drawing
+        return self.plans.drawing
 
     @cached_property
     def names(self) -> tuple[str, ...]:
@@ -59,13 +59,13 @@ class Words:
     def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
         """A paragraph, hanging from its number."""
         indent = INDENT if number else 0.0
-        lines = wrap(sentence_runs(self.planes.tongue(text), self.names), SIZE, wide - indent)
+        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent)
         for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
             yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
 
     def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> Row:
-        runs = sentence_runs(self.planes.tongue(text))
+        runs = sentence_runs(self.plans.tongue(text))
         return Row((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
 
     def _steps(self, wide: float) -> Iterator[Row]:
@@ -91,7 +91,7 @@ class Words:
 
     def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
         """The tables of points, links and slides: each that of velocities and that of accelerations."""
-        values, scene, say = self.values, self.drawing.scene, self.planes.tongue
+        values, scene, say = self.values, self.drawing.scene, self.plans.tongue
         point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
         yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
         yield (scalars(link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
@@ -103,7 +103,7 @@ class Words:
                  spoken: Callable[[str], str] = str) -> tuple[Table, Table]:
         """The tables of two kinds of vector, whose numbers are rounded beside the fastest and the sharpest of points.
         """
-        speed = self.planes.tongue(unit(f"{self.drawing.scene.units.length}/s"))
+        speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
         one, two = (vectors(what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
                             largest_size(self.values.get(beside, {})), spoken)
@@ -113,7 +113,7 @@ class Words:
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
         from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
 
-        tables = ForceTables(self.drawing, self.values, pencil, self.planes.tongue)
+        tables = ForceTables(self.drawing, self.values, pencil, self.plans.tongue)
         yield from rows(tables.reactions())
         for sentence in tables.seats():
             yield from self._said(sentence, wide)

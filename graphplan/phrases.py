@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-PHRASES, STEPS, UNITS = "phrases", "steps", "units"  # the sections of a catalogue
+PHRASES, STEPS, UNITS, TITLES = "phrases", "steps", "units", "titles"  # the sections of a catalogue
 
 
 class Said(str):

@@ -18,6 +18,7 @@ import graphplan as gp
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import Form, weighed
+from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
@@ -75,6 +76,26 @@ def entries(code: str) -> Iterator[tuple[str, str, str]]:
         yield from (("steps", TABLE[name].sentence, text) for text in forms(entry).values())
     for english, entry in found["phrases"].items():
         yield from (("phrases", english, text) for text in forms(entry).values())
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_every_packaged_scene_has_a_title(code: str) -> None:
+    """The titles of the packaged scenes, all and no others, stand in every catalogue, each in words of its own."""
+    titles = catalogue(code)["titles"]
+    assert set(titles) == {gp.load(name).title for name in packaged()}
+    assert len(set(titles.values())) == len(titles)
+    assert not set(titles) & set(titles.values())
+
+
+def test_a_sheet_bears_its_title_in_its_language(tmp_path: Path) -> None:
+    """A packaged scene's title follows the language; an author's own stays as it is."""
+    sheet = tmp_path / "sheet.svg"
+    assert main(["draw", "triad", "--language", "de", "-o", str(sheet)]) == 0
+    assert "ein Dreischlag, die Gruppe der Klasse III" in sheet.read_text(encoding="utf-8")
+    own = tmp_path / "own.toml"
+    own.write_text(gp.load("triad").text.replace("Ternary link on three bars", "My own"), encoding="utf-8")
+    assert main(["draw", str(own), "--language", "de", "-o", str(sheet)]) == 0
+    assert "My own: a triad, the group of class III" in sheet.read_text(encoding="utf-8")
 
 
 @pytest.mark.parametrize("code", OTHERS)

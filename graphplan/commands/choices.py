@@ -62,10 +62,14 @@ def rounded(options: argparse.Namespace, scene: Scene) -> Scene:
 
 
 def presented(options: argparse.Namespace, scene: Scene) -> Scene:
-    """The scene with its sheet and its rounds of friction as the options have it, where they say."""
+    """The scene with its sheet and its rounds of friction as the options have it, where they say; its title in the
+    sheet's language."""
+    from graphplan.words.tongue import tongue
+
     scene = rounded(options, scene)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    return replace(scene, sheet=replace(scene.sheet, **said))
+    sheet = replace(scene.sheet, **said)
+    return replace(scene, sheet=sheet, title=tongue(sheet.language or "en").title(scene.title))
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:

@@ -79,7 +79,8 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.words.tongue import tongue
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
-        write(diagrams(drawn, scene.title, tongue(options.language or scene.sheet.language or "en")), options.plot)
+        say = tongue(options.language or scene.sheet.language or "en")
+        write(diagrams(drawn, say.title(scene.title), say), options.plot)
     _say(found, messages)
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 

@@ -20,7 +20,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = (), drafting: Ite
              say: Tongue = ENGLISH) -> str:
     """The whole construction as numbered sentences, plan by plan; `drafting` is what is told of its cost and errors."""
     scene, drawn = drawing.scene, drawing.drawn
-    lines = [scene.title, *filter(None, [scene.source]), ""]
+    lines = [say.title(scene.title), *filter(None, [scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
     lines += ["", *_pose(drawing, say), "", say(_tempo(drawing)), ""]
     panel = ""
@@ -83,7 +83,7 @@ def steps(drawing: Construction, structure: Iterable[str] = (), say: Tongue = EN
             "value": list(values[step.index]),
         })
     return {
-        "title": drawing.scene.title,
+        "title": say.title(drawing.scene.title),
         "source": drawing.scene.source,
         "structure": list(map(say, structure)),
         "kappa": drawing.kappa,

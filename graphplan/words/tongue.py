@@ -1,8 +1,8 @@
 """A tongue: its catalogue, and how what was said in English is said in it.
 
-A catalogue has, in TOML, the sentences of the steps by primitive, the phrases by their English, and the units. An entry
-is a text, or a table of its forms by name, of which the first is the plain one; what is put into a text may be asked
-for in a form, as in `{0:dative}`.
+A catalogue has, in TOML, the sentences of the steps by primitive, the phrases by their English, the units, and the
+titles of the packaged scenes. An entry is a text, or a table of its forms by name, of which the first is the plain one;
+what is put into a text may be asked for in a form, as in `{0:dative}`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.phrases import UNITS, Said, Shaped
+from graphplan.phrases import TITLES, UNITS, Said, Shaped
 
 LANGUAGES = ("en", "de", "lv", "et", "ru", "uk")
 _SYMBOL = re.compile(r"[A-Za-z°]+")
@@ -32,6 +32,10 @@ class Tongue:
     def __call__(self, text: str) -> str:
         """The text in this tongue; what is no phrase, such as a title, stays as it is."""
         return str(self._formed(text))
+
+    def title(self, title: str) -> str:
+        """The title of a packaged scene in this tongue; any other as its author wrote it."""
+        return str(self.catalogue[TITLES].get(title, title)) if self.catalogue else title
 
     def _formed(self, value: Any) -> Any:
         """The value as it is put into others: a phrase in all its forms."""

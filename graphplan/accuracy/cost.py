@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import Any
 
-from graphplan.kernel.expand import CROSSINGS, crossing
+from graphplan.kernel.expand import crossing
 from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
@@ -73,7 +73,7 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
     """What drawing a construction costs on its sheet."""
     drawn = drawing.drawn
     crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
-                 for step in drawn.steps if step.op.name in CROSSINGS]
+                 for step in drawn.steps if step.op.crossing]
     return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(drawing, composition))
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, primitive
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Movement, primitive
 
 
 def _vector(P: Any, Q: Any) -> Any:
@@ -36,7 +36,8 @@ def _turned(u: Any, turn: str) -> Any:
 
 
 @primitive((POINT, POINT), LINE, COMPASSES, "Draw {out}, the perpendicular bisector of {0}{1}.",
-           claims=(("halfway", 0, 1),), fails=("points-coincide",))
+           claims=(("halfway", 0, 1),), fails=("points-coincide",),
+           movement=Movement.BISECTED)
 def bisector(d: Any, P: Any, Q: Any) -> Any:
     """The perpendicular bisector of two points, running a quarter turn counter-clockwise of the first to the second."""
     u = _apart(d, P, Q)
@@ -44,14 +45,16 @@ def bisector(d: Any, P: Any, Q: Any) -> Any:
 
 
 @primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.",
-           claims=(("same", (0, -1), (-1, 1)),))
+           claims=(("same", (0, -1), (-1, 1)),),
+           movement=Movement.HALVED)
 def midpoint(d: Any, P: Any, Q: Any) -> Any:
     """The point halfway between two points."""
     return (P[0] + Q[0]) / 2, (P[1] + Q[1]) / 2
 
 
 @primitive((LINE, POINT), POINT, SET_SQUARES, "From {1} drop the perpendicular on {0}: mark its foot {out}.",
-           claims=(("on", 0), ("upright", 0, 1)))
+           claims=(("on", 0), ("upright", 0, 1)),
+           movement=Movement.DROPPED)
 def foot(d: Any, l: Any, P: Any) -> Any:
     """The foot of the perpendicular from a point to a line."""
     off = (l[0] * P[0] + l[1] * P[1] + l[2]) / (l[0] * l[0] + l[1] * l[1])
@@ -59,14 +62,16 @@ def foot(d: Any, l: Any, P: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
-           claims=(("same", (0, 1), (2, -1)),))
+           claims=(("same", (0, 1), (2, -1)),),
+           movement=Movement.LAID_OFF, afar=(0, 1))
 def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ laid off from R."""
     return R[0] + (Q[0] - P[0]), R[1] + (Q[1] - P[1])
 
 
 @primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
-           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),))
+           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),),
+           movement=Movement.TURNED, afar=(0, 1))
 def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
     """The vector PQ, turned a quarter counter-clockwise, laid off from R."""
     return R[0] - (Q[1] - P[1]), R[1] + (Q[0] - P[0])
@@ -107,7 +112,8 @@ def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> 
            "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a "
            "point of their link, the image's sides {turn}.",
            claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
-           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1)
+           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1,
+           weighed=True, described="the locus of the end of {4}")
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 
@@ -161,7 +167,8 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
            "Construct half the Coriolis vector at {1} from the orthogonal relative velocity, from {1} to {3}, and "
            "that of the guide's turning about {0}, from {1} to {2}; from {4} lay it off twice, reversed: mark {out}.",
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           source="Ozols 1974, 5-3, fig. 5-24")
+           source="Ozols 1974, 5-3, fig. 5-24",
+           weighed=True)
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
     u = _apart(d, B, P, "the pole of the guide lies in the pair")
@@ -172,7 +179,8 @@ def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
            "nothing.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
-           fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0)
+           fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0,
+           method="false position")
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
     u = _apart(d, A1, A2, "both trials begin in one point")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from graphplan.errors import ConstructionError, Undrawable
-from graphplan.kernel.kinds import FAILURES
+from graphplan.kernel.kinds import FAILURES, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 
@@ -41,7 +41,7 @@ def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionErr
     """The rule's fault with its step attached, in the letters of the sheet."""
     names = [program.described(arg) for arg in step.args]
     drawing = f"{program.text(step.index)} = {step.op.name}({', '.join(names)})"
-    if step.op.name == "meet":
+    if step.op.movement is Movement.MET:
         drawing = f"{program.text(step.index)}, where {names[0]} should meet {names[1]}"
     what_to_do = FAILURES[fault.code][1]
     return ConstructionError(fault.code, program.number(step.index), drawing, fault.why, what_to_do, step.links)

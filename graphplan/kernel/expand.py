@@ -18,7 +18,7 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.evaluate import error_at
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Primitive
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Program, Step
 from graphplan.phrases import Said, joined, phrase, said
@@ -30,19 +30,8 @@ SAME = 1e-12  # beside the drawing's size: two things that differ by less are on
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
-BY_SET_SQUARE = frozenset({
-    "given", "begin", "guide", "line", "parallel", "perpendicular", "meet", "opening", "circle", "line_meets_circle",
-    "circles_meet", "step_off", "step_across", "lay_along", "lay_off", "pick", "midpoint", "foot", "transfer",
-    "quarter", "bisector", "balance", "couple", "inertia_pair", "touch", "lean", "resultant",
-})
-STRICT = BY_SET_SQUARE - {"parallel", "perpendicular", "midpoint", "foot", "transfer", "quarter", "bisector"}
-
-# A locus has no way to run: drawn out, it may run against its rule. What goes by its way is then turned round.
-REVERSED: dict[str, Callable[[Mapping[str, Any]], dict[str, Any]]] = {
-    "pick": lambda params: {"ratio": -params["ratio"]},
-    "lay_along": lambda params: {"length": -params["length"]},
-    "line_meets_circle": lambda params: {"way": "back" if params["way"] == "on" else "on"},
-}
+STRICT = frozenset(name for name, op in TABLE.items() if not op.compound)
+BY_SET_SQUARE = STRICT | {name for name, op in TABLE.items() if op.movement is not Movement.OTHER}
 
 
 class Window(NamedTuple):
@@ -56,7 +45,6 @@ class Window(NamedTuple):
 
 
 RATHER = phrase("{0} rather than {1}")
-CROSSINGS = {"meet", "line_meets_circle", "circles_meet"}
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
 
@@ -124,9 +112,13 @@ class Expander:
         return Program(tuple(self.board.steps), tuple(place[index].step.index for index in self.program.wanted))
 
     def _params(self, step: Step, args: tuple[Mark, ...]) -> Mapping[str, Any]:
-        """A step's parameters, turned round where the line that it reads runs the other way than in the program."""
-        if step.op.name in REVERSED and _runs_against(self.truth[step.args[0]], self.value(args[0])):
-            return REVERSED[step.op.name](step.params)
+        """A step's parameters, turned round where the line that it reads runs the other way than in the program.
+
+        A locus has no way to run: drawn out, it may run against its rule.
+        """
+        by_its_way = step.op.reversal and step.op.reads[0] == LINE
+        if by_its_way and _runs_against(self.truth[step.args[0]], self.value(args[0])):
+            return step.op.reversed(step.params)
         return step.params
 
     def value(self, mark: Mark) -> Any:
@@ -214,9 +206,9 @@ class Expander:
         """Whether a form gave the rule's value; `size` is the drawing's without the form's own marks."""
         if op.gives == LINE:
             centre = self.windows.get(self.panel, EVERYWHERE).centre
-            locus = any(claim[0] in ("locus", "concurrent") for claim in op.claims)
+            locus = op.claimed("locus") or op.claimed("concurrent")
             return _line_gap(truth, value, centre, size) <= AGREE * size and (
-                locus or not _runs_against(truth, value))
+                bool(locus) or not _runs_against(truth, value))
         return math.dist(value, truth) <= AGREE * size
 
     def _judge(self, form: str, before: int) -> Trial | None:
@@ -225,7 +217,7 @@ class Expander:
             return None
         on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
                        for step in steps if step.op.gives == POINT)
-        crossings = [crossing(step, self.values) for step in steps if step.op.name in CROSSINGS]
+        crossings = [crossing(step, self.values) for step in steps if step.op.crossing]
         undrawn = sum(step.op.name not in self.keep for step in steps)
         return Trial(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
 
@@ -234,7 +226,7 @@ class Expander:
 
         Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
         """
-        if step.op.name not in ("line", "opening") or "parallel" not in self.keep:
+        if not step.op.spans or self.keep <= STRICT:
             return False
         return len({self.board.steps[arg].panel for arg in step.args}) > 1
 

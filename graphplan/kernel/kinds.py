@@ -10,8 +10,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import Enum
+from functools import cached_property
 from typing import Any
 
 from graphplan.phrases import Said, said
@@ -25,7 +27,38 @@ SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
 Claim = tuple[Any, ...]
 
 
-@dataclass(frozen=True)
+class Movement(Enum):
+    """What the hand does in one go: of the same operands, primitives of one movement make the same."""
+
+    GIVEN = "a point of the pose is marked"
+    BEGUN = "a plan is begun where there is room"
+    PICKED = "a point of a line is chosen"
+    GUIDED = "a line is drawn in a given direction"
+    RULED = "a line is drawn through two points"
+    PARALLEL = "a parallel is drawn"
+    PERPENDICULAR = "a perpendicular is drawn"
+    BISECTED = "the bisector of two points is drawn"
+    MET = "two lines cross"
+    CUT = "a line crosses an arc"
+    ARCS_MET = "two arcs cross"
+    OPENED = "a distance is taken between the compasses' points"
+    STRUCK = "an arc is struck"
+    HALVED = "a distance is halved"
+    DROPPED = "a perpendicular is dropped"
+    LAID_OFF = "a vector is laid off, or a multiple of it"
+    TURNED = "a vector is laid off, turned a quarter, or a multiple of it"
+    LAID_ALONG = "a length is laid off along a line"
+    LAID_BY_COMPONENTS = "a given vector is laid off"
+    MEASURED = "what is laid off is worked out from lengths that are measured"
+    OTHER = "a movement of its own; of a compound several"
+
+
+LAID = frozenset({Movement.DROPPED, Movement.LAID_OFF, Movement.TURNED, Movement.LAID_ALONG,
+                  Movement.LAID_BY_COMPONENTS, Movement.MEASURED})
+OPPOSITE = {"left": "right", "right": "left", "on": "back", "back": "on"}
+
+
+@dataclass(frozen=True, eq=False)
 class Primitive:
     """One operation of the drawing board: everything that graphplan knows of it.
 
@@ -34,6 +67,12 @@ class Primitive:
     satisfy; `fails` are the failure codes with what each means and what to do; `forms` are the ways to draw a
     compound from earlier primitives, by name. `where` is the operand on whose plan it is drawn (-1: the last). Where
     it is `symmetric` the order of its operands does not matter.
+
+    `movement` is what the hand does. The operands `afar` may lie on another plan, together on any one: of them only
+    directions and lengths count. `reversal` is the parameter that turns round where the first operand runs the other
+    way, or where two curves change places. `described` is how a line is spoken of where its number says nothing.
+    Of a compound that is `weighed` the choice of form is told, with its reason; `method` is what it is called where
+    the ways are listed in which forces are found.
     """
 
     name: str
@@ -48,6 +87,12 @@ class Primitive:
     source: str = ""
     where: int = -1
     symmetric: bool = False
+    movement: Movement = Movement.OTHER
+    afar: tuple[int, ...] = ()
+    reversal: str = ""
+    described: str = ""
+    weighed: bool = False
+    method: str = ""
     forms: dict[str, Callable[..., Any]] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
@@ -58,6 +103,40 @@ class Primitive:
     def compound(self) -> bool:
         """Whether it can be drawn from other primitives."""
         return bool(self.forms)
+
+    @property
+    def free(self) -> bool:
+        """Whether it stands where it is put, made from no mark: a point of the pose, or the beginning of a plan."""
+        return self.gives == POINT and not self.reads
+
+    @cached_property
+    def root(self) -> int | None:
+        """The operand that a point is laid off from, if it is: a stroke joins the two."""
+        return self.where % len(self.reads) if self.movement in LAID else None
+
+    @property
+    def scaled(self) -> bool:
+        """Whether what is laid off has a given size."""
+        return self.root is not None and self.instrument == SCALE and self.movement is not Movement.MEASURED
+
+    @cached_property
+    def crossing(self) -> bool:
+        """Whether it marks where the two curves that it reads cross: the angle between them matters."""
+        return self.gives == POINT and self.claimed("on") == [0, 1] and len(self.reads) == 2
+
+    @property
+    def spans(self) -> bool:
+        """Whether its mark lies between the two points that it reads."""
+        return self.movement in (Movement.RULED, Movement.OPENED)
+
+    def claimed(self, kind: str) -> list[Any]:
+        """The first operands of the claims of a kind: those that it lies `on`, that it runs `parallel` to."""
+        return [claim[1] for claim in self.claims if claim[0] == kind]
+
+    def reversed(self, params: Mapping[str, Any]) -> dict[str, Any]:
+        """The parameters with that of its reversal turned round: to the other side, or negative."""
+        given = params[self.reversal]
+        return {**params, self.reversal: OPPOSITE[given] if isinstance(given, str) else -given}
 
     @property
     def doc(self) -> str:
@@ -91,27 +170,15 @@ FAILURES: dict[str, tuple[Said, str]] = {
 }
 
 
-def primitive(
-    reads: tuple[str, ...],
-    gives: str,
-    instrument: str,
-    sentence: str,
-    *,
-    claims: tuple[Claim, ...] = (),
-    fails: tuple[str, ...] = (),
-    params: tuple[str, ...] = (),
-    source: str = "",
-    where: int = -1,
-    symmetric: bool = False,
-) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Enter the decorated rule in the table under its own name."""
+def primitive(reads: tuple[str, ...], gives: str, instrument: str, sentence: str,
+              **more: Any) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
+    """Enter the decorated rule in the table under its own name, with the fields of :class:`Primitive`."""
 
     def enter(rule: Callable[..., Any]) -> Callable[..., Any]:
         name = rule.__name__
         if name in TABLE:
             raise ValueError(f"the table already has {name}")
-        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, claims, fails, params, source, where,
-                                symmetric)
+        TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, **more)
         return rule
 
     return enter
@@ -121,7 +188,7 @@ def form(of: str, name: str) -> Callable[[Callable[..., Any]], Callable[..., Any
     """Enter the decorated expansion as one form of the compound `of`."""
 
     def enter(expansion: Callable[..., Any]) -> Callable[..., Any]:
-        TABLE[of] = replace(TABLE[of], forms={**TABLE[of].forms, name: expansion})
+        TABLE[of].forms[name] = expansion
         return expansion
 
     return enter

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES, STRAIGHTEDGE
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement
 from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, joined, phrase, said
 
@@ -82,15 +82,15 @@ class Hand:
 
     def play(self, step: Step) -> None:
         """Count one step."""
-        match step.op.name:
-            case "given" | "begin":
+        match step.op.movement:
+            case _ if step.op.free or step.op.instrument == PENCIL:
                 pass
-            case "line":
+            case Movement.RULED:
                 self._take(STRAIGHTEDGE)
                 self.counts.update(R1=2, R2=1)
-            case "opening":
+            case Movement.OPENED:
                 self._open(step)
-            case "circle":
+            case Movement.STRUCK:
                 self._take(COMPASSES)
                 centre, opening = step.args
                 if opening != self.opening:
@@ -102,11 +102,9 @@ class Hand:
             case _ if step.op.instrument == SCALE:
                 self._take(SCALE)
                 self.counts["scale"] += 1
-            case _ if step.op.instrument in (SET_SQUARES, DIVIDERS, COMPASSES) or step.op.compound:
+            case _:
                 self._take(step.op.instrument)
                 self.others[step.op.instrument] += 1
-            case _ if step.op.instrument != PENCIL:
-                raise ValueError(f"there is no count for {step.op.name}")
 
     def _take(self, instrument: str) -> None:
         """Take an instrument, putting down the last one."""
@@ -122,7 +120,7 @@ class Hand:
 
     def _set(self, point: int) -> None:
         """Set a point of the compasses: on a known point, or first on one chosen anywhere on a line."""
-        anywhere = self.program.steps[point].op.name == "pick" and point not in self.known
+        anywhere = self.program.steps[point].op.movement is Movement.PICKED and point not in self.known
         self.counts["C2" if anywhere else "C1"] += 1
         self.known.add(point)
 

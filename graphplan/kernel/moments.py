@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, primitive
+from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, primitive
 
 
 def _vector(P: Any, Q: Any) -> Any:
@@ -44,7 +44,8 @@ def _across(u: Any, part: Any, m: Any) -> Any:
            "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
            "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
-           source="Ozols 1974, 10-2: tangential parts from moments")
+           source="Ozols 1974, 10-2: tangential parts from moments",
+           movement=Movement.MEASURED)
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
     arm = _arm(d, Y, X)
@@ -55,7 +56,8 @@ def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
            "For the couple {moment} take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at "
            "{1}; mark {out}.",
            claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
-           source="Ozols 1974, 10-6")
+           source="Ozols 1974, 10-6",
+           movement=Movement.MEASURED)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
     """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
     arm = _arm(d, P, R)
@@ -67,7 +69,8 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
            "{0}{1}, take a "
            "pair of forces at {0} and {1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4")
+           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4",
+           movement=Movement.MEASURED)
 def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
     """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
     arm = _arm(d, P, R)
@@ -79,7 +82,8 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
            "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0}, of radius "
            "{radius}, so that it turns against the motion that the vector from {1} to {2} shows.",
            claims=(("touches", 0, 1, 2, 3, 4),), fails=("points-coincide",), where=0, params=("radius",),
-           source="Ozols 1974, 12-4, fig. 12-11")
+           source="Ozols 1974, 12-4, fig. 12-11",
+           movement=Movement.MEASURED)
 def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> Any:
     """The point of the friction circle of a journal at P through which its force acts, as its last one pq says.
 
@@ -116,7 +120,8 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
            "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at "
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",
            claims=(("across", (0, -1), (1, 2)), ("takes couple", 0, 1, 2, 3, 4, 5, 6)), fails=("couple-alone",),
-           where=0, source="Ozols 1974, 10-2: arms of slider reactions")
+           where=0, source="Ozols 1974, 10-2: arms of slider reactions",
+           movement=Movement.MEASURED)
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = _vector(p, q)
@@ -140,7 +145,7 @@ def _aimed(d: Any, y: Any, z: Any, X: Any) -> Any:
 
 @primitive((LINE, LINE, POINT), LINE, STRAIGHTEDGE, "Through {2} draw {out} to where {0} meets {1}.",
            claims=(("on", 2), ("concurrent", 0, 1)), fails=("points-coincide",),
-           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces")
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points")
 def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
     u = _aimed(d, y, z, X)
@@ -151,7 +156,7 @@ def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
            "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
            "that point, that balances the force from {4} to {5} at {3}; mark {out}.",
            claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
-           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces")
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points")
 def weigh(d: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, laid off from m, that balances pq at C about the point where two lines meet."""
     Y = _meeting(y, z)

@@ -18,25 +18,29 @@ from graphplan.kernel.kinds import (
     SCALE,
     SET_SQUARES,
     STRAIGHTEDGE,
+    Movement,
     primitive,
 )
 
 
-@primitive((), POINT, SCALE, "Mark {out} at ({x}, {y}), given by the pose.", claims=(("stands",),), params=("x", "y"))
+@primitive((), POINT, SCALE, "Mark {out} at ({x}, {y}), given by the pose.", claims=(("stands",),), params=("x", "y"),
+           movement=Movement.GIVEN)
 def given(d: Any, /, *, x: Any, y: Any) -> Any:
     """A point of the pose."""
     return d.lift(x), d.lift(y)
 
 
 @primitive((), POINT, PENCIL, "Mark {out} where there is room: beginning {number} of the {plan}.",
-           claims=(("stands",),), params=("plan", "number"))
+           claims=(("stands",),), params=("plan", "number"),
+           movement=Movement.BEGUN)
 def begin(d: Any, /, *, plan: str, number: int) -> Any:
     """The place where a plan begins, its origin; `number` tells several beginnings on one plan apart."""
     return d.lift(0), d.lift(0)
 
 
 @primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in the given direction ({dx}, {dy}).",
-           claims=(("on", 0), ("heads",)), fails=("no-direction",), params=("dx", "dy"))
+           claims=(("on", 0), ("heads",)), fails=("no-direction",), params=("dx", "dy"),
+           movement=Movement.GUIDED, described="the guide through {0}")
 def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """The line through a point in a direction that the scene gives."""
     a, b = -d.lift(dy), d.lift(dx)
@@ -45,7 +49,8 @@ def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw {out} through {0} and {1}.",
-           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",))
+           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",),
+           movement=Movement.RULED)
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
     dx, dy = Q[0] - P[0], Q[1] - P[1]
@@ -55,21 +60,24 @@ def line(d: Any, P: Any, Q: Any) -> Any:
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
-           claims=(("on", 1), ("parallel", 0)))
+           claims=(("on", 1), ("parallel", 0)),
+           movement=Movement.PARALLEL, afar=(0,), described="the parallel to {0} through {1}")
 def parallel(d: Any, l: Any, P: Any) -> Any:
     """The parallel to a line through a point, running the same way."""
     return l[0], l[1], -(l[0] * P[0] + l[1] * P[1])
 
 
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
-           claims=(("on", 1), ("perpendicular", 0)))
+           claims=(("on", 1), ("perpendicular", 0)),
+           movement=Movement.PERPENDICULAR, afar=(0,), described="the perpendicular to {0} through {1}")
 def perpendicular(d: Any, l: Any, P: Any) -> Any:
     """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
     return -l[1], l[0], l[1] * P[0] - l[0] * P[1]
 
 
 @primitive((LINE, LINE), POINT, PENCIL, "Mark {out} where {0} meets {1}.",
-           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",), symmetric=True)
+           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",), symmetric=True,
+           movement=Movement.MET)
 def meet(d: Any, k: Any, l: Any) -> Any:
     """The intersection of two lines."""
     one, two = k[0] * l[1], l[0] * k[1]
@@ -78,7 +86,8 @@ def meet(d: Any, k: Any, l: Any) -> Any:
 
 
 @primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses from {0} to {1}: {out}.",
-           claims=(("span", 0, 1),))
+           claims=(("span", 0, 1),),
+           movement=Movement.OPENED)
 def opening(d: Any, P: Any, Q: Any) -> Any:
     """The distance of two points, in the compasses."""
     dx, dy = Q[0] - P[0], Q[1] - P[1]
@@ -93,14 +102,16 @@ def radius(d: Any, /, *, length: Any) -> Any:
 
 
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
-           claims=(("centre", 0), ("opened", 1)), where=0)
+           claims=(("centre", 0), ("opened", 1)), where=0,
+           movement=Movement.STRUCK, afar=(1,))
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
     return C[0], C[1], o[0]
 
 
 @primitive((LINE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, the crossing further {way} along it.",
-           claims=(("on", 0), ("on", 1), ("way", 0, 1)), fails=("line-misses-circle",), params=("way",))
+           claims=(("on", 0), ("on", 1), ("way", 0, 1)), fails=("line-misses-circle",), params=("way",),
+           movement=Movement.CUT, reversal="way")
 def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
     """One of the two intersections of a line with a circle: further `on` or further `back` along the line."""
     n2 = l[0] * l[0] + l[1] * l[1]
@@ -112,7 +123,8 @@ def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
 
 @primitive((CIRCLE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, on the {side} of the line of centres.",
            claims=(("on", 0), ("on", 1), ("side", 0, 1)), fails=("circles-miss", "circles-concentric"),
-           params=("side",))
+           params=("side",),
+           movement=Movement.ARCS_MET, reversal="side")
 def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     """One of the two intersections of two circles: left or right of the ray from the first centre to the second.
 
@@ -131,7 +143,8 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
-           claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",))
+           claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",),
+           movement=Movement.LAID_OFF, afar=(0, 1))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ laid off from R."""
     r = d.lift(ratio)
@@ -140,7 +153,8 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "From {2} lay off {ratio} times the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
-           claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",))
+           claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",),
+           movement=Movement.TURNED, afar=(0, 1))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     """A given multiple of the vector PQ, turned a quarter counter-clockwise, laid off from R."""
     r = d.lift(ratio)
@@ -148,7 +162,8 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
-           claims=(("laid", 0, 1),), params=("length",))
+           claims=(("laid", 0, 1),), params=("length",),
+           movement=Movement.LAID_ALONG, reversal="length")
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
     unit = d.sqrt(l[0] * l[0] + l[1] * l[1], "not-rational", "a length along this line is irrational")
@@ -157,7 +172,8 @@ def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
 
 
 @primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.",
-           claims=(("moved", (0, -1)),), params=("dx", "dy"))
+           claims=(("moved", (0, -1)),), params=("dx", "dy"),
+           movement=Movement.LAID_BY_COMPONENTS)
 def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """A vector given by its components, laid off from a point."""
     return P[0] + d.lift(dx), P[1] + d.lift(dy)
@@ -166,7 +182,8 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 @primitive((LINE, POINT, POINT), POINT, PENCIL,
            "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance "
            "from {1} to {2}.",
-           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0)
+           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0,
+           movement=Movement.PICKED, reversal="ratio")
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
     n2 = l[0] * l[0] + l[1] * l[1]

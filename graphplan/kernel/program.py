@@ -12,7 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Primitive
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Movement, Primitive
 from graphplan.phrases import Said, arranged, phrase, said, sentence
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
@@ -136,7 +136,7 @@ class Board:
         places = tuple([step.index for step in read])
         key = _key(op, places, params)
         same = self._drawn.get(key)
-        if same is not None and op.name != "given":  # coincident points of the pose stay apart
+        if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             if name and not same.step.name:
                 self._rename(same, name)
             return same
@@ -192,7 +192,7 @@ class Program:
                 raise ValueError(f"step {index} reads a mark that is not drawn yet")
             if tuple(self.steps[arg].op.gives for arg in step.args) != step.op.reads:
                 raise ValueError(f"step {index}: {step.op.name} reads {step.op.reads}")
-            if step.op.name == "given" and index and self.steps[index - 1].op.name != "given":
+            if index > self.givens and step.op.movement is Movement.GIVEN:
                 raise ValueError("the points of the pose come first")
             if step.name and step.name in bound:
                 raise ValueError(f"the name {step.name} is bound twice")
@@ -208,27 +208,21 @@ class Program:
         step = self.steps[index]
         if step.name:
             return step.name
-        if step.op.name == "line" and all(_joins(self.steps[arg].name) for arg in step.args):
+        if step.op.movement is Movement.RULED and all(_joins(self.steps[arg].name) for arg in step.args):
             return "".join(self.steps[arg].name for arg in step.args)
         return NUMBERED[step.op.gives](self.number(index))
 
     def described(self, index: int) -> str:
         """How a mark is spoken of away from the sheet, where its number says nothing: a line by how it runs."""
         step = self.steps[index]
-        names = [] if step.name else [self.described(arg) for arg in step.args]
-        match step.op.name, names:
-            case ("parallel" | "perpendicular") as op, [l, P]:
-                return f"the {op} to {l} through {P}"
-            case "guide", [P]:
-                return f"the guide through {P}"
-            case "carry", [*_, C]:
-                return f"the locus of the end of {C}"
-        return self.text(index)
+        if step.name or not step.op.described:
+            return self.text(index)
+        return step.op.described.format(*map(self.described, step.args))
 
     @cached_property
     def givens(self) -> int:
         """How many steps only mark the points of the pose; they come first."""
-        return sum(step.op.name == "given" for step in self.steps)
+        return next((k for k, s in enumerate(self.steps) if s.op.movement is not Movement.GIVEN), len(self.steps))
 
     def number(self, index: int) -> int:
         """The number of a step as printed: the pose's own points are not counted."""

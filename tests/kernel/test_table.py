@@ -3,13 +3,21 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
+from fractions import Fraction
+from random import Random
 from string import Formatter
+from typing import Any
 
 import pytest
-from figures import NAMES
+from figures import NAMES, drawn, figure
 
-from graphplan.kernel import FAILURES, TABLE, Primitive
+from graphplan.kernel import CIRCLE, FAILURES, LINE, POINT, TABLE, Primitive
 from graphplan.kernel.claims import RESIDUALS
+from graphplan.kernel.kinds import Movement
+from graphplan.kernel.numbers.floats import Floats
+
+Samples = tuple[Primitive, list[tuple[list[Any], dict[str, Any]]]]
 
 
 @pytest.fixture(params=NAMES)
@@ -59,3 +67,85 @@ def test_operands_exist(op: Primitive) -> None:
     places = [k for claim in op.claims for part in claim[1:] for k in (part if isinstance(part, tuple) else (part,))]
     assert all(-1 <= k < len(op.reads) for k in places)
     assert -1 <= op.where < max(1, len(op.reads))
+
+
+@pytest.fixture(params=sorted(TABLE.values(), key=lambda op: op.name), ids=lambda op: op.name)
+def samples(request: pytest.FixtureRequest) -> Samples:
+    """A primitive with some operands and parameters of which it makes something."""
+    op, r, found = request.param, Random(request.param.name), []
+    while len(found) < 5:
+        program = figure(op.name, r)
+        values = drawn(program, Floats())
+        if values is not None:
+            found.append(([values[arg] for arg in program.steps[-1].args], program.steps[-1].params))
+    return op, found
+
+
+def made(op: Primitive, operands: Sequence[Any], params: dict[str, Any]) -> list[float]:
+    """What a primitive makes, as floats; of a line what does not hang on its size."""
+    value = [float(number) for number in op.rule(Floats(), *operands, **params)]
+    size = (value[0] ** 2 + value[1] ** 2) ** 0.5 if op.gives == LINE else 1.0
+    return [number / size for number in value]
+
+
+def moved(kind: str, value: Any) -> Any:
+    """A mark shifted by (3, -2)."""
+    if kind in (POINT, CIRCLE):
+        return value[0] + 3, value[1] - 2, *value[2:]
+    return (*value[:2], value[2] - 3 * value[0] + 2 * value[1]) if kind == LINE else value
+
+
+def test_every_movement_is_made() -> None:
+    """No movement is left over."""
+    assert set(Movement) == {op.movement for op in TABLE.values()}
+
+
+def test_a_movement_makes_one_thing(samples: Samples) -> None:
+    """Of the same operands, all primitives of a movement make the same: what has a ratio makes it at the ratio 1."""
+    op, found = samples
+    alike = [other for other in TABLE.values() if other.movement is op.movement]
+    if op.movement not in (Movement.OTHER, Movement.MEASURED):
+        for other in alike:
+            assert (other.reads, other.gives, other.where, other.afar) == (op.reads, op.gives, op.where, op.afar)
+            for operands, params in found:
+                whole = {name: Fraction(1) if name == "ratio" else value for name, value in params.items()}
+                one, two = ({name: whole.get(name, 1) for name in entry.params} for entry in (op, other))
+                assert made(op, operands, one) == pytest.approx(made(other, operands, two))
+
+
+def test_only_the_direction_and_length_from_afar_count(samples: Samples) -> None:
+    """What is read from another plan may be shifted there, all of it together."""
+    op, found = samples
+    for operands, params in found:
+        shifted = [moved(kind, value) if place in op.afar else value
+                   for place, (kind, value) in enumerate(zip(op.reads, operands, strict=True))]
+        assert made(op, shifted, params) == pytest.approx(made(op, operands, params))
+
+
+def test_reversal_makes_the_same_again(samples: Samples) -> None:
+    """Where the line that it reads runs the other way, or two curves change places, the reversed parameter mends it."""
+    op, found = samples
+    if op.reversal:
+        for (first, *rest), params in found:
+            turned = [tuple(-part for part in first), *rest] if op.reads[0] == LINE else [*rest, first]
+            assert made(op, turned, op.reversed(params)) == pytest.approx(made(op, [first, *rest], params))
+            assert op.reversed(op.reversed(params)) == params
+
+
+def test_what_lays_off_has_a_root(op: Primitive) -> None:
+    """A point that is laid off has a point as its root; where its size is given, so is a parameter."""
+    assert op.root is None or (op.gives, op.reads[op.root]) == (POINT, POINT)
+    assert not op.scaled or op.params
+    assert not op.spans or op.reads == (POINT, POINT)
+    assert not op.crossing or set(op.reads) <= {LINE, CIRCLE}
+
+
+def test_lines_that_are_described_speak_of_operands(op: Primitive) -> None:
+    """How a line is spoken of away from the sheet uses nothing but what it reads."""
+    used = {int(field) for _, field, _, _ in Formatter().parse(op.described) if field is not None}
+    assert used <= set(range(len(op.reads)))
+
+
+def test_compounds_that_are_weighed_have_forms(op: Primitive) -> None:
+    """Only of what can be drawn in several forms a choice is told; a method is a compound too."""
+    assert op.compound or not (op.weighed or op.method)

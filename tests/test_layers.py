@@ -35,6 +35,8 @@ FRONT = {"__init__", "__main__", "commands"}
 # Who may import what does not come with Python.
 OUTSIDE = {
     "matplotlib": {"output"},
+    "svgwrite": {"output/svg.py", "output/stepper.py"},
+    "shapely": {"sheet", "output", "marking"},
     "ezdxf": {"output", "marking"},
     "cv2": {"marking"},
     "pypdfium2": {"marking"},
@@ -102,7 +104,7 @@ def test_no_circles() -> None:
 
 @pytest.mark.parametrize("path", FILES, ids=named)
 def test_outside_packages(path: Path) -> None:
-    """matplotlib serves back ends alone; what the kernel reckons with beyond Python stands in its number domains."""
+    """matplotlib and svgwrite serve writers alone; what the kernel computes with stands in its number domains."""
     found = outside(path)
     for package, users in OUTSIDE.items():
         assert package not in found or users & {folder(path), named(path)}
@@ -119,13 +121,13 @@ def test_files_are_short(path: Path) -> None:
 
 
 def test_solving_needs_no_drawing_packages() -> None:
-    """Solving a scene does not load matplotlib."""
+    """Solving a scene loads neither matplotlib nor shapely nor svgwrite."""
     scenes = sorted((PACKAGE / "scenes").glob("*.toml"))
     if not scenes:
         pytest.skip("no scenes yet")
     code = ("import sys; from graphplan.commands import main; "
             f"assert main(['solve', {str(scenes[0])!r}]) in (0, None); "
-            "print({'matplotlib'} & set(sys.modules), file=sys.stderr)")
+            "print({'matplotlib', 'shapely', 'svgwrite'} & set(sys.modules), file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.strip().endswith("set()"), done.stderr
 

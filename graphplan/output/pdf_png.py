@@ -28,14 +28,13 @@ from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from graphplan.errors import Refused
-from graphplan.sheet.lettering.lettering import DROP, SUBSCRIPT
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, SUBSCRIPT
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
 INCH = 25.4
 POINTS = 72 / INCH  # typographic points in a mm
 EM = 1000  # advances are read off at this size
-ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}
 WORD = re.compile(r" *[^ ]+ *|^ +$")  # with the spaces about it, so that words stay apart for those who search
 SETTINGS: Any = {  # whatever the reader's own settings are
     "pdf.fonttype": 42, "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,

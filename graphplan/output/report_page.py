@@ -186,5 +186,5 @@ class _Report:
 
 def picture(sheet: Sheet) -> str:
     """A sheet to stand in a page: without its own heading, and named by what it says."""
-    text = svg(replace(sheet, scene=""))
-    return text[text.index("<svg "):].replace("<svg ", f'<svg role="img" aria-label="{escape(sheet.description)}" ', 1)
+    text = svg(replace(sheet, scene=""), role="img", aria_label=sheet.description)
+    return text[text.index("<svg "):]

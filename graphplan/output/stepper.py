@@ -10,20 +10,23 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import replace
 from html import escape
 from importlib.resources import files
 from typing import Any
-from xml.etree.ElementTree import Element, SubElement, fromstring, tostring
+from xml.etree.ElementTree import tostring
+
+from svgwrite.container import SVG
 
 from graphplan.methods.panels import spoken
-from graphplan.output.svg import svg
+from graphplan.output.svg import MAKE, Element, group, groups
 from graphplan.phrases import arranged, said
 from graphplan.sheet.cycle_frames import Round, Still
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
+from graphplan.sheet.plates.pens import PAPER
 from graphplan.sheet.words.texts import RESULTS
 
 PACKING = 9  # how hard gzip tries
@@ -39,7 +42,7 @@ WORDS = {  # what stands on the page
     "keys": said("Keys: arrows, Home, End, space."),
 }  # fmt: skip
 
-Groups = dict[str, str]  # the inside of every group of a sheet, by layer or step
+Groups = dict[str, Element]  # every group of a sheet, by layer or step
 
 
 def stepper(found: Round) -> str:
@@ -52,13 +55,13 @@ def stepper(found: Round) -> str:
 def _parts(found: Round) -> dict[str, str]:
     """What the page is filled with besides words."""
     sheet = found.stills[0].sheet
-    groups = [_groups(still) for still in found.stills]
+    poses = [_groups(still) for still in found.stills]
     return {
         "language": sheet.language, "title": escape(sheet.title), "source": escape(found.drawing.scene.source),
-        "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, groups),
+        "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, poses),
         "list": "\n".join(_entries(found)), "turned": "" if len(found.stills) > 1 else "hidden",
         "remark": escape(_remark(found)), "data": _script(json.dumps(_data(found), ensure_ascii=False)),
-        "poses": _packed(found, groups), "scene": _script(sheet.scene),
+        "poses": _packed(found, poses), "scene": _script(sheet.scene),
     }  # fmt: skip
 
 
@@ -126,12 +129,7 @@ def _box(sheet: Sheet, rect: Rect) -> list[float]:
 
 def _groups(still: Still) -> Groups:
     """The groups of a sheet; the words of the steps stand in groups apart, as a page lights them up otherwise."""
-    root = fromstring(svg(replace(still.sheet, items=tuple(map(_parted, still.sheet.items)))).encode())
-    for element in root.iter():
-        element.tag = element.tag.rpartition("}")[2]
-    groups = (child for child in root if child.tag == "g")
-    return {group.get("data-step") or group.get("class", "").removeprefix("layer-"): _inside(group)
-            for group in groups}
+    return dict(groups(replace(still.sheet, items=tuple(map(_parted, still.sheet.items)))))
 
 
 def _parted(item: Item) -> Item:
@@ -141,28 +139,21 @@ def _parted(item: Item) -> Item:
     return item
 
 
-def _inside(group: Element) -> str:
-    """What a group holds, without its title."""
-    return "".join(tostring(child, encoding="unicode") for child in group if child.tag != "title")
-
-
-def _picture(found: Round, groups: list[Groups]) -> str:
+def _picture(found: Round, poses: list[Groups]) -> str:
     """The sheet of the given pose, with a group for whatever is drawn in any pose."""
     sheet, plans = found.stills[0].sheet, found.composition.plans
     panels, size = list(sheet.panels), f"0 0 {sheet.width:g} {sheet.height:g}"
-    root = Element("svg", {"id": "picture", "viewBox": size, "role": "img", "aria-label": sheet.title})
-    SubElement(root, "desc").text = sheet.description
-    defs = SubElement(root, "defs")
+    picture = SVG(id="picture", viewBox=size, role="img", aria_label=sheet.title, debug=False)
+    picture.set_desc(desc=sheet.description)
     for number, rect in enumerate(sheet.panels.values()):
-        x, y, wide, high = map(str, _box(sheet, rect))
-        clip = SubElement(defs, "clipPath", {"id": f"panel-{number}"})
-        SubElement(clip, "rect", {"x": x, "y": y, "width": wide, "height": high})
-    SubElement(root, "rect", {"width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "fill": "#ffffff"})
-    drawn = {key for pose in groups for key in pose}
-    for key in sorted(drawn, key=_place):
-        root.append(_group(key, groups[0].get(key, ""), sheet.sentences,
-                           panels.index(plans.plan_of_step[int(key)]) if key.isdigit() else 0))
-    return tostring(root, encoding="unicode")
+        left, top, wide, high = _box(sheet, rect)
+        clip = picture.defs.add(MAKE.clipPath(id=f"panel-{number}"))
+        clip.add(MAKE.rect((left, top), (wide, high)))
+    picture.add(MAKE.rect((0, 0), (sheet.width, sheet.height), fill=PAPER))
+    for key in sorted({key for pose in poses for key in pose}, key=_place):
+        panel = panels.index(plans.plan_of_step[int(key)]) if key.isdigit() else 0
+        picture.add(_marked(key, poses[0].get(key) or _empty(key, sheet), panel))
+    return str(picture.tostring())
 
 
 def _place(key: str) -> tuple[int, int]:
@@ -173,39 +164,44 @@ def _place(key: str) -> tuple[int, int]:
     return (0, back.index(key)) if key in back else (2, front.index(key) if key in front else len(front))
 
 
-def _group(key: str, inside: str, sentences: tuple[str, ...], panel: int) -> Element:
-    """One group of the picture, cut off where its plan ends."""
-    words = key.removeprefix("words-")
-    look = {"class": f"layer-{key}", "data-key": key}
-    if key.isdigit():
-        look = {"class": "step", "data-step": key, "data-key": key}
-    elif words != key:
-        look = {"class": "words", "data-step": words, "data-key": key}
+def _empty(key: str, sheet: Sheet) -> Element:
+    """The group of what is not there in the given pose."""
+    return group(int(key) if key.isdigit() else key, sheet)
+
+
+def _marked(key: str, group: Element, panel: int) -> Element:
+    """A group of the picture with its key, cut off where its plan ends."""
+    group["data-key"] = key
+    if key.startswith("words-"):
+        group.update({"class": "words", "data-step": key.removeprefix("words-")})
     if key.isdigit() or key in MECHANISM_LAYERS:
-        look["clip-path"] = f"url(#panel-{panel})"
-    group = Element("g", look)
-    if key.isdigit():
-        SubElement(group, "title").text = sentences[int(key)]
-    group.extend(fromstring(f"<g>{inside}</g>"))
+        group["clip-path"] = f"url(#panel-{panel})"
     return group
 
 
 # ---- the poses ---------------------------------------------------------------------------------------------------
 
 
-def _packed(found: Round, groups: list[Groups]) -> str:
+def _packed(found: Round, poses: list[Groups]) -> str:
     """The groups that are not the same in all poses, with the places of marks, packed; nothing for one pose.
 
-    The poses of a group stand side by side, as they are alike.
+    The poses of a group stand in a row, as they are alike.
     """
-    if len(groups) < 2:
+    if len(poses) < 2:
         return ""
-    keys = dict.fromkeys(key for pose in groups for key in pose)
-    varied: Mapping[str, list[str]] = {key: [pose.get(key, "") for pose in groups] for key in keys}
-    poses = {"groups": {key: insides for key, insides in varied.items() if len(set(insides)) > 1},
-             "spots": list(map(_spots, found.stills))}
-    text = json.dumps(poses, ensure_ascii=False, separators=(",", ":"))
+    insides = [{key: _inside(group) for key, group in pose.items()} for pose in poses]
+    keys = dict.fromkeys(key for pose in poses for key in pose)
+    varied = {key: [inside.get(key, "") for inside in insides] for key in keys}
+    data = {"groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
+            "spots": list(map(_spots, found.stills))}
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
+
+
+def _inside(group: Element) -> str:
+    """What a group holds, without its title."""
+    return "".join(tostring(child.get_xml(), encoding="unicode") for child in group.elements
+                   if child.elementname != "title")
 
 
 def _script(text: str) -> str:

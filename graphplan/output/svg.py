@@ -1,74 +1,90 @@
-"""The display list as SVG text: one group a layer, one group a drawing step with its sentence as title.
+"""The display list as SVG: one group a layer, one group a drawing step with its sentence as title; svgwrite writes it.
 
 Every number is rounded to a hundredth of a millimetre and nothing depends on time or memory, so the same sheet is the
-same text. Attributes stand in alphabetical order.
+same text.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from itertools import groupby
-from xml.etree.ElementTree import Element, SubElement, tostring
+from typing import Any
 
-from graphplan.sheet.lettering.lettering import DROP, FONTS, SUBSCRIPT, width
+import svgwrite
+from svgwrite.text import TSpan
+
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, SUBSCRIPT, width
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.plates.pens import Pen
-
-DOCUMENT: dict[str, object] = {
-    "baseProfile": "full", "version": "1.1",
-    "font-family": FONTS, "stroke-linecap": "round", "stroke-linejoin": "round",
-    "xmlns": "http://www.w3.org/2000/svg", "xmlns:ev": "http://www.w3.org/2001/xml-events",
-    "xmlns:xlink": "http://www.w3.org/1999/xlink",
-}  # fmt: skip
+from graphplan.sheet.plates.pens import PAPER, Pen
 
 FINE = 4  # decimals of a radius: what is left of one moves the middle of a half circle much farther
-Look = dict[str, object]  # attributes of an element
+MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
+Element = Any  # of svgwrite, which has no types
 
 
-def svg(sheet: Sheet) -> str:
-    """The sheet as one SVG document, in millimetres."""
-    return _Writer(sheet).text()
+def svg(sheet: Sheet, **look: Any) -> str:
+    """The sheet as one SVG document, in millimetres; `look` are attributes of the whole."""
+    wide, high = rounded(sheet.width), rounded(sheet.height)
+    document = svgwrite.Drawing(
+        size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
+        stroke_linejoin="round", debug=False, **{"xml:lang": sheet.language}, **look)  # fmt: skip
+    document.elements.remove(document.defs)  # a sheet defines nothing
+    document.set_desc(sheet.title, sheet.description)
+    if sheet.scene:
+        document.add(_Metadata(sheet.scene, id="scene", factory=MAKE))
+    document.add(MAKE.rect((0, 0), (wide, high), fill=PAPER))
+    for _, group in groups(sheet):
+        document.add(group)
+    return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
 
 
+def groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
+    """The groups of a sheet from back to front, each by its layer or by the number of its step."""
+    writer = _Writer(sheet.height)
+    for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else item.step):
+        made = group(key, sheet)
+        for item in items:
+            made.add(writer.item(item))
+        yield str(key), made
+
+
+def group(key: str | int, sheet: Sheet) -> Element:
+    """A group with nothing in it yet: a layer, or a step by its number."""
+    if isinstance(key, str):
+        return MAKE.g(class_=f"layer-{key}")
+    made = MAKE.g(class_="step", data_step=key)
+    made.set_desc(sheet.sentences[key])
+    return made
+
+
+def rounded(number: float, places: int = 2) -> float:
+    """To 0.01 mm, or to more places, and never -0."""
+    value = round(number, places) + 0.0
+    return int(value) if value == int(value) else value
+
+
+class _Metadata(TSpan):  # type: ignore[misc]
+    """Text for programs."""
+
+    elementname = "metadata"
+
+
+@dataclass(frozen=True)
 class _Writer:
-    """Writes one sheet; y runs down in SVG and up on the sheet."""
+    """Writes items; y runs down in SVG and up on the sheet."""
 
-    def __init__(self, sheet: Sheet):
-        self.sheet = sheet
-        wide, high = _round(sheet.width), _round(sheet.height)
-        size = {"width": f"{wide}mm", "height": f"{high}mm", "viewBox": f"0 0 {wide} {high}",
-                "xml:lang": sheet.language}
-        self.root = _element("svg", DOCUMENT | size)
-        _titled(self.root, sheet.title)
-        SubElement(self.root, "desc").text = sheet.description
-        if sheet.scene:
-            SubElement(self.root, "metadata", {"id": "scene"}).text = sheet.scene
-        self.root.append(_element("rect", {"x": 0, "y": 0, "width": wide, "height": high, "fill": "#ffffff"}))
+    height: float
 
-    def text(self) -> str:
-        for key, items in groupby(self.sheet.items, lambda item: item.layer if item.step is None else item.step):
-            self.root.append(self._group(key, items))
-        return '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(self.root, encoding="unicode") + "\n"
-
-    def _group(self, key: str | int, items: Iterable[Item]) -> Element:
-        if isinstance(key, int):
-            group = _element("g", {"class": "step", "data-step": key})
-            _titled(group, self.sheet.sentences[key])
-        else:
-            group = _element("g", {"class": f"layer-{key}"})
-        group.extend(map(self._item, items))
-        return group
-
-    def _item(self, item: Item) -> Element:
+    def item(self, item: Item) -> Element:
         match item:
             case Polyline():
                 return self._line(item.spots, item.pen)
             case Polygon():
-                return _element("polygon", {"points": self._spots(item.spots)} | _look(item.pen))
+                return MAKE.polygon(self._spots(item.spots), **_look(item.pen))
             case Circle():
-                x, y = self._spot(item.centre)
-                return _element("circle", {"cx": x, "cy": y, "r": _round(item.radius, FINE)} | _look(item.pen))
+                return MAKE.circle(self._spot(item.centre), rounded(item.radius, FINE), **_look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -78,79 +94,52 @@ class _Writer:
         raise TypeError(f"no SVG for {type(item).__name__}")
 
     def _line(self, spots: Iterable[Spot], pen: Pen) -> Element:
-        return _element("polyline", _look(pen) | {"points": self._spots(spots), "fill": "none"})
+        return MAKE.polyline(self._spots(spots), **_look(pen) | {"fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
-        (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), _round(arc.radius, FINE)
+        (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), rounded(arc.radius, FINE)
         large = int(arc.end - arc.start > 180)
-        return _element("path", _look(arc.pen) | {"d": f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", "fill": "none"})
+        return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **_look(arc.pen) | {"fill": "none"})
 
     def _arrow(self, arrow: Arrow) -> Element:
         """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""
         tip, left, right = arrow.barbs
         neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
-        ends = {"data-from": self._spot(arrow.start), "data-to": self._spot(arrow.end)}
-        look: Look = {"class": "vector", **{name: f"{x} {y}" for name, (x, y) in ends.items()}}
-        group = _element("g", look | ({"data-vector": arrow.label} if arrow.label else {}))
+        (x, y), (u, v) = self._spots((arrow.start, arrow.end))
+        made = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
         if math.dist(arrow.start, neck) > 0.01:
-            group.append(self._line((arrow.start, neck), arrow.pen))
-        group.append(_element("polygon", {"points": self._spots((tip, left, right)), "fill": arrow.pen.colour}))
-        return group
+            made.add(self._line((arrow.start, neck), arrow.pen))
+        made.add(MAKE.polygon(self._spots((tip, left, right)), fill=arrow.pen.colour))
+        return made
 
     def _text(self, text: Text) -> Element:
         """Levels by shifting tspans; the anchor is worked out here, as renderers disagree about it over tspans."""
-        shift = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor] * width(text.runs, text.size, text.bold)
-        anchored = len(text.runs) == 1
-        x, y = self._spot(text.at if anchored else (text.at[0] - shift, text.at[1]))
-        look: Look = {"x": x, "y": y, "font-size": _round(text.size), "fill": text.pen.colour}
-        if text.bold:
-            look["font-weight"] = "bold"
-        if anchored and text.anchor != "start":
-            look["text-anchor"] = text.anchor
-        out = _element("text", look)
-        if anchored and text.runs[0].level == 0:
-            out.text = text.runs[0].text
-        else:
-            out.extend(_spans(text))
-        return out
+        whole = len(text.runs) == 1
+        x, y = text.at
+        x, y = self._spot((x if whole else x - ANCHORS[text.anchor] * width(text.runs, text.size, text.bold), y))
+        plain = whole and text.runs[0].level == 0
+        made = MAKE.text(text.runs[0].text if plain else "", font_size=rounded(text.size), fill=text.pen.colour,
+                         font_weight="bold" if text.bold else None,
+                         text_anchor=text.anchor if whole and text.anchor != "start" else None)  # fmt: skip
+        made.update({"x": x, "y": y})  # what is told when it is made is taken apart first, which takes long
+        level = 0
+        for run in () if plain else text.runs:
+            dy = rounded((level - run.level) * DROP * text.size)
+            size, level = rounded(SUBSCRIPT * text.size) if run.level else None, run.level
+            made.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
+        return made
 
-    def _spot(self, spot: Spot) -> tuple[float, float]:
-        return _round(spot[0]), _round(self.sheet.height - spot[1])
+    def _spot(self, spot: Spot) -> Spot:
+        return rounded(spot[0]), rounded(self.height - spot[1])
 
-    def _spots(self, spots: Iterable[Spot]) -> str:
-        return " ".join(f"{x},{y}" for x, y in map(self._spot, spots))
-
-
-def _element(name: str, look: Look) -> Element:
-    return Element(name, {key: str(look[key]) for key in sorted(look)})
+    def _spots(self, spots: Iterable[Spot]) -> list[Spot]:
+        return [self._spot(spot) for spot in spots]
 
 
-def _titled(element: Element, title: str) -> None:
-    """What a viewer says of an element."""
-    SubElement(element, "title").text = title
-
-
-def _spans(text: Text) -> Iterator[Element]:
-    """The runs of a text, each shifted from the level of the last to its own."""
-    level = 0
-    for run in text.runs:
-        dy = _round((level - run.level) * DROP * text.size)
-        small: Look = {"font-size": _round(SUBSCRIPT * text.size)} if run.level else {}
-        span = _element("tspan", ({"dy": dy} if dy else {}) | small)
-        span.text, level = run.text, run.level
-        yield span
-
-
-def _look(pen: Pen) -> Look:
-    look: Look = {"fill": pen.fill}
+def _look(pen: Pen) -> dict[str, Any]:
+    look: dict[str, Any] = {"fill": pen.fill}
     if pen.width:
-        look |= {"stroke": pen.colour, "stroke-width": _round(pen.width)}
+        look |= {"stroke": pen.colour, "stroke_width": rounded(pen.width)}
     if pen.dash:
-        look["stroke-dasharray"] = " ".join(f"{_round(part):g}" for part in pen.dash)
+        look["stroke_dasharray"] = " ".join(f"{rounded(part):g}" for part in pen.dash)
     return look
-
-
-def _round(number: float, places: int = 2) -> float:
-    """To 0.01 mm, or to more places, and never -0."""
-    value = round(number, places) + 0.0
-    return int(value) if value == int(value) else value

@@ -17,6 +17,7 @@ FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
 SIZE = 2.5  # mm; the cap height is 0.729 of it, so 1.8 mm
 CAPS, DEPTH = 0.729, 0.2
 SUBSCRIPT, DROP = 0.72, 0.22
+ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
 
 _ADVANCES = {
     227: "′", 275: "'", 278: "ijlīļії", 295: "IJĪІЇ", 318: " ,.·’", 337: "/:;\\|", 338: "ι", 352: "f", 361: "-",

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import CAPS, DEPTH, Run, width
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, Run, width
 from graphplan.sheet.plates.pens import Pen
 
 Spot = tuple[float, float]
@@ -143,7 +143,7 @@ class Text(Item):
     def box(self) -> Rect:
         """What the letters cover, from below the base line to the top of the capitals."""
         long = width(self.runs, self.size, self.bold)
-        left = self.at[0] - long * {"start": 0.0, "middle": 0.5, "end": 1.0}[self.anchor]
+        left = self.at[0] - long * ANCHORS[self.anchor]
         return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from graphplan.sheet.lettering.lettering import SIZE, Runs, width
+from graphplan.sheet.lettering.lettering import ANCHORS, SIZE, Runs, width
 from graphplan.sheet.plates.display import Rect, Text
 from graphplan.sheet.plates.pens import LETTERS
 
@@ -48,7 +48,7 @@ class Row:
 
 def _right(cell: Cell, size: float) -> float:
     long = width(cell.runs, size, cell.bold)
-    return cell.x + long * {"start": 1.0, "middle": 0.5, "end": 0.0}[cell.anchor]
+    return cell.x + long * (1.0 - ANCHORS[cell.anchor])
 
 
 Placed = tuple[Row, float, float]

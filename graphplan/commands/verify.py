@@ -95,19 +95,19 @@ class Desk:
         """A drawing judged; fails with `Refused` where it cannot be."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom import Marked
-        from graphplan.marking.judge.any_method import judge_by_any
+        from graphplan.marking.judge.any_method import judge_any_method
         from graphplan.marking.judge.judge import judge
         from graphplan.marking.judge.score import score
         from graphplan.marking.submission import read
-        from graphplan.marking.traces import Frame
+        from graphplan.marking.traces import PlanFrame
         from graphplan.sheet.handout import code
 
-        frames = {panel: Frame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
+        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
         size = self.composition.arrangement.width, self.composition.arrangement.height
-        handed = read(path, list(self.composition.views), frames, self._printed, code(self.composition), size)
-        task = self.drawing, self.composition, handed, self.pencil
+        submission = read(path, list(self.composition.views), frames, self._printed, code(self.composition), size)
+        task = self.drawing, self.composition, submission, self.pencil
         found = (judge(*task) if self.options.method
-                 else judge_by_any(*task, self.options.plan, self.options.inertia, construct))
+                 else judge_any_method(*task, self.options.plan, self.options.inertia, construct))
         judgement = replace(found, name=printable(path.name))
         return Marked(judgement, score(judgement, self.weights))
 

@@ -66,7 +66,7 @@ class Unread:
 
 
 @dataclass(frozen=True)
-class Row:
+class ReportRow:
     """A drawing in one line: its score, its first wrong step, if there is one, the verdict in words, its mistake."""
 
     file: str
@@ -85,7 +85,7 @@ class Classroom:
     unread: tuple[Unread, ...] = ()
 
     @property
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[ReportRow]:
         """A line for every drawing."""
         return [_row(one) for one in self.marked]
 
@@ -152,11 +152,11 @@ def mistaken(kind: str) -> Said:
     return MISTAKEN[kind]()
 
 
-def _row(one: Marked) -> Row:
+def _row(one: Marked) -> ReportRow:
     first, total = one.judgement.first, one.score.total
     if first is None:
-        return Row(one.file, total, None, said("no wrong step") if one.faultless else NOTHING(), None)
-    return Row(one.file, total, one.guilty, complaint(one.judgement, first), first.mistake)
+        return ReportRow(one.file, total, None, said("no wrong step") if one.faultless else NOTHING(), None)
+    return ReportRow(one.file, total, one.guilty, complaint(one.judgement, first), first.mistake)
 
 
 def lines(found: Classroom) -> Iterator[Said]:

@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
-from graphplan.marking.traces import Frame, Handed
+from graphplan.marking.traces import Frames, Submission
 
 if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
 Size = tuple[float, float] | None  # width and height in mm, where they are known
-Reader = Callable[[Path, Collection[str], Mapping[str, Frame], Size], Handed]
+Reader = Callable[[Path, Collection[str], Frames, Size], Submission]
 IMAGES = (".png", ".jpg", ".jpeg", ".pdf")
 
 
-def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
-         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Handed:
+def read(path: Path, panels: Collection[str], frames: Frames,
+         printed: Callable[[], Sheet] | None = None, code: int | None = None, size: Size = None) -> Submission:
     """The drawing in a file; `panels` are the plans of the construction, `frames` where they lie on its own sheet.
 
     A picture is read beside the sheet that was `printed`, laid out when it is asked for, and the `code` of its corner
@@ -39,7 +39,7 @@ def read(path: Path, panels: Collection[str], frames: Mapping[str, Frame],
     return found
 
 
-def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Sheet] | None, code: int | None) -> Handed:
+def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, code: int | None) -> Submission:
     """A scan or photo."""
     if printed is None:
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
@@ -49,7 +49,7 @@ def _scanned(path: Path, frames: Mapping[str, Frame], printed: Callable[[], Shee
     return read_scan(path, printed(), frames, code)
 
 
-def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+def _table(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     """Measured points or results: the names of the columns tell."""
     from graphplan.marking.tables.table_rows import columns
 
@@ -66,25 +66,25 @@ def _table(path: Path, panels: Collection[str], frames: Mapping[str, Frame], siz
                   "mark,x,y for measured points or quantity,of,x,y,unit for results")
 
 
-def _toml(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+def _toml(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     from graphplan.marking.tables.points import read_toml
 
     return read_toml(path, panels)
 
 
-def _svg(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+def _svg(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     from graphplan.marking.files.svg import read_svg
 
     return read_svg(path, frames, size)
 
 
-def _dxf(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+def _dxf(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     from graphplan.marking.files.dxf import read_dxf
 
     return read_dxf(path, frames, size)
 
 
-def _ggb(path: Path, panels: Collection[str], frames: Mapping[str, Frame], size: Size) -> Handed:
+def _ggb(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
     from graphplan.marking.files.ggb import read_ggb
 
     return read_ggb(path)

@@ -37,7 +37,7 @@ class Trace:
 
 
 @dataclass(frozen=True)
-class Frame:
+class PlanFrame:
     """Where a plan lies on the sheet: its origin in mm, and what one unit of it along x is there, as a vector in mm.
     """
 
@@ -51,6 +51,9 @@ class Frame:
     def back(self, spot: complex) -> complex:
         """From the sheet to the plan."""
         return (spot - self.origin) / self.unit
+
+
+Frames = Mapping[str, PlanFrame]
 
 
 @dataclass(frozen=True)
@@ -80,7 +83,7 @@ class Searched(Protocol):
 
 
 @dataclass(frozen=True)
-class Handed:
+class Submission:
     """A drawing as it was handed in; `shows` are the kinds of thing it could show, `frames` those that are known.
 
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
@@ -91,5 +94,5 @@ class Handed:
     traces: tuple[Trace, ...] = ()
     numbers: tuple[Number, ...] = ()
     shows: frozenset[str] = frozenset()
-    frames: Mapping[str, Frame] = field(default_factory=dict)
+    frames: Frames = field(default_factory=dict)
     page: Searched | None = None

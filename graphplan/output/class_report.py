@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 
-from graphplan.marking.classroom import NOT_JUDGED, Classroom, Row, mistaken
+from graphplan.marking.classroom import NOT_JUDGED, Classroom, ReportRow, mistaken
 from graphplan.output.report_page import FIGURE, Cell, page, table
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue
@@ -48,7 +48,7 @@ class _ClassList:
         yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
                          [self.say(head) for head in heads], rows)
 
-    def _row(self, row: Row) -> tuple[Cell, ...]:
+    def _row(self, row: ReportRow) -> tuple[Cell, ...]:
         return (
             Cell(escape(row.file)), Cell("" if row.score is None else f"{row.score:.0f}", FIGURE),
             Cell("" if row.step is None else escape(row.step.short), FIGURE), Cell(self.say(row.mistake or "")),

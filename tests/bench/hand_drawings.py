@@ -30,11 +30,11 @@ import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.mistakes import Slip
+from graphplan.marking.judge.mistakes import Mistake
 from graphplan.marking.judge.student_sheet import apart as apart_by
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.submission import read
-from graphplan.marking.traces import Frame, Handed
+from graphplan.marking.traces import Frame, Submission
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import code, solution, task
@@ -49,16 +49,16 @@ NONE, UNTOLD = "none", "untold"
 PAPERS: dict[str, Printed] = {}
 
 
-def labelled(drawn: Drawn) -> Handed:
+def labelled(drawn: Drawn) -> Submission:
     """A file with every line, labelled by letters or by the numbers of steps."""
-    return Handed("labelled.svg", tuple(traced(drawn)), shows=ALL)
+    return Submission("labelled.svg", tuple(traced(drawn)), shows=ALL)
 
 
-def unlabelled(drawn: Drawn) -> Handed:
+def unlabelled(drawn: Drawn) -> Submission:
     """A file with every line, but only the given points labelled."""
     given = drawn.drawing.scene.points
     traces = [replace(trace, label=trace.label if trace.label in given else "", panel="") for trace in traced(drawn)]
-    return Handed("unlabelled.svg", tuple(traces), shows=ALL)
+    return Submission("unlabelled.svg", tuple(traces), shows=ALL)
 
 
 def scanned(drawn: Drawn, sheet: Composition, seed: int) -> Path:
@@ -86,7 +86,7 @@ def _picture(image: Any, suffix: str) -> Path:
     return path
 
 
-Made = Handed | Path
+Made = Submission | Path
 KINDS: dict[str, Callable[[Drawn, Composition, int], Made]] = {
     "points": lambda drawn, *_: points(drawn), "labelled": lambda drawn, *_: labelled(drawn),
     "unlabelled": lambda drawn, *_: unlabelled(drawn), "scans": scanned, "photos": photographed}
@@ -155,8 +155,9 @@ def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, 
     made = KINDS[kind](drawn, sheet, seed)
     page = cache(lambda: task(solution(sheet), sheet)[0])
     before = time.perf_counter()
-    handed = made if isinstance(made, Handed) else read(made, list(sheet.views), drawn.frames, page, code(sheet))
-    found = judge(drawing, sheet, handed, PENCIL)
+    known = isinstance(made, Submission)
+    submission = made if known else read(made, list(sheet.views), drawn.frames, page, code(sheet))
+    found = judge(drawing, sheet, submission, PENCIL)
     tally.seconds.append(time.perf_counter() - before)
     return found
 
@@ -174,7 +175,7 @@ def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
 
 
 def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[str, Frame], seed: int,
-              clean: Judgement) -> tuple[Slip, Drawn] | None:
+              clean: Judgement) -> tuple[Mistake, Drawn] | None:
     """A drawing with a mistake that can be seen: of any kind alike often, and on the paper."""
     rng = np.random.default_rng([seed, crc32(drawing.scene.title.encode())])
     shown = {POINT} if kind == "points" else ALL

@@ -17,8 +17,8 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.mistakes import Slip, slips
-from graphplan.marking.traces import Frame, Handed, Trace
+from graphplan.marking.judge.mistakes import Mistake, mistakes
+from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import pens
@@ -33,32 +33,32 @@ class Drawn:
 
     drawing: Construction
     values: list[Any]
-    frames: Mapping[str, Frame]
+    frames: Mapping[str, PlanFrame]
 
 
-def frames(drawing: Construction, composition: Composition, seed: int | None = None) -> dict[str, Frame]:
+def frames(drawing: Construction, composition: Composition, seed: int | None = None) -> dict[str, PlanFrame]:
     """Where the plans lie: as on the sheet, or with a seed, each moved, turned and scaled at will."""
     if seed is None:
-        return {panel: Frame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+        return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     rng = np.random.default_rng(seed)
     found = {}
     for panel, view in composition.views.items():
         unit = view.scale * cmath.rect(rng.uniform(0.8, 1.6), rng.uniform(0, 2 * math.pi))
-        found[panel] = Frame(complex(*rng.uniform(-300, 300, 2)), unit)
+        found[panel] = PlanFrame(complex(*rng.uniform(-300, 300, 2)), unit)
     return found
 
 
-def draw(drawing: Construction, where: Mapping[str, Frame], pencil: Pencil, seed: int,
-         mistakes: Mapping[int, Slip] | None = None) -> Drawn:
-    """The construction drawn by a hand; `mistakes` say what some steps become, of the values drawn before."""
+def draw(drawing: Construction, where: Mapping[str, PlanFrame], pencil: Pencil, seed: int,
+         wrong: Mapping[int, Mistake] | None = None) -> Drawn:
+    """The construction drawn by a hand; `wrong` says what some steps become, of the values drawn before."""
     rng = np.random.default_rng(seed)
     hand = hand_at(drawing, lambda panel: 1 / abs(where[panel].unit), pencil)
     drawn: list[Any] = []
     for step in drawing.drawn.steps:
         try:
             made = hand.made(step, Floats(), drawn, lambda index: list(rng.normal(0.0, hand.slips[index])))
-            if mistakes and step.index in mistakes:
-                made = hand.slipped(step, mistakes[step.index].value(Floats(), drawn),
+            if wrong and step.index in wrong:
+                made = hand.slipped(step, wrong[step.index].value(Floats(), drawn),
                                     list(rng.normal(0.0, hand.slips[step.index])))
         except (Undrawable, TypeError):
             made = None
@@ -66,20 +66,20 @@ def draw(drawing: Construction, where: Mapping[str, Frame], pencil: Pencil, seed
     return Drawn(drawing, drawn, where)
 
 
-def slipped(drawing: Construction, index: int) -> list[Slip]:
+def slipped(drawing: Construction, index: int) -> list[Mistake]:
     """The mistakes that can be made at a step: nobody marks where lines cross that are one, or never meet."""
     found = []
-    for slip in slips(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
+    for mistake in mistakes(drawing.drawn, drawing.drawn.steps[index], Plans(drawing).plan_of_step):
         with suppress(Undrawable):
-            slip.value(Floats(), drawing.values)
-            found.append(slip)
+            mistake.value(Floats(), drawing.values)
+            found.append(mistake)
     return found
 
 
-def points(drawn: Drawn, name: str = "drawing.csv", digits: int | None = 2) -> Handed:
+def points(drawn: Drawn, name: str = "drawing.csv", digits: int | None = 2) -> Submission:
     """The drawing as measured points, by their letters or the numbers of their steps."""
     traces = [trace for trace in traced(drawn, digits) if trace.kind == POINT]
-    return Handed(name, tuple(traces), shows=frozenset({POINT}))
+    return Submission(name, tuple(traces), shows=frozenset({POINT}))
 
 
 def traced(drawn: Drawn, digits: int | None = None) -> list[Trace]:

@@ -10,7 +10,7 @@ import graphplan as gp
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSEEN, WRONG, Ellipse, Judgement, Verdict
-from graphplan.marking.traces import Frame, Trace
+from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said
 from graphplan.sheet.layout.compose import compose
@@ -30,7 +30,7 @@ def judgement(name: str, wrong: Mapping[int, complex] | None = None, mistake: Sa
     """A drawing of which some steps, by index, are so many mm off; what rests on them follows."""
     composition = composed(name)
     drawing = composition.plans.drawing
-    frames = {panel: Frame(complex(40, 30), view.scale * TURNED) for panel, view in composition.views.items()}
+    frames = {panel: PlanFrame(complex(40, 30), view.scale * TURNED) for panel, view in composition.views.items()}
     made = Maker(drawing, composition, frames, wrong or {}, mistake, kind)
     return Judgement(file, drawing, composition, frames, tuple(made.verdicts()))
 
@@ -38,7 +38,7 @@ def judgement(name: str, wrong: Mapping[int, complex] | None = None, mistake: Sa
 class Maker:
     """Makes the verdicts, step by step."""
 
-    def __init__(self, drawing: Construction, composition: Composition, frames: Mapping[str, Frame],
+    def __init__(self, drawing: Construction, composition: Composition, frames: Mapping[str, PlanFrame],
                  wrong: Mapping[int, complex], mistake: Said | None, kind: str):
         self.drawing, self.plans, self.frames = drawing, composition.plans, frames
         self.wrong, self.mistake, self.kind = wrong, mistake, kind

@@ -19,7 +19,7 @@ from graphplan.sheet.layout.compose import compose
 WRONG_LINE = "wrong line"
 
 
-def handed(file: str, wrong: int | None = None, kind: str = "") -> Marked:
+def paper(file: str, wrong: int | None = None, kind: str = "") -> Marked:
     """A drawing of the four-bar with this step wrong."""
     told = said("parallel to {0} instead of {1}", "AB", "BC") if kind == WRONG_LINE else None
     found = judgement("four-bar", {} if wrong is None else {wrong: 2.5 + 1j}, told, kind, file)
@@ -52,7 +52,7 @@ def step(index: int) -> Called:
 def test_the_most_frequent_mistake_and_step_are_told() -> None:
     """Of four drawings three go wrong, two of them at the same step by the same mistake."""
     one, two = parallels()[:2]
-    found = room(handed("a"), handed("b", two, WRONG_LINE), handed("c", one, "reversed"), handed("d", two, WRONG_LINE))
+    found = room(paper("a"), paper("b", two, WRONG_LINE), paper("c", one, "reversed"), paper("d", two, WRONG_LINE))
     assert found.histogram == {step(one): 1, step(two): 2}
     assert found.hardest == step(two)
     assert found.mistakes == {WRONG_LINE: 2, "reversed": 1}
@@ -68,7 +68,7 @@ def test_the_most_frequent_mistake_and_step_are_told() -> None:
 def test_of_equally_frequent_steps_the_earlier_is_told() -> None:
     """Where two steps are wrong as often, the one that is drawn first comes first."""
     one, two = parallels()[:2]
-    assert room(handed("a", two), handed("b", one)).hardest == step(one)
+    assert room(paper("a", two), paper("b", one)).hardest == step(one)
 
 
 def test_a_class_may_follow_several_constructions() -> None:
@@ -87,14 +87,14 @@ def test_a_drawing_of_which_nothing_is_judged_is_not_faultless() -> None:
     """Where nothing is to be seen, that is told, and the drawing is none without a wrong step."""
     found = judgement("four-bar", file="b")
     unseen = replace(found, verdicts=tuple(replace(v, state=UNSEEN) for v in found.verdicts))
-    told = [str(line) for line in lines(room(handed("a"), Marked(unseen, score(unseen))))]
+    told = [str(line) for line in lines(room(paper("a"), Marked(unseen, score(unseen))))]
     assert "b: nothing to judge" in told
     assert "Drawings: 2, of which 1 have no wrong step." in told
 
 
 def test_the_mean_is_that_of_what_could_be_judged() -> None:
     """A file that could not be read counts neither as a score nor as a drawing, but it is told."""
-    found = room(handed("a"), handed("b", parallels()[0]), unread=(Unread("c", "it is empty; give a drawing"),))
+    found = room(paper("a"), paper("b", parallels()[0]), unread=(Unread("c", "it is empty; give a drawing"),))
     assert found.mean == pytest.approx((100 + found.data["drawings"][1]["score"]) / 2)
     assert found.data["not_judged"] == [{"file": "c", "why": "it is empty; give a drawing"}]
     assert "Not judged: 1." in map(str, lines(found))

@@ -14,12 +14,12 @@ import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.any_method import judge_by_any
+from graphplan.marking.judge.any_method import judge_any_method
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.submission import read
-from graphplan.marking.traces import Handed, Number, Trace
+from graphplan.marking.traces import Number, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.compose import compose
@@ -37,13 +37,13 @@ def composed(name: str, method: str = "", plan: str = "") -> tuple[Construction,
     return drawing, compose(drawing)
 
 
-def whole(drawn: Drawn, labels: bool = True) -> Handed:
+def whole(drawn: Drawn, labels: bool = True) -> Submission:
     """Everything on the sheet, as a CAD file has it; without labels those of the given points are left."""
     traces = traced(drawn)
     if not labels:
         given = drawn.drawing.scene.points
         traces = [replace(trace, label=trace.label if trace.label in given else "", panel="") for trace in traces]
-    return Handed("drawing.svg", tuple(traces), shows=ALL)
+    return Submission("drawing.svg", tuple(traces), shows=ALL)
 
 
 @pytest.mark.parametrize("name", SCENES)
@@ -78,7 +78,7 @@ def test_every_mistake_is_held_against_its_own_step(kind: str) -> None:
         steps = [step for step in drawing.drawn.steps if step.op.name in MISTAKES[kind].ops]
         for index in rng.permutation(len(steps))[:6]:
             step = steps[index]
-            slips = [slip for slip in slipped(drawing, step.index) if slip.kind == kind]
+            slips = [mistake for mistake in slipped(drawing, step.index) if mistake.kind == kind]
             drawn = draw(drawing, ways, PENCIL, 5, {step.index: slips[0]}) if slips else clean
             if None in drawn.values or wrong_by(drawn, step) < 5.0:  # by chance it is as it should be
                 continue
@@ -95,8 +95,8 @@ def test_later_steps_follow_from_a_slip() -> None:
     """What rests on a wrong mark is right after an earlier slip, what does not is right."""
     drawing, sheet = composed("four-bar")
     where = {step.name: step.index for step in drawing.drawn.steps}
-    slip = next(slip for slip in slipped(drawing, where["v_b"]) if slip.told.endswith("AB instead of line 4"))
-    drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1, {where["v_b"]: slip})
+    mistake = next(one for one in slipped(drawing, where["v_b"]) if one.told.endswith("AB instead of line 4"))
+    drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1, {where["v_b"]: mistake})
     states = {verdict.step: verdict.state for verdict in judge(drawing, sheet, whole(drawn), PENCIL).verdicts}
     assert states[where["v_b"]] == WRONG
     assert states[where["v_m"]] == FOLLOWS
@@ -109,7 +109,7 @@ def test_a_mark_drawn_from_the_truth_after_a_slip_is_right() -> None:
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1)
     traces = [replace(trace, spots=((trace.spots[0][0] + 8.0, trace.spots[0][1]),)) if trace.label == "v_b" else trace
               for trace in traced(drawn) if trace.kind == POINT]
-    found = judge(drawing, sheet, Handed("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
+    found = judge(drawing, sheet, Submission("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
     assert [drawing.drawn.steps[v.step].name for v in found.verdicts if v.state == WRONG] == ["v_b"]
     assert found.first
     assert found.first.off == pytest.approx(8.0, abs=1.0)
@@ -131,9 +131,9 @@ def test_a_coarser_pencil_is_judged_more_mildly() -> None:
     drawn = draw(drawing, frames(drawing, sheet), Pencil(), 1)
     shifted = [replace(trace, spots=((trace.spots[0][0] + 1.5, trace.spots[0][1]),)) if trace.label == "M_1" else trace
                for trace in traced(drawn) if trace.kind == POINT]
-    handed = Handed("x.csv", tuple(shifted), shows=frozenset({POINT}))
-    assert judge(drawing, sheet, handed, PENCIL).first
-    assert not judge(drawing, sheet, handed, Pencil(0.5, 0.5, 0.25, 0.5)).first
+    submission = Submission("x.csv", tuple(shifted), shows=frozenset({POINT}))
+    assert judge(drawing, sheet, submission, PENCIL).first
+    assert not judge(drawing, sheet, submission, Pencil(0.5, 0.5, 0.25, 0.5)).first
 
 
 def test_missing_marks_are_told_unless_others_rest_on_them() -> None:
@@ -141,7 +141,7 @@ def test_missing_marks_are_told_unless_others_rest_on_them() -> None:
     drawing, sheet = composed("four-bar")
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1)
     traces = [trace for trace in traced(drawn) if trace.kind == POINT and trace.label not in ("v_b", "M_1")]
-    found = judge(drawing, sheet, Handed("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
+    found = judge(drawing, sheet, Submission("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
     states = {drawing.drawn.steps[verdict.step].name: verdict.state for verdict in found.verdicts}
     assert found.first is None
     assert (states["v_b"], states["M_1"]) == (UNSEEN, MISSING)
@@ -151,8 +151,8 @@ def test_traces_that_no_step_asks_for_are_spare() -> None:
     """A line of the student's own is not needed, and harms nothing."""
     drawing, sheet = composed("four-bar")
     own = Trace(LINE, ((0.0, 0.0), (10.0, 3.0)))
-    handed = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
-    found = judge(drawing, sheet, replace(handed, traces=(*handed.traces, own)), PENCIL)
+    submission = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
+    found = judge(drawing, sheet, replace(submission, traces=(*submission.traces, own)), PENCIL)
     assert found.spare == (own,)
     assert found.first is None
 
@@ -162,7 +162,7 @@ def test_another_form_of_construction_is_accepted() -> None:
     task, sheet = composed("alt-eight-link")
     other, other_sheet = composed("alt-eight-link", "trial")
     assert [step.key for step in task.drawn.steps] != [step.key for step in other.drawn.steps]
-    found = judge_by_any(task, sheet, whole(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
+    found = judge_any_method(task, sheet, whole(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
     assert found.first is None
     assert [step.key for step in found.drawing.drawn.steps] == [step.key for step in other.drawn.steps]
 
@@ -171,7 +171,7 @@ def test_polar_plans_are_accepted_for_orthogonal_ones() -> None:
     """What counts is the result: velocities drawn on a plan of their own are judged there."""
     task, sheet = composed("four-bar")
     other, other_sheet = composed("four-bar", "", "polar")
-    found = judge_by_any(task, sheet, points(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
+    found = judge_any_method(task, sheet, points(draw(other, frames(other, other_sheet), PENCIL, 1)), PENCIL)
     assert found.first is None
     assert "velocity plan" in found.frames
 
@@ -179,18 +179,18 @@ def test_polar_plans_are_accepted_for_orthogonal_ones() -> None:
 def test_a_sheet_without_the_mechanism_is_refused() -> None:
     """Marks that lie nowhere on the mechanism cannot be judged."""
     drawing, sheet = composed("four-bar")
-    handed = Handed("x.csv", (Trace(POINT, ((1.0, 2.0),), "Z"),), shows=frozenset({POINT}))
+    submission = Submission("x.csv", (Trace(POINT, ((1.0, 2.0),), "Z"),), shows=frozenset({POINT}))
     with pytest.raises(Refused, match="not two of its points"):
-        judge(drawing, sheet, handed, PENCIL)
+        judge(drawing, sheet, submission, PENCIL)
 
 
 def test_numbers_of_links_are_not_those_of_steps() -> None:
     """A drawing whose links are numbered 1, 2, 3 is not judged as if its lines were steps 1, 2, 3."""
     drawing, sheet = composed("four-bar")
-    handed = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
+    submission = whole(draw(drawing, frames(drawing, sheet), PENCIL, 1), labels=False)
     bars = [Trace(LINE, trace.spots, number) for number, trace in zip(("1", "2", "3"), (
-        trace for trace in handed.traces[::-1] if trace.kind == LINE), strict=False)]
-    assert judge(drawing, sheet, replace(handed, traces=(*handed.traces, *bars)), PENCIL).first is None
+        trace for trace in submission.traces[::-1] if trace.kind == LINE), strict=False)]
+    assert judge(drawing, sheet, replace(submission, traces=(*submission.traces, *bars)), PENCIL).first is None
 
 
 @pytest.mark.parametrize("name", ["four-bar", "triad"])
@@ -200,17 +200,17 @@ def test_our_own_sheet_is_a_faultless_drawing(name: str, tmp_path: Path) -> None
     path = tmp_path / "sheet.svg"
     path.write_text(svg(layout(drawing, composition=sheet)))
     size = sheet.arrangement.width, sheet.arrangement.height
-    handed = read(path, list(sheet.views), frames(drawing, sheet), size=size)
-    assert judge(drawing, sheet, handed, PENCIL).first is None
+    submission = read(path, list(sheet.views), frames(drawing, sheet), size=size)
+    assert judge(drawing, sheet, submission, PENCIL).first is None
 
 
 def test_noise_is_no_drawing() -> None:
     """In spots that lie anywhere no mechanism is seen, however many there are."""
     drawing, sheet = composed("four-bar")
     spots = np.random.default_rng(1).uniform(0, 300, (60, 2)).tolist()
-    handed = Handed("x.csv", tuple(Trace(POINT, ((x, y),)) for x, y in spots), shows=frozenset({POINT}))
+    submission = Submission("x.csv", tuple(Trace(POINT, ((x, y),)) for x, y in spots), shows=frozenset({POINT}))
     with pytest.raises(Refused, match="not two of its points"):
-        judge(drawing, sheet, handed, PENCIL)
+        judge(drawing, sheet, submission, PENCIL)
 
 
 def test_a_hand_without_errors_has_no_tolerance() -> None:
@@ -234,7 +234,7 @@ def _velocity(name: str, factor: complex = 1.0) -> Number:
 def test_numbers_are_judged_with_what_was_probably_done(factor: complex, told: str) -> None:
     """A result that a drawing cannot give is wrong, with the sign, turn or factor that makes it so."""
     drawing, sheet = composed("four-bar")
-    found = judge(drawing, sheet, Handed("x.csv", numbers=(_velocity("B", factor),)), PENCIL)
+    found = judge(drawing, sheet, Submission("x.csv", numbers=(_velocity("B", factor),)), PENCIL)
     assert found.numbers[0].state == (RIGHT if factor == 1.0 else WRONG)
     assert str(found.numbers[0].mistake or "") == told
 
@@ -242,7 +242,7 @@ def test_numbers_are_judged_with_what_was_probably_done(factor: complex, told: s
 def test_a_number_of_another_point_is_recognised() -> None:
     """The velocity of B written down for M is told to be that of B."""
     drawing, sheet = composed("four-bar")
-    found = judge(drawing, sheet, Handed("x.csv", numbers=(replace(_velocity("B"), of="M"),)), PENCIL)
+    found = judge(drawing, sheet, Submission("x.csv", numbers=(replace(_velocity("B"), of="M"),)), PENCIL)
     assert str(found.numbers[0].mistake) == "this is the number of B"
 
 
@@ -253,7 +253,7 @@ def test_numbers_that_cannot_be_judged_are_refused(others: tuple[Number, ...], w
     """A result that is not asked for, or told twice, is bad input."""
     drawing, sheet = composed("four-bar")
     with pytest.raises(Refused, match=why):
-        judge(drawing, sheet, Handed("x.csv", numbers=others), PENCIL)
+        judge(drawing, sheet, Submission("x.csv", numbers=others), PENCIL)
 
 
 def test_a_number_read_off_a_wrong_drawing_follows() -> None:
@@ -263,7 +263,7 @@ def test_a_number_read_off_a_wrong_drawing_follows() -> None:
     traces = [replace(trace, spots=((trace.spots[0][0] + 8.0, trace.spots[0][1]),)) if trace.label == "v_b" else trace
               for trace in traced(drawn) if trace.kind == POINT]
     value = drawing.velocity["B"] - 8.0j / sheet.views["mechanism"].scale / drawing.kappa
-    handed = Handed("x.csv", tuple(traces), (Number("velocity", "B", (value.real, value.imag), "mm/s"),),
+    submission = Submission("x.csv", tuple(traces), (Number("velocity", "B", (value.real, value.imag), "mm/s"),),
                     frozenset({POINT}))
-    found = judge(drawing, sheet, handed, PENCIL)
+    found = judge(drawing, sheet, submission, PENCIL)
     assert found.numbers[0].state == FOLLOWS

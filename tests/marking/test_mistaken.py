@@ -16,33 +16,34 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.evidence import FAINT, FILED, GONE, THERE, weighed
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge
-from graphplan.marking.judge.mistakes import Slip
-from graphplan.marking.judge.student_sheet import Deviation
+from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.student_sheet import Residual
 from graphplan.marking.judge.verdict import Judgement
-from graphplan.marking.traces import Handed
+from graphplan.marking.traces import Submission
 from graphplan.phrases import said
 from graphplan.sheet.layout.compose import compose
 
 KINDS = (POINT, LINE, CIRCLE)
 
 
-def unlabelled(drawn: Drawn) -> Handed:
+def unlabelled(drawn: Drawn) -> Submission:
     """A file in which only the given points bear their letters."""
     given = drawn.drawing.scene.points
     traces = [replace(trace, label=trace.label if trace.label in given else "", panel="") for trace in traced(drawn)]
-    return Handed("unlabelled.svg", tuple(traces), shows=frozenset(KINDS))
+    return Submission("unlabelled.svg", tuple(traces), shows=frozenset(KINDS))
 
 
-def judged(name: str, seed: int, slips: dict[str, str] | None = None, odd: dict[str, complex] | None = None
+def judged(name: str, seed: int, mistakes: dict[str, str] | None = None, odd: dict[str, complex] | None = None
            ) -> tuple[Judgement, int | None]:
     """What is said of a drawing in which some steps, by their texts, were drawn by mistakes that are told so, or whose
     vectors were turned and stretched at will; and the first such step."""
     drawing = gp.construct(gp.load(name))
     sheet = compose(drawing)
     texts = {drawing.drawn.text(step.index): step for step in drawing.drawn.steps}
-    made = {texts[text].index: next(slip for slip in slipped(drawing, texts[text].index) if slip.told == told)
-            for text, told in (slips or {}).items()}
-    made |= {texts[text].index: Slip("odd", said("wrong"), texts[text], factor) for text, factor in (odd or {}).items()}
+    made = {texts[text].index: next(one for one in slipped(drawing, texts[text].index) if one.told == told)
+            for text, told in (mistakes or {}).items()}
+    made |= {texts[text].index: Mistake("odd", said("wrong"), texts[text], factor)
+             for text, factor in (odd or {}).items()}
     drawn = draw(drawing, frames(drawing, sheet), Pencil(), seed, made)
     return judge(drawing, sheet, unlabelled(drawn), Pencil()), min(made, default=None)
 
@@ -51,45 +52,45 @@ def judged(name: str, seed: int, slips: dict[str, str] | None = None, odd: dict[
 @pytest.mark.parametrize("most", [THERE, FAINT, FILED])
 def test_a_mark_weighs_the_less_the_farther_off_it_is(kind: str, most: dict[str, float]) -> None:
     """And never less than none at all, nor than a stroke of which nothing is seen."""
-    away = [weighed(most[kind], GONE[kind], Deviation(np.array([off, 0.0]), np.eye(2))) for off in (0, 2, 4, 100)]
+    away = [weighed(most[kind], GONE[kind], Residual(np.array([off, 0.0]), np.eye(2))) for off in (0, 2, 4, 100)]
     assert away == sorted(away, reverse=True)
     assert away[0] == most[kind]
     assert away[-1] == GONE[kind] == weighed(most[kind], GONE[kind], None, share=0.0)
 
 
-@pytest.mark.parametrize(("name", "seed", "slip"), [
+@pytest.mark.parametrize(("name", "seed", "mistake"), [
     ("open-chain", 711, {"point 10": "the vector is 1.5 times as long as it should be"}),  # shifts all of the N-plan
     ("ozols-5-3", 710, {"line 24": "drawn through point 5 instead of O"}),
     ("four-bar", 700, {"v_b": "the figure is mirrored"}),  # after it nothing can be drawn
     ("slotted-link", 710, {"line 20": "drawn through v_a3 instead of A"}),  # another line lies where it should be
 ])
-def test_a_mistake_is_found_without_labels(name: str, seed: int, slip: dict[str, str]) -> None:
+def test_a_mistake_is_found_without_labels(name: str, seed: int, mistake: dict[str, str]) -> None:
     """The step is named, and what was done, whatever else has moved with it."""
-    found, index = judged(name, seed, slip)
+    found, index = judged(name, seed, mistake)
     assert found.guilty == index
     assert found.first
-    assert str(found.first.mistake) in slip.values()
+    assert str(found.first.mistake) in mistake.values()
 
 
-@pytest.mark.parametrize(("mark", "slip", "somewhere"), [
+@pytest.mark.parametrize(("mark", "mistake", "somewhere"), [
     ("v_b", "marked on AB instead of line 4", True),
     ("6", "drawn through O instead of A", False),
 ])
-def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows(mark: str, slip: str, somewhere: bool) -> None:
+def test_a_mark_that_is_not_to_be_seen_is_told_by_what_follows(mark: str, mistake: str, somewhere: bool) -> None:
     """How far off it is, and may be, is said of a point; of a line only what was done."""
     drawing = gp.construct(gp.load("four-bar"))
     sheet = compose(drawing)
     step = next(s for s in drawing.drawn.steps if mark in (s.name, str(drawing.drawn.number(s.index))))
-    made = {step.index: next(one for one in slipped(drawing, step.index) if one.told == slip)}
+    made = {step.index: next(one for one in slipped(drawing, step.index) if one.told == mistake)}
     drawn = draw(drawing, frames(drawing, sheet), Pencil(), 711, made)
-    handed = unlabelled(drawn)
-    kept = [trace for trace, true in zip(handed.traces, traced(drawn), strict=True) if true.label != mark]
-    found = judge(drawing, sheet, replace(handed, traces=tuple(kept)), Pencil())
+    submission = unlabelled(drawn)
+    kept = [trace for trace, true in zip(submission.traces, traced(drawn), strict=True) if true.label != mark]
+    found = judge(drawing, sheet, replace(submission, traces=tuple(kept)), Pencil())
     assert found.first
-    assert (found.first.step, str(found.first.mistake), found.first.trace) == (step.index, slip, None)
+    assert (found.first.step, str(found.first.mistake), found.first.trace) == (step.index, mistake, None)
     assert math.isfinite(found.first.off) == math.isfinite(found.first.tolerance) == somewhere
     assert found.first.off > found.first.tolerance > 0.1 or not somewhere
-    assert (str(remark(found, found.first)) == slip) == (not somewhere)
+    assert (str(remark(found, found.first)) == mistake) == (not somewhere)
 
 
 @pytest.mark.parametrize(("name", "seed"), [("ozols-10-1", 710), ("ozols-10-1", 711), ("ozols-10-2", 710)])

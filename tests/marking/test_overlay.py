@@ -11,7 +11,7 @@ from judged import TOLERANCE, TURNED, judgement
 from graphplan.kernel.kinds import CIRCLE, POINT
 from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.student_strokes import ALLOWED, LAYER, PENS, RED, SIZES, SPARE, WANTED, Student
+from graphplan.marking.judge.student_strokes import ALLOWED, LAYER, PENS, RED, SIZES, SPARE, WANTED, StudentStrokes
 from graphplan.marking.judge.verdict import RIGHT, WRONG, Judgement, NumberVerdict
 from graphplan.marking.traces import Number
 from graphplan.phrases import said
@@ -38,7 +38,7 @@ def wrong_step(found: Judgement, op: str, which: int = 0) -> int:
 def test_right_marks_lie_on_the_true_ones(name: str) -> None:
     """However the student's sheet lies, every point that is right is drawn where ours has it."""
     found = judgement(name)
-    student, plans = Student(found), found.composition.plans
+    student, plans = StudentStrokes(found), found.composition.plans
     centres = {item.step: item.centre for item in student.items() if isinstance(item, Circle) and item.step is not None}
     assert centres
     for index, centre in centres.items():
@@ -54,7 +54,7 @@ def test_a_wrong_point_stands_where_it_was_drawn(name: str) -> None:
     found = judgement(name, {index: 3 + 1j})
     plans = found.composition.plans
     true = found.composition.views[plans.plan_of_step[index]](plans.spot(index))
-    (stroke,) = [item for item in Student(found).items() if item.pen == WANTED and isinstance(item, Polyline)]
+    (stroke,) = [item for item in StudentStrokes(found).items() if item.pen == WANTED and isinstance(item, Polyline)]
     assert math.dist(stroke.spots[1], true) < 1e-9
     assert math.dist(stroke.spots[0], true) == pytest.approx(abs((3 + 1j) / TURNED))
 
@@ -62,7 +62,7 @@ def test_a_wrong_point_stands_where_it_was_drawn(name: str) -> None:
 def test_tolerances_are_as_large_as_they_are_on_the_students_sheet() -> None:
     """The ellipse of a right point has its half axes, enlarged as the sheet is."""
     found = judgement("four-bar")
-    ellipses = [item for item in Student(found).items() if item.pen == ALLOWED and isinstance(item, Polygon)]
+    ellipses = [item for item in StudentStrokes(found).items() if item.pen == ALLOWED and isinstance(item, Polygon)]
     points = [v for v in found.verdicts if v.ellipse is not None]
     assert len(ellipses) == len(points)
     index = ellipses[0].step
@@ -82,7 +82,7 @@ def test_the_first_wrong_step_alone_is_called_out(name: str) -> None:
     boxes = [item for item in shown if isinstance(item, Polygon) and item.pen.colour == RED]
     first = found.first
     assert first is not None
-    drawn, panel = found.drawing.drawn, found.composition.views[Student(found).home(first)].rect
+    drawn, panel = found.drawing.drawn, found.composition.views[StudentStrokes(found).home(first)].rect
     assert len(boxes) == 1
     assert all(map(panel.holds, boxes[0].spots))
     assert f"Step {drawn.number(first.step)}: parallel to AB instead of BC, 2 mm off," in words(shown)
@@ -127,14 +127,15 @@ def test_what_is_spare_is_shown_where_it_lies() -> None:
     """A mark that no step asks for is dotted, on the plan that it lies on."""
     found = judgement("four-bar")
     trace = next(v.trace for v in found.verdicts if v.trace is not None and v.trace.kind == POINT)
-    spared = [item for item in Student(replace(found, spare=(trace,))).items() if item.pen.colour == SPARE.colour]
+    strokes = StudentStrokes(replace(found, spare=(trace,)))
+    spared = [item for item in strokes.items() if item.pen.colour == SPARE.colour]
     assert len(spared) == 1
 
 
 def test_an_arc_is_drawn_as_far_as_it_goes() -> None:
     """The student's arcs have the centre of the construction's, and no more than what was struck of them."""
     found = judgement("four-bar")
-    arcs = [item for item in Student(found).items() if isinstance(item, Arc)]
+    arcs = [item for item in StudentStrokes(found).items() if isinstance(item, Arc)]
     assert len(arcs) == sum(v.trace is not None and v.trace.kind == CIRCLE for v in found.verdicts)
     assert all(arc.end - arc.start == pytest.approx(math.degrees(0.4)) for arc in arcs)
 
@@ -144,6 +145,6 @@ def test_nothing_leaves_its_plan() -> None:
     index = wrong_step(judgement("four-bar"), "meet")
     found = judgement("four-bar", {index: 2000.0})
     rects = [view.rect for view in found.composition.views.values()]
-    strokes = [item for item in Student(found).items() if isinstance(item, Polyline)]
+    strokes = [item for item in StudentStrokes(found).items() if isinstance(item, Polyline)]
     assert any(item.pen == WANTED for item in strokes)
     assert all(any(all(rect.holds(spot, 1e-9) for spot in item.spots) for rect in rects) for item in strokes)

@@ -12,7 +12,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.spelling import mark, spelled
 from graphplan.marking.submission import read
-from graphplan.marking.traces import Handed
+from graphplan.marking.traces import Submission
 
 PANELS = ("mechanism plan", "N-plan", "force plan 2, 3")
 MARKS = {"A": (12.5, -3.25), "v_b": (40.0, 7.125), "A_1'": (0.5, 1e2), "12": (7.0, 8.0)}
@@ -28,7 +28,7 @@ WAYS = {
 }
 
 
-def handed(folder: Path, name: str, text: str, coding: str = "utf-8") -> Handed:
+def submission(folder: Path, name: str, text: str, coding: str = "utf-8") -> Submission:
     """The text as a file, read."""
     path = folder / name
     path.write_bytes(text.encode(coding))
@@ -38,7 +38,7 @@ def handed(folder: Path, name: str, text: str, coding: str = "utf-8") -> Handed:
 @pytest.mark.parametrize("way", WAYS)
 def test_the_same_marks_however_written(tmp_path: Path, way: str) -> None:
     """Separators, decimal commas, BOM, quotes, comments, missing marks and spellings change nothing."""
-    found = handed(tmp_path, "sheet.csv", WAYS[way])
+    found = submission(tmp_path, "sheet.csv", WAYS[way])
     assert {trace.label: trace.spots[0] for trace in found.traces} == MARKS
     assert found.shows == {POINT}
     assert found.name == "sheet.csv"
@@ -46,7 +46,7 @@ def test_the_same_marks_however_written(tmp_path: Path, way: str) -> None:
 
 def test_as_spreadsheets_save_unicode(tmp_path: Path) -> None:
     """A table in UTF-16 is read as well."""
-    found = handed(tmp_path, "sheet.csv", WAYS["tabs"], "utf-16")
+    found = submission(tmp_path, "sheet.csv", WAYS["tabs"], "utf-16")
     assert len(found.traces) == len(MARKS)
 
 
@@ -54,7 +54,7 @@ def test_lines_circles_plans_and_precision(tmp_path: Path) -> None:
     """A line has two measured points, a circle a radius; plans are meant by name, whatever the case."""
     text = ("mark;x;y;x2;y2;r;panel;precision\n4;0;0;3;4;;n-plan;0,2\nQ;5;5;;;;Mechanism;\n"
             "9;1;2;;;2,5;Force plan 2, 3;\n")
-    line, point, circle = handed(tmp_path, "sheet.csv", text).traces
+    line, point, circle = submission(tmp_path, "sheet.csv", text).traces
     assert (line.kind, line.spots, line.panel, line.blur) == (LINE, ((0, 0), (3, 4)), "N-plan", 0.2)
     assert (point.kind, point.panel, point.blur) == (POINT, "mechanism plan", 0)
     assert (circle.kind, circle.panel) == (CIRCLE, "force plan 2, 3")
@@ -89,7 +89,7 @@ turn = 90
 
 def test_a_sheet_in_toml(tmp_path: Path) -> None:
     """Marks, lines, circles, results and frames stand in tables of their own, those of a plan under its name."""
-    found = handed(tmp_path, "sheet.toml", TOML)
+    found = submission(tmp_path, "sheet.toml", TOML)
     assert [(t.label, t.panel, t.kind) for t in found.traces] == [
         ("A", "", POINT), ("a", "N-plan", POINT), ("4", "", LINE), ("beta", "N-plan", LINE), ("5", "", CIRCLE),
         ("6", "", CIRCLE)]
@@ -127,7 +127,7 @@ FAULTS = {
 def test_a_fault_is_told_where_it_stands(tmp_path: Path, text: str) -> None:
     """What is wrong in a table is refused with its line and what would be right."""
     with pytest.raises(Refused, match=FAULTS[text].replace("(", r"\(")) as told:
-        handed(tmp_path, "sheet.csv", text)
+        submission(tmp_path, "sheet.csv", text)
     assert "\n" not in str(told.value)
     assert told.value.status == 2
 
@@ -157,7 +157,7 @@ WRONG = {
 def test_a_fault_in_toml(tmp_path: Path, text: str) -> None:
     """What is wrong in a TOML file is refused with the entry's name."""
     with pytest.raises(Refused, match=WRONG[text]):
-        handed(tmp_path, "sheet.toml", text)
+        submission(tmp_path, "sheet.toml", text)
 
 
 def test_spellings_of_names() -> None:

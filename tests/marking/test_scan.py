@@ -21,12 +21,12 @@ from raster import Picture, Printed, photo, printed, scan  # noqa: E402
 import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
-from graphplan.marking.scans.corners import Found  # noqa: E402
-from graphplan.marking.scans.page import Page  # noqa: E402
+from graphplan.marking.scans.corners import CornerMarks  # noqa: E402
+from graphplan.marking.scans.page import PencilPage  # noqa: E402
 from graphplan.marking.scans.printed_ink import picture  # noqa: E402
 from graphplan.marking.scans.scan import SCALE, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
-from graphplan.marking.traces import Frame, Trace  # noqa: E402
+from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.corner_marks import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
 from graphplan.sheet.layout.compose import compose  # noqa: E402
@@ -121,12 +121,12 @@ def test_marks_cover_nothing_printed() -> None:
 def test_scans_any_way_up(quarters: int, tmp_path: Path) -> None:
     """A scan that lies upright, on its side or upside down gives every line to a tenth of a millimetre."""
     seen = scan(paper(), drawn(), 40 + quarters, quarters=quarters)
-    handed = read_scan(saved(tmp_path, seen.image), page(), {"N-plan": Frame(0j, 1 + 0j)}, CODE)
-    found = errors(handed.traces)
+    submission = read_scan(saved(tmp_path, seen.image), page(), {"N-plan": PlanFrame(0j, 1 + 0j)}, CODE)
+    found = errors(submission.traces)
     assert np.median(found) < 0.1
     assert max(found) < 0.3
-    assert handed.shows == {LINE, CIRCLE}
-    assert "N-plan" in handed.frames
+    assert submission.shows == {LINE, CIRCLE}
+    assert "N-plan" in submission.frames
 
 
 @pytest.mark.parametrize(("lost", "seed"), [((2,), 51), ((0, 1, 3), 52)])
@@ -160,13 +160,13 @@ def test_a_sheet_is_laid_by_all_its_marks(seed: int) -> None:
     chance, sheet = np.random.default_rng(seed), page()
     rects = places(sheet.width, sheet.height, sheet.frame)
     marks = [np.array(rect.corners[::-1]) * 7 + chance.uniform(-1, 1, (4, 2)) for rect in rects]
-    laid = _by_marks(Found(dict(enumerate(marks))), sheet)
+    laid = _by_marks(CornerMarks(dict(enumerate(marks))), sheet)
     off = [laid(np.array(rect.corners[::-1])) - seen for rect, seen in zip(rects, marks, strict=True)]
     assert np.abs(off).max() < 3
 
 
 @cache
-def asked() -> Page:
+def asked() -> PencilPage:
     """A scan with a very faint line, a struck arc and a dot, and a word's worth of scribble."""
     strokes = [((lines()[0]), 0.2, 0.12), (tuple(arc()), 0.25, 0.5), ((dot(),), 0.8, 0.8)]
     with tempfile.TemporaryDirectory() as folder:
@@ -204,7 +204,7 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
 
 
 @cache
-def dotted() -> tuple[Page, dict[tuple[bool, int], tuple[float, float]]]:
+def dotted() -> tuple[PencilPage, dict[tuple[bool, int], tuple[float, float]]]:
     """A scan with places where up to two lines cross, marked by a dot or bare; and those places."""
     (x, y) = list(page().panels.values())[1].centre
     places = {(dot, count): (x + 14 * count - 14, y + high) for dot, high in ((True, 9), (False, -9))

@@ -17,7 +17,7 @@ import graphplan as gp  # noqa: E402
 from graphplan.accuracy.pencil import Pencil  # noqa: E402
 from graphplan.kernel.kinds import LINE  # noqa: E402
 from graphplan.marking.judge.judge import judge  # noqa: E402
-from graphplan.marking.judge.mistakes import Slip  # noqa: E402
+from graphplan.marking.judge.mistakes import Mistake  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
 from graphplan.marking.submission import read  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
@@ -36,7 +36,7 @@ def handout() -> tuple[Construction, Composition, Sheet, Printed]:
     return drawing, sheet, page, printed(page)
 
 
-def judged(folder: Path, seed: int, slips: dict[int, Slip] | None = None, *, phone: bool = False) -> Judgement:
+def judged(folder: Path, seed: int, slips: dict[int, Mistake] | None = None, *, phone: bool = False) -> Judgement:
     """A drawing on the handout, before a scanner or a phone, and what is said of it."""
     drawing, sheet, page, paper = handout()
     ways = frames(drawing, sheet)
@@ -44,8 +44,8 @@ def judged(folder: Path, seed: int, slips: dict[int, Slip] | None = None, *, pho
     picture = (photo if phone else scan)(paper, strokes(drawn, sheet, seed), seed)
     path = folder / ("photo.jpg" if phone else "scan.png")
     cv2.imwrite(str(path), picture.image)
-    handed = read(path, list(sheet.views), ways, lambda: page, code(sheet))
-    return judge(drawing, sheet, handed, Pencil())
+    submission = read(path, list(sheet.views), ways, lambda: page, code(sheet))
+    return judge(drawing, sheet, submission, Pencil())
 
 
 @pytest.mark.parametrize("phone", [False, True])
@@ -64,8 +64,8 @@ def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:
     """A perpendicular to the wrong side of the link is named, with the line that was taken for it."""
     drawing, *_ = handout()
     beta = next(step.index for step in drawing.drawn.steps if step.name == "beta")
-    slip = next(slip for slip in slipped(drawing, beta) if slip.told == "perpendicular to AB instead of BC")
-    found = judged(tmp_path, 32, {beta: slip})
+    mistake = next(mistake for mistake in slipped(drawing, beta) if mistake.told == "perpendicular to AB instead of BC")
+    found = judged(tmp_path, 32, {beta: mistake})
     assert found.guilty == beta
     assert found.first
     assert str(found.first.mistake) == "perpendicular to AB instead of BC"

@@ -18,7 +18,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import circle
 from graphplan.marking.spelling import spelled
 from graphplan.marking.submission import read
-from graphplan.marking.traces import Frame, Handed, Spot, Trace
+from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.figure import Figure, figure
 from graphplan.output.exports.geogebra import geogebra
@@ -115,7 +115,7 @@ FIGURE = [(POINT, "A", (20, 30)), (POINT, "v_b", (70.5, 12.25)), (LINE, (20, 30)
           (LINE, (10, 80), (90, 80)), (CIRCLE, (50, 50), 15)]
 
 
-def handed(folder: Path, name: str, data: bytes, frames: dict[str, Frame] | None = None) -> Handed:
+def submission(folder: Path, name: str, data: bytes, frames: dict[str, PlanFrame] | None = None) -> Submission:
     """The data as a file, read."""
     path = folder / name
     path.write_bytes(data)
@@ -134,7 +134,7 @@ def lying(trace: Trace) -> list[float]:
 @pytest.mark.parametrize("name", FORMATS)
 def test_one_figure_in_every_format(tmp_path: Path, name: str) -> None:
     """The same points, lines and circle are read from every format, named alike, and what hides is not."""
-    traces = handed(tmp_path, name, FORMATS[name]).traces
+    traces = submission(tmp_path, name, FORMATS[name]).traces
     assert [trace.kind for trace in sorted(traces, key=_order)] == [POINT, POINT, LINE, LINE, CIRCLE]
     assert {trace.label: trace.spots[0] for trace in traces if trace.kind == POINT} == {
         "A": pytest.approx((20, 30), abs=1e-6), "v_b": pytest.approx((70.5, 12.25), abs=1e-6)}
@@ -150,8 +150,8 @@ def _order(trace: Trace) -> tuple[int, list[float]]:
 
 def test_what_a_file_could_show(tmp_path: Path) -> None:
     """A drawing without points shows lines, so that no point is missing there."""
-    assert handed(tmp_path, "x.svg", FORMATS["plain.svg"]).shows == {POINT, LINE, CIRCLE}
-    assert handed(tmp_path, "y.svg", b'<svg stroke="#000"><path d="M0 0 9 9"/></svg>').shows == {LINE}
+    assert submission(tmp_path, "x.svg", FORMATS["plain.svg"]).shows == {POINT, LINE, CIRCLE}
+    assert submission(tmp_path, "y.svg", b'<svg stroke="#000"><path d="M0 0 9 9"/></svg>').shows == {LINE}
 
 
 PATHS = {
@@ -170,7 +170,7 @@ def test_curves_known_again(tmp_path: Path, path: str) -> None:
     """A path is a line or a circle where it is one within a hundredth of its size, and else nothing."""
     group = '<g stroke="#000" transform="scale({0}) translate(50 50)"><path d="{1}"/><path d="M0 -40H40"/></g>'
     document = SVG.format(group.format(2 * 1.0, path))
-    found = [t for t in handed(tmp_path, "curve.svg", document.encode()).traces if lying(t) != [50, 90, 90, 90]]
+    found = [t for t in submission(tmp_path, "curve.svg", document.encode()).traces if lying(t) != [50, 90, 90, 90]]
     if PATHS[path] is None:
         assert not found
         return
@@ -192,7 +192,7 @@ def test_arcs_bulges_and_endless_lines_of_cad(tmp_path: Path) -> None:
     space.add_xline((0, 30), (1, 0))
     text = io.StringIO()
     document.write(text)
-    traces = handed(tmp_path, "a.dxf", text.getvalue().encode()).traces
+    traces = submission(tmp_path, "a.dxf", text.getvalue().encode()).traces
     ends = sorted(sorted((trace.spots[0], trace.spots[-1])) for trace in traces)
     wanted = [[(0, 0), (10, 0)], [(0, 30), (60, 30)], [(10, 0), (10, 20)], [(40, 20), (50, 30)], [(50, 60), (60, 50)]]
     assert ends == [[pytest.approx(spot, abs=1e-9) for spot in pair] for pair in wanted]
@@ -202,7 +202,7 @@ def test_parts_of_the_view(tmp_path: Path) -> None:
     """Percentages are parts of the view that an element stands in: its width, its height, or for a radius both."""
     inside = ('<g stroke="#000"><line x1="10%" y1="20%" x2="90%" y2="20%"/><circle cx="50%" cy="50%" r="15%"/>'
               '<svg x="50%" width="50%" height="100%" viewBox="0 0 10 20"><line y1="75%" x2="100%" y2="15"/></svg></g>')
-    found = sorted(handed(tmp_path, "x.svg", SVG.format(inside).encode()).traces, key=_order)
+    found = sorted(submission(tmp_path, "x.svg", SVG.format(inside).encode()).traces, key=_order)
     assert [lying(trace) for trace in found] == [
         pytest.approx([10, 80, 90, 80]), pytest.approx([50, 25, 100, 25]), pytest.approx([50, 50, 15])]
 
@@ -250,7 +250,7 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
     letters name their points."""
     sheet, _, named = own(scene)
     for name, data, far in (("own.dxf", dxf(sheet), 1e-3), ("own.svg", svg(sheet).encode(), 5.1e-3)):
-        found = handed(tmp_path, name, data, {"N-plan": Frame(0j, 1 + 0j)})
+        found = submission(tmp_path, name, data, {"N-plan": PlanFrame(0j, 1 + 0j)})
         rims = [Trace(POINT, (spot,)) for trace in found.traces if trace.kind == CIRCLE for spot in trace.spots]
         for trace in shown(sheet):
             if trace.kind == CIRCLE:
@@ -265,7 +265,7 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
 @pytest.mark.parametrize("kind", ["dxf", "svg"])
 def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
     """Plans lie where their frames say on a sheet of the size that is asked for, and anywhere on another."""
-    sheet, path, frames = own("four-bar")[0], tmp_path / f"own.{kind}", {"N-plan": Frame(0j, 1 + 0j)}
+    sheet, path, frames = own("four-bar")[0], tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
     path.write_bytes({"dxf": dxf, "svg": lambda sheet: svg(sheet).encode()}[kind](sheet))
     assert read(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
     assert read(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
@@ -275,7 +275,7 @@ def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
 def test_own_geogebra_files_are_read_back(tmp_path: Path, scene: str) -> None:
     """Points by their labels, strokes and arcs by the commands that make them, all to 0.001 mm, without coordinates."""
     sheet, drawn, named = own(scene)
-    traces = handed(tmp_path, "own.ggb", geogebra(drawn)).traces
+    traces = submission(tmp_path, "own.ggb", geogebra(drawn)).traces
     points = {trace.label: trace.spots[0] for trace in traces if trace.kind == POINT}
     assert max(math.dist(points[label], at) for label, at in named.items()) < 1e-3
     arcs = [trace for trace in shown(sheet) if trace.kind == CIRCLE]
@@ -295,4 +295,4 @@ def test_reading_dxf_needs_ezdxf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch
     """Without the extra a DXF file is refused with what to install."""
     monkeypatch.setitem(__import__("sys").modules, "ezdxf", None)
     with pytest.raises(Refused, match=r"pip install 'graphplan\[dxf\]'"):
-        handed(tmp_path, "a.dxf", b"0\nSECTION\n")
+        submission(tmp_path, "a.dxf", b"0\nSECTION\n")

@@ -16,7 +16,7 @@ from graphplan.marking.classroom import Classroom, Marked, Unread
 from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict
-from graphplan.marking.traces import Frame, Number, Trace
+from graphplan.marking.traces import Number, PlanFrame, Trace
 from graphplan.output.class_report import class_list
 from graphplan.output.report_page import marked
 from graphplan.phrases import said
@@ -63,7 +63,7 @@ def judgement() -> Judgement:
     """A four-bar of which the points are seen, the first crossing is wrong, and every name is hostile."""
     drawing = gp.construct(gp.load("four-bar"))
     composition = compose(drawing)
-    frames = {panel: Frame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+    frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
     wrong = next(step.index for step in drawing.drawn.steps if step.op.name == "meet")
     verdicts = []
     for step in drawing.drawn.steps:

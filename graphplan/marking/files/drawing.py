@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from itertools import chain
 from pathlib import Path
 
@@ -11,7 +11,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
 from graphplan.marking.files.labels import Lettering, joined, labelled
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
-from graphplan.marking.traces import Frame, Handed, Trace
+from graphplan.marking.traces import Frames, Submission, Trace
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
                         "drive"})  # layers of graphplan's own sheets with nothing that a construction draws
@@ -23,7 +23,7 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
     return asked is None or all(math.isclose(*pair, rel_tol=ROUNDED) for pair in zip(size, asked, strict=True))
 
 
-def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Mapping[str, Frame]) -> Handed:
+def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames) -> Submission:
     """A drawing as it was handed in: what is drawn twice is one thing, and words name what they stand beside.
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
@@ -38,4 +38,4 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
         raise Refused(f"{path}", "nothing is drawn in it, no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size)]
     found = labelled(once, joined(sound))
-    return Handed(path.name, tuple(found), shows=frozenset({LINE, *(trace.kind for trace in found)}), frames=frames)
+    return Submission(path.name, tuple(found), shows=frozenset({LINE, *(trace.kind for trace in found)}), frames=frames)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
@@ -15,7 +15,7 @@ from graphplan.marking.files.curves import bow, curved, full, pieces, reach
 from graphplan.marking.files.drawing import NO_DRAWING, drawing, same_paper
 from graphplan.marking.files.labels import Lettering, lettering
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
-from graphplan.marking.traces import Frame, Handed, Spot, Trace
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 
 LARGEST = 8 * MB
@@ -26,12 +26,12 @@ BASE_LINES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
 STEPS = 48  # spots of an ellipse
 
 
-def read_dxf(path: Path, frames: Mapping[str, Frame], size: tuple[float, float] | None = None) -> Handed:
+def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
     frames say."""
     document = _document(path)
     try:
-        reader = _Reader(path, document)
+        reader = _DxfReader(path, document)
         reader.read(document.modelspace(), 0)
         reader.endless()
         known = frames if reader.own and same_paper(reader.size, size) else {}
@@ -78,7 +78,7 @@ def _line(error: Exception) -> str:
     return " ".join(f"{type(error).__name__} {error}".split())[:80]
 
 
-class _Reader:
+class _DxfReader:
     """Reads one document, block by block."""
 
     def __init__(self, path: Path, document: Any):

@@ -16,7 +16,7 @@ from graphplan.marking.files.geogebra_objects import CIRCLES, LINES, Objects, fi
 from graphplan.marking.files.geogebra_terms import Ray, Round, Vector
 from graphplan.marking.files.safe import MB, contents, tree, unpacked
 from graphplan.marking.spelling import greek, mark
-from graphplan.marking.traces import Handed, Spot, Trace
+from graphplan.marking.traces import Spot, Submission, Trace
 
 LARGEST = 16 * MB
 MEMBER = "geogebra.xml"
@@ -24,7 +24,7 @@ CAPTION = "3"  # the mode in which a caption is shown as label
 ARCS = {"CircleArc", "CircularArc", "Arc"}
 
 
-def read_ggb(path: Path) -> Handed:
+def read_ggb(path: Path) -> Submission:
     """The things that are to be seen in a GeoGebra file, and hidden points that are named as marks."""
     root = tree(path, unpacked(path, contents(path, LARGEST), MEMBER, LARGEST))
     construction = root.find("construction")

@@ -76,12 +76,12 @@ def unpacked(path: Path, data: bytes, name: str, most: int) -> bytes:
 def tree(path: Path, data: bytes) -> Element:
     """The elements of an XML document that declares no entities; names are without their namespaces."""
     try:
-        return _Reader(path).read(data)
+        return _TreeReader(path).read(data)
     except (expat.ExpatError, LookupError, ValueError) as error:
         raise Refused(f"{path}", f"this is no well-formed XML ({error})", "save the drawing anew") from None
 
 
-class _Reader:
+class _TreeReader:
     """Builds the tree while it counts."""
 
     def __init__(self, path: Path):

@@ -6,7 +6,7 @@ sheet's scene and sentences are not looked at.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.etree.ElementTree import Element
@@ -32,7 +32,7 @@ from graphplan.marking.files.svg_space import (
     window,
 )
 from graphplan.marking.files.svg_words import words
-from graphplan.marking.traces import Frame, Handed, Spot, Trace
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
 
 LARGEST = 16 * MB
 VISITS, LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
@@ -41,12 +41,12 @@ READ = {*GROUPS, "use", "text", "circle", "ellipse", "line", "polyline", "polygo
 NOT_DRAWN = {f"layer-{name}" for name in NO_DRAWING}
 
 
-def read_svg(path: Path, frames: Mapping[str, Frame], size: tuple[float, float] | None = None) -> Handed:
+def read_svg(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in an SVG file; on graphplan's own sheet of this size plans lie where its frames say."""
     root = tree(path, contents(path, LARGEST))
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
-    reader = _Reader(path, root)
+    reader = _SvgReader(path, root)
     reader.read()
     return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
 
@@ -62,7 +62,7 @@ class _Place:
     drawn: bool = True
 
 
-class _Reader:
+class _SvgReader:
     """Walks one document."""
 
     def __init__(self, path: Path, root: Element):

@@ -9,7 +9,7 @@ from graphplan.accuracy.preference import Constructing, forms
 from graphplan.errors import Refused
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
-from graphplan.marking.traces import Handed
+from graphplan.marking.traces import Submission
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition
@@ -18,17 +18,17 @@ STYLES = ("orthogonal", "polar")
 WRONGED = 3  # a wrong step speaks against a construction as much as so many that are missing or not asked for
 
 
-def judge_by_any(drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
+def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
     """What is said of a drawing by the construction of its task, or by another that it follows better.
 
     Others are tried only where something is amiss: in the other forms of loci and rings, and unless `plan` names one,
     on the other plans. Fails as :func:`judge` does.
     """
-    best = judge(drawing, composition, handed, pencil)
+    best = judge(drawing, composition, submission, pencil)
     for other, sheet in _others(drawing, pencil, plan, inertia, construct) if _amiss(best) else ():
         try:
-            found = judge(other, sheet, handed, pencil)
+            found = judge(other, sheet, submission, pencil)
         except Refused:
             continue
         best = found if _amiss(found) < _amiss(best) else best

@@ -8,7 +8,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
-from graphplan.marking.traces import Frame
+from graphplan.marking.traces import PlanFrame
 
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
 SIGMAS = 4.0  # how many standard deviations a mark may lie off a frame that holds it
@@ -19,20 +19,20 @@ class Fit:
     """A frame with its standard deviations: `turn` of its scale and direction, as a part of one, about `centre` on
     the plan; `shift` of its place, in mm. `tied` names the plan whose scale and direction it shares."""
 
-    frame: Frame
+    frame: PlanFrame
     turn: float = 0.0
     shift: float = 0.0
     centre: complex = 0j
     tied: str = ""
 
 
-def through(one: Pair, two: Pair) -> Frame | None:
+def through(one: Pair, two: Pair) -> PlanFrame | None:
     """The frame in which two marks lie where they do; None where they do not tell."""
     apart = two[0] - one[0]
     if not apart or two[1] == one[1]:
         return None
     unit = (two[1] - one[1]) / apart
-    return Frame(one[1] - unit * one[0], unit)
+    return PlanFrame(one[1] - unit * one[0], unit)
 
 
 def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
@@ -49,14 +49,14 @@ def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
     return fitted(kept, sigma)
 
 
-def _held(pairs: Sequence[Pair], frame: Frame, sigma: float) -> Iterator[Pair]:
+def _held(pairs: Sequence[Pair], frame: PlanFrame, sigma: float) -> Iterator[Pair]:
     """The marks that a frame holds: those it was laid through shake it, the more the further off a mark is."""
     for plan, sheet in pairs:
         if abs(sheet - frame.onto(plan)) <= SIGMAS * 2.0 * sigma:
             yield plan, sheet
 
 
-def _missed(pairs: Sequence[Pair], frame: Frame) -> float:
+def _missed(pairs: Sequence[Pair], frame: PlanFrame) -> float:
     return sum(abs(sheet - frame.onto(plan)) ** 2 for plan, sheet in pairs)
 
 
@@ -69,4 +69,4 @@ def fitted(pairs: Sequence[Pair], sigma: float) -> Fit | None:
     if not unit or not cmath.isfinite(unit):
         return None
     turn = sigma / abs(unit) / math.sqrt(spread)
-    return Fit(Frame(there - unit * here, unit), turn, sigma / math.sqrt(len(pairs)), here)
+    return Fit(PlanFrame(there - unit * here, unit), turn, sigma / math.sqrt(len(pairs)), here)

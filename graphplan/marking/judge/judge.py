@@ -9,18 +9,18 @@ from collections.abc import Iterator, Mapping, Sequence
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
-from graphplan.marking.judge.figures import judged
 from graphplan.marking.judge.fits import Fit
-from graphplan.marking.judge.image_search import Sought, wobbly
+from graphplan.marking.judge.image_search import ImageSearch, wobbly
 from graphplan.marking.judge.labels import labelled, sure
-from graphplan.marking.judge.matching import Rules, Taken, Walk
+from graphplan.marking.judge.matching import Match, Matching, Rules
+from graphplan.marking.judge.numbers import judged
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
-from graphplan.marking.judge.student_sheet import Board
-from graphplan.marking.judge.unlabelled import Loose
+from graphplan.marking.judge.student_sheet import StudentSheet
+from graphplan.marking.judge.unlabelled import Unlabelled
 from graphplan.marking.judge.verdict import WRONG, Judgement
 from graphplan.marking.judge.verdicts import verdicts
-from graphplan.marking.traces import Frame, Handed
+from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
@@ -32,52 +32,53 @@ MOST = 4  # mistakes that are looked for
 ALARM = 0.002  # how often a faultless drawing may be called wrong
 
 
-def judge(drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil) -> Judgement:
+def judge(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Judgement:
     """What is said of a drawing, by the marks on it; `composition` is the sheet that the task was set on.
 
     Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
     if not all(size > 0 for size in pencil.model.values()):
         raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
-    return Judge(drawing, composition, handed, pencil).judgement()
+    return Judge(drawing, composition, submission, pencil).judgement()
 
 
 class Judge:
     """One drawing beside its construction."""
 
-    def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil):
-        self.drawing, self.composition, self.handed, self.pencil = drawing, composition, handed, pencil
-        plan_of_step = Board(drawing, {}, pencil).plan_of_step
-        self.sought: Sought | None = None
-        self.traces = [wobbly(trace) for trace in handed.traces] if handed.page else list(handed.traces)
-        self.labels = labelled(drawing.drawn, plan_of_step, handed.traces)
-        taken = {place for place in self.labels.values() if sure(handed.traces[place])}
-        self.loose = [place for place, trace in enumerate(handed.traces) if place not in taken and not (
-            handed.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
-        self.rules = Rules(ALARM / len(drawing.drawn), handed.shows)
+    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
+        self.drawing, self.composition, self.submission, self.pencil = drawing, composition, submission, pencil
+        plan_of_step = StudentSheet(drawing, {}, pencil).plan_of_step
+        self.image: ImageSearch | None = None
+        self.traces = [wobbly(trace) for trace in submission.traces] if submission.page else list(submission.traces)
+        self.labels = labelled(drawing.drawn, plan_of_step, submission.traces)
+        taken = {place for place in self.labels.values() if sure(submission.traces[place])}
+        self.unlabelled = [place for place, trace in enumerate(submission.traces) if place not in taken and not (
+            submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
+        self.rules = Rules(ALARM / len(drawing.drawn), submission.shows)
 
     def judgement(self) -> Judgement:
         """The verdicts of the frames that fit best, the wrong ones explained."""
         fits = self._frames()
-        walk = self.walk(fits, MOST)
-        spare = [trace for place, trace in enumerate(self.handed.traces) if place not in walk.used | walk.over]
-        numbers = tuple(judged(walk, self.handed.numbers)) if self.handed.numbers else ()
+        matching = self.matching(fits, MOST)
+        needed = matching.used | matching.over
+        spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
+        numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
         return Judgement(
-            self.handed.name, self.drawing, self.composition, {panel: fit.frame for panel, fit in fits.items()},
-            tuple(verdicts(walk)), tuple(spare), numbers)
+            self.submission.name, self.drawing, self.composition, {panel: fit.frame for panel, fit in fits.items()},
+            tuple(verdicts(matching)), tuple(spare), numbers)
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
     def _frames(self) -> dict[str, Fit]:
         """Where every plan lies, plan by plan: as on the task's sheet, unless another frame explains more."""
-        if not self.handed.traces:  # numbers alone: as on the task's sheet
-            return {panel: Fit(Frame(complex(*view.origin), view.scale))
+        if not self.submission.traces:  # numbers alone: as on the task's sheet
+            return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.composition.views.items()}
-        register = Register(self.drawing, self.composition, self.handed, self.pencil, self.labels)
-        if self.handed.frames.keys() >= set(register.panels):
-            return {panel: Fit(self.handed.frames[panel]) for panel in register.panels}
+        register = Register(self.drawing, self.composition, self.submission, self.pencil, self.labels)
+        if self.submission.frames.keys() >= set(register.panels):
+            return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
-        if self.loose:
+        if self.unlabelled:
             register.follow(self._alone(mechanism, register.panels))
         expected = {panel: register.expected(panel, mechanism) for panel in register.panels[1:]}
         fits = {MECHANISM: mechanism} | {panel: found[0] for panel, found in expected.items()}
@@ -92,12 +93,12 @@ class Judge:
     def _relaid(self, fits: dict[str, Fit], register: Register) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
         plan_of_step, start = register.plan_of_step, self._start(fits)
-        for panel in [panel for panel in register.panels[1:] if panel not in self.handed.frames]:
+        for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.moved(self._start(fits)).until(plan_of_step.index(panel))
-            walk = start.fork().until(end)
-            wrong, best = float(_wrong(walk, panel)), fits[panel]
-            for rival in register.rivals(panel, walk) if wrong else ():
+            matching = start.fork().until(end)
+            wrong, best = float(_wrong(matching, panel)), fits[panel]
+            for rival in register.rivals(panel, matching) if wrong else ():
                 other = start.moved(self._start({**fits, panel: rival.fit})).until(end)
                 if _wrong(other, panel) + rival.weight < wrong:
                     wrong, best = _wrong(other, panel) + rival.weight, rival.fit
@@ -106,44 +107,44 @@ class Judge:
 
     def _likeliest(self, fits: Mapping[str, Fit], panel: str, found: Sequence[Fit]) -> Fit:
         """The frame of a plan in which a drawing is likeliest, with the likeliest mistakes if it needs any."""
-        ways = [(self.walk({**fits, panel: fit}), fit) for fit in found]
+        ways = [(self.matching({**fits, panel: fit}), fit) for fit in found]
         ways.sort(key=lambda way: -way[0].weight)
-        if sum(min(taken.weight, 0.0) for taken in _on(ways[0][0], panel)) > LITTLE:
+        if sum(min(match.weight, 0.0) for match in _on(ways[0][0], panel)) > LITTLE:
             return ways[0][1]
-        return max((fit for _, fit in ways[:RIVALS]), key=lambda fit: self.walk({**fits, panel: fit}, 1).weight)
+        return max((fit for _, fit in ways[:RIVALS]), key=lambda fit: self.matching({**fits, panel: fit}, 1).weight)
 
-    def _alone(self, mechanism: Fit, panels: Sequence[str]) -> Walk:
+    def _alone(self, mechanism: Fit, panels: Sequence[str]) -> Matching:
         """The way through with the mechanism alone; the other plans are as good as nowhere."""
-        nowhere = Fit(Frame(complex(NOWHERE), 1.0))
-        return self.walk({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
+        nowhere = Fit(PlanFrame(complex(NOWHERE), 1.0))
+        return self.matching({panel: mechanism if panel == MECHANISM else nowhere for panel in panels})
 
     def _label(self, found: Mapping[int, int]) -> None:
         """Take loose traces for what they were found to be."""
         self.labels |= found
-        self.loose = [place for place in self.loose if place not in found.values()]
+        self.unlabelled = [place for place in self.unlabelled if place not in found.values()]
 
     # ---- the way through -------------------------------------------------------------------------------------------
 
-    def walk(self, fits: Mapping[str, Fit], mistakes: int = 0) -> Walk:
+    def matching(self, fits: Mapping[str, Fit], mistakes: int = 0) -> Matching:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
-        walk = self._start(fits)
-        return walk.through(Search(walk.fork()).found(mistakes) if mistakes and self.loose else {})
+        matching = self._start(fits)
+        return matching.through(Search(matching.fork()).found(mistakes) if mistakes and self.unlabelled else {})
 
-    def _start(self, fits: Mapping[str, Fit]) -> Walk:
+    def _start(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
-        board = Board(self.drawing, fits, self.pencil)
-        loose = Loose(board, self.traces, self.loose, len(self.handed.traces))
-        if self.handed.page and not self.sought:
+        sheet = StudentSheet(self.drawing, fits, self.pencil)
+        unlabelled = Unlabelled(sheet, self.traces, self.unlabelled, len(self.submission.traces))
+        if self.submission.page and not self.image:
             # the frames of a picture are known: one board serves all
-            self.sought = Sought(board, self.handed.page, self.composition.arrangement.panels)
-        return Walk(board, self.rules, self.traces, self.labels, loose, self.sought)
+            self.image = ImageSearch(sheet, self.submission.page, self.composition.arrangement.panels)
+        return Matching(sheet, self.rules, self.traces, self.labels, unlabelled, self.image)
 
 
-def _on(walk: Walk, panel: str) -> Iterator[Taken]:
+def _on(matching: Matching, panel: str) -> Iterator[Match]:
     """What the steps of a plan were taken for."""
-    return (taken for taken in walk.taken if walk.board.plan_of_step[taken.step.index] == panel)
+    return (match for match in matching.matches if matching.sheet.plan_of_step[match.step.index] == panel)
 
 
-def _wrong(walk: Walk, panel: str) -> int:
+def _wrong(matching: Matching, panel: str) -> int:
     """How many steps of a plan are wrong on the way through."""
-    return sum(taken.state == WRONG for taken in _on(walk, panel))
+    return sum(match.state == WRONG for match in _on(matching, panel))

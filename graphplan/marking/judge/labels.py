@@ -44,7 +44,7 @@ def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None
 def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:
     """All that a mark may be called, by its kind and plan or on any plan: what is clearer comes first."""
     found: dict[tuple[str, str, str], int] = {}
-    loose: dict[tuple[str, str, str], set[int]] = {}
+    loosely: dict[tuple[str, str, str], set[int]] = {}
     for step in program.steps:
         kind, text = step.op.gives, program.text(step.index)
         letters = [spelled(step.name), "" if isinstance(text, Said) else spelled(text)]
@@ -53,10 +53,10 @@ def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str
             for letter in filter(None, letters):
                 found.setdefault((kind, panel, letter), step.index)
                 for less in (letter.replace("_", ""), letter.replace("_", "").casefold()):
-                    loose.setdefault((kind, panel, less), set()).add(step.index)
+                    loosely.setdefault((kind, panel, less), set()).add(step.index)
             for called in (number, f"#{number}", f"{kind}{number}") if step.op.name != "given" else ():
-                loose.setdefault((kind, panel, called), set()).add(step.index)
-    for spelling, steps in loose.items():
+                loosely.setdefault((kind, panel, called), set()).add(step.index)
+    for spelling, steps in loosely.items():
         if len(steps) == 1:  # what may be said of two is said of neither
             found.setdefault(spelling, *steps)
     return found

@@ -19,11 +19,11 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.evidence import ASSUMED, FAINT, FILED, GONE, SHARED, THERE, weighed
-from graphplan.marking.judge.image_search import Sought, Way
+from graphplan.marking.judge.image_search import ImageSearch, KnownMarks
 from graphplan.marking.judge.labels import sure
-from graphplan.marking.judge.mistakes import Slip
-from graphplan.marking.judge.student_sheet import Board, Deviation, plain
-from graphplan.marking.judge.unlabelled import Loose
+from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain
+from graphplan.marking.judge.unlabelled import Unlabelled
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace
 
@@ -44,7 +44,7 @@ class Rules:
 
 
 @dataclass(frozen=True)
-class Taken:
+class Match:
     """What a step was taken for: its state, where it should have been, and the trace, or the slip that it must have
     been, with how far off that is; and what that speaks for the way."""
 
@@ -52,79 +52,79 @@ class Taken:
     state: str
     expected: Any
     place: int | None = None
-    deviation: Deviation | None = None
-    slip: Slip | None = None
+    residual: Residual | None = None
+    mistake: Mistake | None = None
     weight: float = 0.0
 
 
-class Walk:
+class Matching:
     """The drawing as far as it has been gone through."""
 
-    def __init__(self, board: Board, rules: Rules, traces: list[Trace], labels: Mapping[int, int], loose: Loose,
-                 sought: Sought | None = None):
-        self.board, self.rules, self.traces, self.labels, self.loose = board, rules, traces, labels, loose
-        self.sought = sought  # what is found by seeking it is added to the traces
+    def __init__(self, sheet: StudentSheet, rules: Rules, traces: list[Trace], labels: Mapping[int, int],
+                 unlabelled: Unlabelled, image: ImageSearch | None = None):
+        self.sheet, self.rules, self.traces, self.labels, self.unlabelled = sheet, rules, traces, labels, unlabelled
+        self.image = image  # what is found by seeking it is added to the traces
         self.own: list[Any] = []
         self.mended: list[Any] = []
-        self.taken: list[Taken] = []
+        self.matches: list[Match] = []
         self.used: set[int] = set()
         self.over: set[int] = set()  # what is drawn over print
         self.erred = False
-        self.found: Mapping[int, int | Slip] = {}  # what some steps are taken for
+        self.found: Mapping[int, int | Mistake] = {}  # what some steps are taken for
         self.dead: set[int] = set()  # the steps that nobody could draw from what is there
         self.weight = 0.0  # what speaks for this way
         self._now: list[tuple[Any, Sequence[Any]]] | None = None  # what the next step should make
 
-    def fork(self) -> Walk:
+    def fork(self) -> Matching:
         """Another one that goes on from here."""
         return self.moved(self)
 
-    def moved(self, other: Walk) -> Walk:
+    def moved(self, other: Matching) -> Matching:
         """Another one that goes on from here in the frames of the other, which differ only in plans to come."""
-        moved = Walk(other.board, self.rules, self.traces, self.labels, other.loose, other.sought)
+        moved = Matching(other.sheet, self.rules, self.traces, self.labels, other.unlabelled, other.image)
         moved.own, moved.mended = list(self.own), list(self.mended)
-        moved.taken, moved.erred = list(self.taken), self.erred
+        moved.matches, moved.erred = list(self.matches), self.erred
         moved.used, moved.over = set(self.used), set(self.over)
         moved.weight, moved.found, moved.dead = self.weight, self.found, set(self.dead)
         return moved
 
     @property
     def steps(self) -> Sequence[Step]:
-        return self.board.drawing.drawn.steps
+        return self.sheet.drawing.drawn.steps
 
     @property
     def next(self) -> Step:
         return self.steps[len(self.own)]
 
-    def through(self, found: Mapping[int, int | Slip] | None = None) -> Walk:
+    def through(self, found: Mapping[int, int | Mistake] | None = None) -> Matching:
         """Go to the end, taking every trace that fits, what steps were found to be mistaken for, and no others."""
         return self.until(len(self.steps), found)
 
-    def until(self, end: int, found: Mapping[int, int | Slip] | None = None) -> Walk:
+    def until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
         """Go on so before the step of this place."""
         self.found = found or {}
         while len(self.own) < end:
             self.go(self.found.get(len(self.own)))
         return self
 
-    def go(self, found: int | Slip | None) -> Walk:
+    def go(self, found: int | Mistake | None) -> Matching:
         """Take the next step for what it was found to be, else for what fits it."""
-        if isinstance(found, Slip):
-            return self.slip(found)
+        if isinstance(found, Mistake):
+            return self.mistake(found)
         place = self.find() if found is None else found
         return self.take(None if place == UNMARKED else place)
 
-    def repeat(self, other: Walk) -> bool:
+    def repeat(self, other: Matching) -> bool:
         """Take the next step as another way did, if nothing differs that it follows from and its trace is free."""
-        step, taken = self.next, other.taken[len(self.own)]
+        step, match = self.next, other.matches[len(self.own)]
         if any(mine[arg] is not its[arg] for arg in step.args
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
             return False
-        if taken.place is not None and (
-                taken.weight == SHARED or not self.used.isdisjoint({taken.place, *self.loose.twins(taken.place)})):
+        if match.place is not None and (
+                match.weight == SHARED or not self.used.isdisjoint({match.place, *self.unlabelled.twins(match.place)})):
             return False
         self.dead |= other.dead & {step.index}
-        self._go_on(taken, other.own[step.index], other.mended[step.index])
+        self._go_on(match, other.own[step.index], other.mended[step.index])
         return True
 
     # ---- one step --------------------------------------------------------------------------------------------------
@@ -135,7 +135,7 @@ class Walk:
         lettered = self.labels.get(step.index)
         if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
             return lettered
-        if step.op.name == "begin" and self.sought:
+        if step.op.name == "begin" and self.image:
             return None  # it is printed
         for expected, drawn in self._asked(step):
             best = self._drawn(step, expected, drawn)
@@ -146,13 +146,13 @@ class Walk:
     def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
         best = self._fitting(step, expected, drawn)
-        if not self.sought or step.op.gives == OPENING:
+        if not self.image or step.op.gives == OPENING:
             return best
         if best is None:
-            best = self._seeking(step, expected, drawn, self.sought)
-        if best is None or self.sought.share(step, expected, self._way(drawn)) is not None:
+            best = self._seeking(step, expected, drawn, self.image)
+        if best is None or self.image.share(step, expected, self._way(drawn)) is not None:
             return best
-        off = self.deviation(step, expected, best, drawn)  # where most is printed already, pieces tell little
+        off = self.residual(step, expected, best, drawn)  # where most is printed already, pieces tell little
         if step.op.gives != LINE and off.square < len(off.off) + 1:
             return best
         self.over.add(best)
@@ -160,37 +160,37 @@ class Walk:
 
     def _fits(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""
-        return any(self.deviation(step, expected, place, drawn).fits(self.rules.chance)
+        return any(self.residual(step, expected, place, drawn).fits(self.rules.chance)
                    for expected, drawn in self._asked(step))
 
-    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any], sought: Sought) -> int | None:
+    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any], image: ImageSearch) -> int | None:
         """What a picture shows about an expected value, if it fits it."""
         if step.op.name == "given" or step.op.gives == OPENING:
             return None
-        trace = sought.trace(step, expected, self._way(drawn), REACH * self.board.pencil.point)
-        if trace is None or not self.board.deviation(
-                step, expected, self.board.spots(step.index, trace), drawn).fits(self.rules.chance):
+        trace = image.trace(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
+        if trace is None or not self.sheet.residual(
+                step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.rules.chance):
             return None
         if trace not in self.traces:
             self.traces.append(trace)
         return self.traces.index(trace)
 
-    def _way(self, drawn: Sequence[Any]) -> Way:
+    def _way(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""
-        return Way(drawn, {index: one for index, one in self.found.items() if isinstance(one, Slip)})
+        return KnownMarks(drawn, {index: one for index, one in self.found.items() if isinstance(one, Mistake)})
 
     def _fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The loose trace that fits an expected value best, if any does."""
-        places, off = self.loose.near(step.op.gives, self.board.plan_of_step[step.index], plain(expected))
+        places, off = self.unlabelled.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
         best: tuple[bool, bool, float, int] | None = None
         for k in np.argsort(off)[:NEAREST] if len(places) else ():
             if not off[k] < ASTRAY:
                 break
-            deviation = self.deviation(step, expected, places[k], drawn)
-            if deviation.fits(self.rules.chance):  # rather one that is free yet, and that reaches its marks
-                found = places[k] in self.used, not self._reaches(step, places[k]), deviation.square, places[k]
+            residual = self.residual(step, expected, places[k], drawn)
+            if residual.fits(self.rules.chance):  # rather one that is free yet, and that reaches its marks
+                found = places[k] in self.used, not self._reaches(step, places[k]), residual.square, places[k]
                 best = min(best, found) if best else found
-            elif off[k] > FARTHER * deviation.tolerance(self.rules.chance):
+            elif off[k] > FARTHER * residual.tolerance(self.rules.chance):
                 break
         return best[3] if best else None
 
@@ -198,9 +198,9 @@ class Walk:
         """Whether a line was drawn as far as to the points that it goes through."""
         if step.op.gives != LINE:
             return True
-        board, frame = self.board, self.board.fits[self.board.plan_of_step[step.index]].frame
+        sheet, frame = self.sheet, self.sheet.fits[self.sheet.plan_of_step[step.index]].frame
         start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
-        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / board.mm(board.plan_of_step[step.index])
+        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / sheet.mm(sheet.plan_of_step[step.index])
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
         along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)
@@ -211,69 +211,69 @@ class Walk:
             self._now = []
             for drawn in (self.own, self.mended) if self.erred else (self.own,):
                 with suppress(Undrawable):
-                    self._now.append((self.board.expected(step, drawn), drawn))
+                    self._now.append((self.sheet.expected(step, drawn), drawn))
         return self._now
 
-    def deviation(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Deviation:
+    def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what is expected."""
-        return self.board.deviation(step, expected, self.board.spots(step.index, self.traces[place]), drawn)
+        return self.sheet.residual(step, expected, self.sheet.spots(step.index, self.traces[place]), drawn)
 
-    def take(self, place: int | None) -> Walk:
+    def take(self, place: int | None) -> Matching:
         """Take a trace, or none, for what the next step made, and judge it."""
         step = self.next
-        asked = list(self._asked(step)) or [(self.board.drawing.values[step.index], self.board.drawing.values)]
+        asked = list(self._asked(step)) or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)]
         own, mended = asked[0][0], asked[-1][0]
         if place is None:
             shown = step.op.gives in self.rules.shows and step.op.name not in ("given", "begin")
-            return self._go_on(Taken(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
-        spots = self.board.spots(step.index, self.traces[place])
-        found = [self.board.deviation(step, value, spots, drawn) for value, drawn in asked]
-        fits = [step.op.name == "begin" or deviation.fits(self.rules.chance) for deviation in found]
+            return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
+        spots = self.sheet.spots(step.index, self.traces[place])
+        found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]
+        fits = [step.op.name == "begin" or residual.fits(self.rules.chance) for residual in found]
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
-        seen = self.board.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
+        seen = self.sheet.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
         weight = self._weighed(place, found[by] if any(fits) else None, seen)
         if not (any(fits) or self.labels.get(step.index) == place or all(map(self._clearly, found))):
             weight = -math.inf
-        return self._go_on(Taken(step, state, asked[by][0], place, found[by], weight=weight),
+        return self._go_on(Match(step, state, asked[by][0], place, found[by], weight=weight),
                            seen, seen if fits[-1] else mended)
 
-    def slip(self, slip: Slip) -> Walk:
+    def mistake(self, mistake: Mistake) -> Matching:
         """Take a slip for what was done at the next step: what is drawn where it leads, or a mark that is not to be
         seen, but from which others follow."""
         step, asked = self.next, self._asked(self.next)
-        made = self.board.hand.slipped(step, slip.value(self.board.domain, self.own), self.board.errors(step.index))
+        made = self.sheet.hand.slipped(step, mistake.value(self.sheet.domain, self.own), self.sheet.errors(step.index))
         mended = asked[0][0] if asked else made
         place = self._drawn(step, made, self.own)
         if place is None:
             weight = self._missed(made) + ASSUMED
             unclear = step.op.gives == POINT and not self._clearly(
-                self.board.deviation(step, mended, [made], self.own))
+                self.sheet.residual(step, mended, [made], self.own))
             if unclear or not self.dead.isdisjoint(step.args):
                 weight = -math.inf
-            return self._go_on(Taken(step, WRONG, mended, slip=slip, weight=weight), made, mended)
-        spots = self.board.spots(step.index, self.traces[place])
-        off = self.board.deviation(step, mended, spots, self.own)
-        seen = self.board.seen(step, made, spots, steady=not self.traces[place].blur)
-        weight = self._weighed(place, self.board.deviation(step, made, spots, self.own), seen) or ASSUMED
+            return self._go_on(Match(step, WRONG, mended, mistake=mistake, weight=weight), made, mended)
+        spots = self.sheet.spots(step.index, self.traces[place])
+        off = self.sheet.residual(step, mended, spots, self.own)
+        seen = self.sheet.seen(step, made, spots, steady=not self.traces[place].blur)
+        weight = self._weighed(place, self.sheet.residual(step, made, spots, self.own), seen) or ASSUMED
         if not self._clearly(off):
             weight = -math.inf
-        return self._go_on(Taken(step, WRONG, mended, place, off, slip, weight), seen, mended)
+        return self._go_on(Match(step, WRONG, mended, place, off, mistake, weight), seen, mended)
 
-    def _weighed(self, place: int, deviation: Deviation | None, seen: Any) -> float:
+    def _weighed(self, place: int, residual: Residual | None, seen: Any) -> float:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
-        if not self.used.isdisjoint({place, *self.loose.twins(place)}):
+        if not self.used.isdisjoint({place, *self.unlabelled.twins(place)}):
             return SHARED
-        if not self.sought:
-            return weighed(FILED[kind], GONE[kind], deviation)
-        share = self.sought.share(self.next, seen, self._way(self.own)) if kind != POINT else None
-        most = (THERE if place < self.loose.seen else FAINT)[kind]
-        return weighed(most, GONE[kind], deviation, 1.0 if share is None else share)
+        if not self.image:
+            return weighed(FILED[kind], GONE[kind], residual)
+        share = self.image.share(self.next, seen, self._way(self.own)) if kind != POINT else None
+        most = (THERE if place < self.unlabelled.seen else FAINT)[kind]
+        return weighed(most, GONE[kind], residual, 1.0 if share is None else share)
 
-    def _clearly(self, deviation: Deviation) -> bool:
+    def _clearly(self, residual: Residual) -> bool:
         """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
-        return deviation.size > CLEARLY * deviation.tolerance(self.rules.chance)
+        return residual.size > CLEARLY * residual.tolerance(self.rules.chance)
 
     def _missed(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
@@ -282,20 +282,20 @@ class Walk:
         if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
-        if step.op.name == "given" or step.op.gives == OPENING or (step.op.name == "begin" and self.sought):
+        if step.op.name == "given" or step.op.gives == OPENING or (step.op.name == "begin" and self.image):
             return 0.0
-        if self.sought:
-            if self.sought.beyond(step, expected):
+        if self.image:
+            if self.image.beyond(step, expected):
                 self.dead.add(step.index)
-            return 0.0 if self.sought.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
+            return 0.0 if self.image.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
         return GONE[step.op.gives] if step.op.gives in self.rules.shows else 0.0
 
-    def _go_on(self, taken: Taken, own: Any, mended: Any) -> Walk:
-        self.taken.append(taken)
+    def _go_on(self, match: Match, own: Any, mended: Any) -> Matching:
+        self.matches.append(match)
         self.own.append(own)
         self.mended.append(mended)
-        self.erred = self.erred or taken.state == WRONG
-        if taken.place is not None:
-            self.used |= {taken.place} | self.loose.twins(taken.place)
-        self.weight, self._now = self.weight + taken.weight, None
+        self.erred = self.erred or match.state == WRONG
+        if match.place is not None:
+            self.used |= {match.place} | self.unlabelled.twins(match.place)
+        self.weight, self._now = self.weight + match.weight, None
         return self

@@ -22,7 +22,7 @@ FACTORS = (2.0, 0.5, 10.0, 0.1, 1.5)  # the scales that are mistaken for each ot
 
 
 @dataclass(frozen=True)
-class Slip:
+class Mistake:
     """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, or the radius, is
     multiplied by `factor`; a point is mirrored in the line of two marks."""
 
@@ -81,11 +81,11 @@ class Occasion:
                 yield self.program.text(other.index), replace(step, args=args)
 
 
-Rule = Callable[[Occasion], Iterator[Slip]]
+Rule = Callable[[Occasion], Iterator[Mistake]]
 
 
 @dataclass(frozen=True)
-class Mistake:
+class MistakeKind:
     """One kind of mistake: at which operations it can be made, and as which slips."""
 
     kind: str
@@ -93,20 +93,20 @@ class Mistake:
     rule: Rule
 
 
-MISTAKES: dict[str, Mistake] = {}
+MISTAKES: dict[str, MistakeKind] = {}
 
 
 def mistake(kind: str, *ops: str) -> Callable[[Rule], Rule]:
     """Enter the decorated rule in the table."""
 
     def enter(rule: Rule) -> Rule:
-        MISTAKES[kind] = Mistake(kind, frozenset(ops), rule)
+        MISTAKES[kind] = MistakeKind(kind, frozenset(ops), rule)
         return rule
 
     return enter
 
 
-def slips(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Slip]:
+def mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
     """All the slips of the table that can be made at a step."""
     for entry in MISTAKES.values():
         if step.op.name in entry.ops:
@@ -119,34 +119,34 @@ ROUND = {"left": "right", "right": "left", "on": "back", "back": "on"}
 
 
 @mistake("perpendicular missed", "perpendicular")
-def _(occasion: Occasion) -> Iterator[Slip]:
-    yield Slip("perpendicular missed", said("parallel to {0}, not perpendicular", occasion.text(0)),
+def _(occasion: Occasion) -> Iterator[Mistake]:
+    yield Mistake("perpendicular missed", said("parallel to {0}, not perpendicular", occasion.text(0)),
                replace(occasion.step, op=TABLE["parallel"]))
 
 
 @mistake("parallel missed", "parallel")
-def _(occasion: Occasion) -> Iterator[Slip]:
-    yield Slip("parallel missed", said("perpendicular to {0}, not parallel", occasion.text(0)),
+def _(occasion: Occasion) -> Iterator[Mistake]:
+    yield Mistake("parallel missed", said("perpendicular to {0}, not parallel", occasion.text(0)),
                replace(occasion.step, op=TABLE["perpendicular"]))
 
 
 @mistake("wrong side", "circles_meet", "line_meets_circle")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     params = {name: ROUND[way] for name, way in occasion.step.params.items()}
-    yield Slip("wrong side", said("the other of the two crossings"), replace(occasion.step, params=params))
+    yield Mistake("wrong side", said("the other of the two crossings"), replace(occasion.step, params=params))
 
 
 @mistake("mirrored figure", "meet")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     """The third corner of a similar figure, on the other side of the line of two."""
     lines = [occasion.program.steps[arg] for arg in occasion.step.args]
     through = [line.args[-1] for line in lines if line.op.name in ("parallel", "perpendicular")]
     if len(set(through)) == 2 and lines[0].op.name == lines[1].op.name:
-        yield Slip("mirrored figure", said("the figure is mirrored"), occasion.step, mirror=(through[0], through[1]))
+        yield Mistake("mirrored figure", said("the figure is mirrored"), occasion.step, mirror=(through[0], through[1]))
 
 
 @mistake("reversed", *LAID_OFF)
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     why = occasion.step.why.key if isinstance(occasion.step.why, Said) else ""
     if why.startswith("the relative normal acceleration"):
         told = said("the normal acceleration points away from the centre")
@@ -154,76 +154,76 @@ def _(occasion: Occasion) -> Iterator[Slip]:
         told = said("the Coriolis acceleration is reversed")
     else:
         told = said("the vector has the wrong sense")
-    yield Slip("reversed", told, occasion.step, -1.0)
+    yield Mistake("reversed", told, occasion.step, -1.0)
 
 
 @mistake("turned the wrong way", *LAID_OFF)
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for factor in (1j, -1j):
-        yield Slip("turned the wrong way", said("the vector is a quarter turn off"), occasion.step, factor)
+        yield Mistake("turned the wrong way", said("the vector is a quarter turn off"), occasion.step, factor)
 
 
 @mistake("wrong scale", *LAID_OFF)
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for factor in FACTORS:
         told = said("the vector is {0} times as long as it should be", digits(factor, 2))
-        yield Slip("wrong scale", told, occasion.step, factor)
+        yield Mistake("wrong scale", told, occasion.step, factor)
 
 
 @mistake("wrong line", "parallel", "perpendicular")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for other, step in occasion.instead(0, LINE):
         told = (said("parallel to {0} instead of {1}", other, occasion.text(0)) if step.op.name == "parallel"
                 else said("perpendicular to {0} instead of {1}", other, occasion.text(0)))
-        yield Slip("wrong line", told, step)
+        yield Mistake("wrong line", told, step)
 
 
 @mistake("wrong point", "parallel", "perpendicular", "line", "foot")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for place, kind in enumerate(occasion.step.op.reads):
         for other, step in occasion.instead(place, POINT) if kind == POINT else ():
-            yield Slip("wrong point", said("drawn through {0} instead of {1}", other, occasion.text(place)), step)
+            yield Mistake("wrong point", said("drawn through {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong crossing", "meet", "line_meets_circle", "circles_meet")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for place, kind in enumerate(occasion.step.op.reads):
         for other, step in occasion.instead(place, kind):
-            yield Slip("wrong crossing", said("marked on {0} instead of {1}", other, occasion.text(place)), step)
+            yield Mistake("wrong crossing", said("marked on {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong start", *LAID_OFF)
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     place = occasion.step.args.index(_root(occasion.step))
     for other, step in occasion.instead(place, POINT):
-        yield Slip("wrong start", said("laid off from {0} instead of {1}", other, occasion.text(place)), step)
+        yield Mistake("wrong start", said("laid off from {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong vector", "transfer", "quarter", "midpoint")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for place in (0, 1):
         for other, step in occasion.instead(place, POINT):
-            yield Slip("wrong vector", said("taken from {0} instead of {1}", other, occasion.text(place)), step)
+            yield Mistake("wrong vector", said("taken from {0} instead of {1}", other, occasion.text(place)), step)
 
 
 @mistake("wrong centre", "circle")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for other, step in occasion.instead(0, POINT):
-        yield Slip("wrong centre", said("struck about {0} instead of {1}", other, occasion.text(0)), step)
+        yield Mistake("wrong centre", said("struck about {0} instead of {1}", other, occasion.text(0)), step)
 
 
 @mistake("wrong opening", "circle")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     for factor in (2.0, 0.5):
         told = said("the radius is {0} times as large as it should be", digits(factor, 2))
-        yield Slip("wrong opening", told, occasion.step, factor)
+        yield Mistake("wrong opening", told, occasion.step, factor)
     for other, step in occasion.instead(1, OPENING):
-        yield Slip("wrong opening", said("struck with {0} instead of {1}", other, occasion.text(1)), step)
+        yield Mistake("wrong opening", said("struck with {0} instead of {1}", other, occasion.text(1)), step)
 
 
 @mistake("exchanged coordinates", "given")
-def _(occasion: Occasion) -> Iterator[Slip]:
+def _(occasion: Occasion) -> Iterator[Mistake]:
     x, y = (occasion.step.params[name] for name in "xy")
     for told, (u, v) in ((said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
                          (said("y has the wrong sign"), (x, -y))):
-        yield Slip("exchanged coordinates", told, replace(occasion.step, params={"x": u, "y": v}))
+        yield Mistake("exchanged coordinates", told, replace(occasion.step, params={"x": u, "y": v}))

@@ -8,9 +8,9 @@ from dataclasses import replace
 
 from graphplan.marking.judge.callout import callout
 from graphplan.marking.judge.findings import called, complaint, judged, opinion
-from graphplan.marking.judge.remarks import VERDICT, Key, Remarks
+from graphplan.marking.judge.remarks import VERDICT, LegendRow, Remarks
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.student_strokes import RED, SIZES, Student, sample
+from graphplan.marking.judge.student_strokes import RED, SIZES, StudentStrokes, sample
 from graphplan.marking.judge.verdict import WRONG, Judgement, Verdict
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
@@ -40,7 +40,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     around = [item for item in solution.items if item.layer in BESIDE and not _within(item, apart)]
     empty = [item for item in around if not _within(item, arrangement.panels.values())]
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
-    over += Student(judgement).items()
+    over += StudentStrokes(judgement).items()
     over += [item for panel in composition.views for item in _told(judgement, panel, over)]
     words = Remarks(composition.plans).lines(arrangement.columns[0].width, judgement, score)
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
@@ -70,7 +70,7 @@ def _within(item: Item, rects: Iterable[Rect]) -> bool:
 
 def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[Item]:
     """On one plan: the first wrong step called out, the others by their numbers."""
-    student, first, drawn = Student(judgement), judgement.first, judgement.drawing.drawn
+    student, first, drawn = StudentStrokes(judgement), judgement.first, judgement.drawing.drawn
     rect = judgement.composition.views[panel].rect
     wrong = [verdict for verdict in judged(judgement) if verdict.state == WRONG and verdict.trace is not None
              and student.home(verdict) == panel and panel in judgement.frames]
@@ -85,7 +85,7 @@ def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[I
     yield from placed(wishes, here, [student.at(verdict) for verdict in wrong], rect)
 
 
-def _numbered(judgement: Judgement, verdict: Verdict, student: Student) -> Wish:
+def _numbered(judgement: Judgement, verdict: Verdict, student: StudentStrokes) -> Wish:
     """A wrong mark's number, or of what is given its letter."""
     runs = (Run(called(judgement.drawing.drawn, verdict.step).short),)
     return Wish(runs, (student.at(verdict),), SIZES[WRONG], SMALL, Pen(0.0, RED, fill=RED), bold=True)
@@ -95,5 +95,5 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
     """Rows as items, those of the legend with their samples."""
     for row, x, y in page:
         yield from lettered([(row, x, y)])
-        if isinstance(row, Key):
+        if isinstance(row, LegendRow):
             yield from sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))

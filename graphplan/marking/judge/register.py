@@ -18,9 +18,9 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.fits import SIGMAS, Fit, Pair, best
-from graphplan.marking.judge.matching import Walk
+from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.student_sheet import plain
-from graphplan.marking.traces import Frame, Handed, Spot
+from graphplan.marking.traces import PlanFrame, Spot, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
@@ -46,9 +46,9 @@ class Rival:
 class Register:
     """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
 
-    def __init__(self, drawing: Construction, composition: Composition, handed: Handed, pencil: Pencil,
+    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  labels: Mapping[int, int]):
-        self.drawing, self.scales, self.handed, self.pencil = drawing, composition.scales, handed, pencil
+        self.drawing, self.scales, self.submission, self.pencil = drawing, composition.scales, submission, pencil
         self.plan_of_step, self.labels, self.taken = Plans(drawing).plan_of_step, labels, set(labels.values())
         self.values: tuple[Sequence[Any], ...] = (drawing.values,)
 
@@ -58,8 +58,8 @@ class Register:
 
     def mechanism(self) -> Fit:
         """Where the mechanism lies; refused where its points are not found."""
-        if MECHANISM in self.handed.frames:
-            return Fit(self.handed.frames[MECHANISM])
+        if MECHANISM in self.submission.frames:
+            return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
         given = [pair for index, pair in self._pairs(MECHANISM) if steps[index].op.name == "given"]
         found = best(given, self.pencil.point) or best([pair for _, pair in self._pairs(MECHANISM)], self.pencil.point)
@@ -67,20 +67,20 @@ class Register:
             self.drawing.scene.points)] if step.op.name == "given"])
         if found is None:
             names = ", ".join(list(self.drawing.scene.points)[:4])
-            raise Refused(f"{self.handed.name}: mechanism", "not two of its points are there, so it lies nowhere",
+            raise Refused(f"{self.submission.name}: mechanism", "not two of its points are there, so it lies nowhere",
                           f"label them, as {names}")
         return found
 
-    def follow(self, walk: Walk) -> None:
+    def follow(self, matching: Matching) -> None:
         """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""
-        self.taken |= walk.used
-        self.values = self.drawing.values, [plain(value) for value in walk.own]
+        self.taken |= matching.used
+        self.values = self.drawing.values, [plain(value) for value in matching.own]
 
     def expected(self, panel: str, mechanism: Fit) -> list[Fit]:
         """The frame of another plan as the task's sheet has it, laid on its beginning or else on any mark of it; where
         no mark is labelled, the frames that loose marks agree on."""
-        if panel in self.handed.frames:
-            return [Fit(self.handed.frames[panel])]
+        if panel in self.submission.frames:
+            return [Fit(self.submission.frames[panel])]
         unit = mechanism.frame.unit * float(self.scales.multiples.get(panel, 1))
         pairs = self._pairs(panel)
         begins = [pair for index, pair in pairs if self.drawing.drawn.steps[index].op.name == "begin"]
@@ -89,39 +89,39 @@ class Register:
             return [self._tied(sheet - unit * plan, unit)]
         return [replace(self._tied(origin, unit), shift=2 * self.pencil.point) for origin in self._voted(panel, unit)]
 
-    def rivals(self, panel: str, walk: Walk) -> Iterator[Rival]:
+    def rivals(self, panel: str, matching: Matching) -> Iterator[Rival]:
         """Other frames of a plan, laid on its beginning: those in which some of the vectors that were carried over to
         it are as they should be.
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
-        expected = walk.board.fits[panel]
-        begin = next((pair for index, pair in self._pairs(panel) if walk.steps[index].op.name == "begin"), None)
-        units = list(self._carried(panel, walk))
+        expected = matching.sheet.fits[panel]
+        begin = next((pair for index, pair in self._pairs(panel) if matching.steps[index].op.name == "begin"), None)
+        units = list(self._carried(panel, matching))
         plan, sheet = begin or (self._pairs(panel)[0][1] if units else (0j, 0j))
         for unit, sigma in _agreed(units):
             along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
-            yield Rival(Fit(Frame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED)
+            yield Rival(Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED)
 
-    def _carried(self, panel: str, walk: Walk) -> Iterator[tuple[complex, float]]:
+    def _carried(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
         spots = dict(self._pairs(panel))
         for index, (_, end) in spots.items():
-            start = root(walk.steps[index])
+            start = root(matching.steps[index])
             if start in spots:
-                vector = walk.board.laid_off(walk.steps[index], start, walk.own)
+                vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
                 if vector is not None and vector[0]:
                     unit = (end - spots[start][1]) / vector[0]
                     yield unit, vector[1] / abs(vector[0])
 
     def _tied(self, origin: complex, unit: complex) -> Fit:
-        return Fit(Frame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
+        return Fit(PlanFrame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
 
     def _pairs(self, panel: str) -> list[tuple[int, Pair]]:
         """The labelled points of a plan, by step: where each truly is, and where on the sheet."""
-        return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.handed.traces[place].spots[0])))
+        return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.submission.traces[place].spots[0])))
                 for index, place in sorted(self.labels.items())
-                if self.plan_of_step[index] == panel and self.handed.traces[place].kind == POINT]
+                if self.plan_of_step[index] == panel and self.submission.traces[place].kind == POINT]
 
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
@@ -129,47 +129,47 @@ class Register:
         """The spots that may be marks: unlabelled points, and the ends of lines."""
         taken = set(self.labels.values())
         spots: list[Spot] = []
-        for place, trace in enumerate(self.handed.traces):
+        for place, trace in enumerate(self.submission.traces):
             if place not in taken and trace.kind in (POINT, LINE):
                 spots += trace.spots[:2]
         return _apart(complex(*spot) for spot in spots)[:ANCHORS]
 
     def _points(self) -> list[complex]:
         """The unlabelled points of a sheet that are not yet known."""
-        return [complex(*trace.spots[0]) for place, trace in enumerate(self.handed.traces)
+        return [complex(*trace.spots[0]) for place, trace in enumerate(self.submission.traces)
                 if place not in self.taken and trace.kind == POINT]
 
     def _crossings(self) -> list[complex]:
         """The points of a sheet, or where it has none but labelled ones, where its lines cross."""
         if points := self._points():
             return points
-        loose = [trace for place, trace in enumerate(self.handed.traces) if place not in self.taken]
-        lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in loose if trace.kind == LINE]
+        unlabelled = [trace for place, trace in enumerate(self.submission.traces) if place not in self.taken]
+        lines = [tuple(complex(*spot) for spot in trace.spots[:2]) for trace in unlabelled if trace.kind == LINE]
         return [z for one, two in combinations(lines, 2) if (z := _crossing(one, two)) is not None]
 
     def _sought(self, given: Sequence[complex]) -> Fit | None:
         """The frame in which most of the given points have a loose spot."""
-        loose, points = np.array(self._loose()), np.array(list(dict.fromkeys(given)))
-        if len(loose) < 2 or len(points) < 2:
+        unlabelled, points = np.array(self._loose()), np.array(list(dict.fromkeys(given)))
+        if len(unlabelled) < 2 or len(points) < 2:
             return None
         found: tuple[int, float, list[Pair]] = (1, 0.0, [])
         sigma = 4 * self.pencil.point
         for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[:6]:
             apart = points[j] - points[i]
-            units = (loose[None, :] - loose[:, None]) / apart
-            for k, l in permutations(range(len(loose)), 2):
+            units = (unlabelled[None, :] - unlabelled[:, None]) / apart
+            for k, l in permutations(range(len(unlabelled)), 2):
                 unit = units[k, l]
                 if not abs(unit):
                     continue
-                there = loose[k] + unit * (points - points[i])
-                off = np.abs(there[:, None] - loose[None, :])
+                there = unlabelled[k] + unit * (points - points[i])
+                off = np.abs(there[:, None] - unlabelled[None, :])
                 near = off.min(axis=1)
                 count = int(np.sum(near < sigma))
                 if (count, -float(near[near < sigma].sum())) > (found[0], found[1]) and count >= min(3, len(points)):
                     found = count, -float(near[near < sigma].sum()), [
-                        (complex(point), complex(loose[place])) for point, place, far in
+                        (complex(point), complex(unlabelled[place])) for point, place, far in
                         zip(points, off.argmin(axis=1), near, strict=True) if far < sigma]
-        chance = 6 * len(loose) ** 2 * _filled(loose, sigma) ** (found[0] - 2)
+        chance = 6 * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (found[0] - 2)
         return best(found[2], self.pencil.point) if found[2] and chance < BY_CHANCE else None
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
@@ -177,20 +177,20 @@ class Register:
         plan begins."""
         steps = [step for step, home in zip(self.drawing.drawn.steps, self.plan_of_step, strict=True)
                  if home == panel and step.op.gives == POINT]
-        loose = np.array(self._crossings())
-        if not len(loose):
+        unlabelled = np.array(self._crossings())
+        if not len(unlabelled):
             return [0j]
         begin = next((step for step in steps if step.op.name == "begin"), None)
         marks = [np.array([complex(*values[step.index][:2]) for step in steps]) for values in self.values]
         if begin is None or not self._points():
-            return self._heaped((loose[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
-        origins = loose - unit * complex(*self.drawing.values[begin.index][:2])
-        votes = np.max([sum(self._met(origins + unit * mark, loose) for mark in plan) for plan in marks], axis=0)
+            return self._heaped((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
+        origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
+        votes = np.max([sum(self._met(origins + unit * mark, unlabelled) for mark in plan) for plan in marks], axis=0)
         return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
 
-    def _met(self, spots: Any, loose: Any) -> Any:
+    def _met(self, spots: Any, unlabelled: Any) -> Any:
         """Which spots have a loose one near."""
-        return np.abs(spots[:, None] - loose[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+        return np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
 
     def _heaped(self, origins: Any) -> list[complex]:
         """The origins that most marks vote for."""
@@ -205,7 +205,7 @@ class Register:
     def begins(self, fits: Mapping[str, Fit]) -> dict[int, int]:
         """The loose points that are the beginnings of plans, by step."""
         found = {}
-        points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.handed.traces)
+        points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.submission.traces)
                   if trace.kind == POINT and place not in self.labels.values()]
         for step in self.drawing.drawn.steps:
             if step.op.name == "begin" and step.index not in self.labels and points:

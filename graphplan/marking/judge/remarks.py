@@ -32,7 +32,7 @@ TITLE, KEY = 3.5, 11.0  # mm: the heading's size, and where the words of the leg
 
 
 @dataclass(frozen=True)
-class Key(Row):
+class LegendRow(Row):
     """A row of the legend, which has a sample of the strokes of a verdict before it; none stands for what is spare."""
 
     state: str | None = None
@@ -59,7 +59,7 @@ class Remarks(Words):
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, None):
             told = NOT_NEEDED() if state is None else STATES[state]()
-            yield Key((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
+            yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
         yield from self._said(said("Grey: the true drawing. Ellipses: where a point may be, after the student's own "
                                    "earlier marks. Dashed: where a wrong mark should be."), wide)
 

@@ -50,7 +50,7 @@ def bound(freedoms: int, chance: float) -> float:
 
 
 @dataclass(frozen=True)
-class Deviation:
+class Residual:
     """How far a trace is from a thing, spot by spot in mm, with the covariance of that."""
 
     off: Any
@@ -85,7 +85,7 @@ class Deviation:
         return self.square <= bound(len(self.off), chance)
 
 
-class PointDeviation(Deviation):
+class PointResidual(Residual):
     """Of a point: its two coordinates."""
 
     @property
@@ -94,7 +94,7 @@ class PointDeviation(Deviation):
 
 
 @dataclass(frozen=True)
-class Board:
+class StudentSheet:
     """A construction on a student's sheet: `fits` say where its plans lie there."""
 
     drawing: Construction
@@ -123,7 +123,7 @@ class Board:
     @cached_property
     def _starts(self) -> list[int]:
         """Where the errors of each step begin: the hand's slips, then its trace's."""
-        counts = [len(slips) + SPOT_ERRORS for slips in self.hand.slips]
+        counts = [len(mistakes) + SPOT_ERRORS for mistakes in self.hand.slips]
         return np.concatenate(([0], np.cumsum(counts))).tolist()  # type: ignore[no-any-return]
 
     @cached_property
@@ -172,7 +172,7 @@ class Board:
             found.append((x, y))
         return found
 
-    def deviation(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Deviation:
+    def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what a step should make."""
         domain, kind = self.domain, step.op.gives
         if step.op.name == "pick":  # any point of the line will do
@@ -187,7 +187,7 @@ class Board:
         scale = self.mm(self.plan_of_step[step.index])
         partials = np.array([domain.partials(part) for part in parts]) * scale
         off = np.array([_plain(part) for part in parts]) * scale
-        return (PointDeviation if kind == POINT else Deviation)(off, partials @ partials.T)
+        return (PointResidual if kind == POINT else Residual)(off, partials @ partials.T)
 
     def seen(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], steady: bool) -> Any:
         """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough

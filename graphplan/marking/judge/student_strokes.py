@@ -31,7 +31,7 @@ WHOLE = 0.99  # of a diameter: spots farther apart are opposite each other
 
 
 @dataclass(frozen=True)
-class Student:
+class StudentStrokes:
     """A judged drawing, as it is laid over its construction."""
 
     judgement: Judgement

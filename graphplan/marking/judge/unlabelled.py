@@ -9,20 +9,20 @@ from typing import Any
 import numpy as np
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.student_sheet import Board, sampled
+from graphplan.marking.judge.student_sheet import StudentSheet, sampled
 from graphplan.marking.traces import Trace
 
 TWIN, BESIDE = 0.5, 1.0  # mm: a stroke that is found twice lies so near to itself; two may be taken for each other
 
 
-class Loose:
+class Unlabelled:
     """The unlabelled traces of a sheet, on every plan: where they are near to something expected."""
 
-    def __init__(self, board: Board, traces: Sequence[Trace], places: Sequence[int], seen: int):
+    def __init__(self, sheet: StudentSheet, traces: Sequence[Trace], places: Sequence[int], seen: int):
         self.traces, self._places = traces, {kind: [i for i in places if traces[i].kind == kind]
                                              for kind in (POINT, LINE, CIRCLE)}
         self._spots: dict[tuple[str, str], Any] = {}
-        self._board, self.seen, self._twins = board, seen, dict[int, set[int]]()
+        self._board, self.seen, self._twins = sheet, seen, dict[int, set[int]]()
 
     def of(self, kind: str) -> list[int]:
         """The loose traces of a kind."""

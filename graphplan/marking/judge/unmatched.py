@@ -6,26 +6,26 @@ from collections.abc import Iterator, Sequence
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.matching import ASTRAY, Walk
+from graphplan.marking.judge.matching import ASTRAY, Matching
 from graphplan.marking.judge.student_sheet import apart, plain
 
 KEPT = 4.0  # standard deviations within which a claim is kept
 
 
-def strays(walk: Walk, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
+def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
     """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
     lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
-    board, kind = walk.board, step.op.gives
-    mm = board.mm(board.plan_of_step[step.index])
-    on = [plain(walk.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
-    for place in walk.loose.of(kind) if kind in (POINT, LINE) else ():
-        if place in walk.used or walk.traces[place].panel not in ("", board.plan_of_step[step.index]):
+    sheet, kind = matching.sheet, step.op.gives
+    mm = sheet.mm(sheet.plan_of_step[step.index])
+    on = [plain(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
+    for place in matching.unlabelled.of(kind) if kind in (POINT, LINE) else ():
+        if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
             continue
-        spots = board.spots(step.index, walk.traces[place])
-        value = plain(board.seen(step, walk.own[step.index], spots, steady=True))
+        spots = sheet.spots(step.index, matching.traces[place])
+        value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
         off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
-        far = apart(POINT, value, [complex(*plain(walk.own[step.index]))]) * mm if kind == POINT else 0.0
-        if off < KEPT * max(board.pencil.point, board.pencil.edge) and far < ASTRAY:
+        far = apart(POINT, value, [complex(*plain(matching.own[step.index]))]) * mm if kind == POINT else 0.0
+        if off < KEPT * max(sheet.pencil.point, sheet.pencil.edge) and far < ASTRAY:
             yield place, value
 
 

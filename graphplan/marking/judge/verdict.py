@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
-from graphplan.marking.traces import Frame, Number, Trace
+from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, phrase
 from graphplan.sheet.layout.composition import Composition
@@ -78,7 +77,7 @@ class Judgement:
     name: str
     drawing: Construction
     composition: Composition
-    frames: Mapping[str, Frame]
+    frames: Frames
     verdicts: tuple[Verdict, ...]
     spare: tuple[Trace, ...] = ()
     numbers: tuple[NumberVerdict, ...] = ()

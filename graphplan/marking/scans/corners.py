@@ -19,7 +19,7 @@ SMALLEST = 48.0  # pixels of a mark's rim, below which its cells are not told ap
 
 
 @dataclass(frozen=True)
-class Found:
+class CornerMarks:
     """Marks by their corner, each as its own four corners in pixels: upper left, upper right, lower right, lower left
     as it was printed."""
 
@@ -29,7 +29,7 @@ class Found:
         return len(self.marks)
 
 
-def find(image: Grey, code: int | None, name: str) -> Found:
+def find(image: Grey, code: int | None, name: str) -> CornerMarks:
     """The marks of the sheet with this code, or where none is asked for, those that a sheet has.
 
     Fails with `Refused` where the marks are those of another sheet.
@@ -37,9 +37,9 @@ def find(image: Grey, code: int | None, name: str) -> Found:
     seen = _detected(image)
     if code is None:
         small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
-        return Found({number >> BITS: rim for number, rim in small_first})
+        return CornerMarks({number >> BITS: rim for number, rim in small_first})
     own = {number: corner for corner, number in enumerate(numbers(code))}
-    found = Found({own[number]: corners for number, corners in seen if number in own})
+    found = CornerMarks({own[number]: corners for number, corners in seen if number in own})
     if not found and _of_one_sheet([(number >> BITS, corners) for number, corners in seen]):
         raise Refused(name, "the marks in its corners are those of another task",
                       "verify it against its own scene, plan and paper")

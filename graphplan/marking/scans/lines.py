@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import LINE
 from graphplan.marking.scans.ridges import Ridges
-from graphplan.marking.scans.runs import Run
+from graphplan.marking.scans.runs import Stretch
 from graphplan.marking.scans.warp import Spots
 from graphplan.marking.traces import Trace
 
@@ -21,7 +21,7 @@ BENT, BETTER = 0.12, 0.7  # mm by which a line bends, more than wobble does, and
 
 
 @dataclass(frozen=True)
-class Row:
+class CrestRow:
     """Crests in a row: a spot amid them, their direction and the normal to its left, and of each crest, how far along
     and off it is."""
 
@@ -37,12 +37,12 @@ class Row:
         return np.asarray(self.at + np.multiply.outer(along, self.way)
                           + np.multiply.outer(off + np.zeros(len(along)), self.normal))
 
-    def part(self, run: Run) -> NDArray[np.bool_]:
+    def part(self, stretch: Stretch) -> NDArray[np.bool_]:
         """Which of its crests a run has."""
-        return (run.start <= self.along) & (self.along <= run.end)
+        return (stretch.start <= self.along) & (self.along <= stretch.end)
 
 
-def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Row | None:
+def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
     """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
     normal = np.array([math.cos(angle), math.sin(angle)])
     at, which = normal * shift, left
@@ -57,25 +57,25 @@ def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Ro
         spread = found.spots[chosen] - at
         normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
     way = np.array([normal[1], -normal[0]])
-    return Row(at, way, normal, chosen, spread @ way, spread @ normal)
+    return CrestRow(at, way, normal, chosen, spread @ way, spread @ normal)
 
 
-def line(crests: Row, run: Run) -> Trace:
+def line(crests: CrestRow, stretch: Stretch) -> Trace:
     """A run of a row as its two ends; it is as unsure as its crests are rough, the less the longer it is."""
-    on = crests.part(run)
+    on = crests.part(stretch)
     slope, level = _line(crests.along[on], crests.off[on])
-    ends = np.array([run.start, run.end])
+    ends = np.array([stretch.start, stretch.end])
     (x, y), (u, v) = crests.spots(ends, slope * ends + level).tolist()
     rough = float(np.std(crests.off[on] - slope * crests.along[on] - level))
-    return Trace(LINE, ((x, y), (u, v)), blur=rough / math.sqrt(max(1.0, run.long)))
+    return Trace(LINE, ((x, y), (u, v)), blur=rough / math.sqrt(max(1.0, stretch.long)))
 
 
-def bends(crests: Row, run: Run) -> bool:
+def bends(crests: CrestRow, stretch: Stretch) -> bool:
     """Whether the crests of a run follow a bow rather than a line."""
-    on = crests.part(run)
+    on = crests.part(stretch)
     along, off = crests.along[on] - crests.along[on].mean(), crests.off[on]
     bow, (slope, level) = np.polyfit(along, off, 2), _line(along, off)
-    sag = abs(bow[0]) * (run.long / 2) ** 2
+    sag = abs(bow[0]) * (stretch.long / 2) ** 2
     return bool(sag > BENT and np.std(off - np.polyval(bow, along)) < BETTER * np.std(off - slope * along - level))
 
 

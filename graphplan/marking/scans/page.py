@@ -16,12 +16,12 @@ from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.scans.dots import DARK, MAYBE, SURE, dots, marked, smoothed
-from graphplan.marking.scans.lines import FEW, Row, line
+from graphplan.marking.scans.lines import FEW, CrestRow, line
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.ridges import CLEAR, Ridges, clear
 from graphplan.marking.scans.rims import Rim, grown
-from graphplan.marking.scans.runs import Run, runs
-from graphplan.marking.scans.strokes import Strokes
+from graphplan.marking.scans.runs import Stretch, stretches
+from graphplan.marking.scans.strokes import StrokeSearch
 from graphplan.marking.traces import Spot, Trace
 
 Values = NDArray[np.float64]
@@ -37,7 +37,7 @@ HIDDEN = 0.6  # the share of a stroke that print may hide
 
 
 @dataclass(frozen=True)
-class Page:
+class PencilPage:
     """The pencil on a page, its crests, and how unsure their places are, as a standard deviation in mm."""
 
     ink: Ink
@@ -79,9 +79,10 @@ class Page:
         aside = normal * math.cos(turned) - way * math.sin(turned)
         at = middle + level * normal
         own = near[which]
-        crests = Row(at, ahead, aside, own, (self.found.spots[own] - at) @ ahead, (self.found.spots[own] - at) @ aside)
-        run = _whole(crests, self.ink, long / 2)
-        return None if run is None else self._blurred(line(crests, run))
+        off = self.found.spots[own] - at
+        crests = CrestRow(at, ahead, aside, own, off @ ahead, off @ aside)
+        stretch = _whole(crests, self.ink, long / 2)
+        return None if stretch is None else self._blurred(line(crests, stretch))
 
     def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
         """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
@@ -102,7 +103,7 @@ class Page:
             rim = grown(self.found, near, own, self.ink)
         else:
             rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
-        return None if rim is None or rim.run.long < LEAST else self._blurred(rim.trace())
+        return None if rim is None or rim.stretch.long < LEAST else self._blurred(rim.trace())
 
     def dot(self, spot: Spot, within: float) -> Trace | None:
         """The dot nearest to where one is expected."""
@@ -132,7 +133,7 @@ class Page:
     @cached_property
     def _drawn(self) -> list[Trace]:
         """The lines and rims."""
-        return Strokes.of(clear(self.found, self.ink), self.ink).traces()
+        return StrokeSearch.of(clear(self.found, self.ink), self.ink).traces()
 
     @cached_property
     def _smooth(self) -> NDArray[np.float32]:
@@ -200,14 +201,14 @@ def _aligned(along: Values, off: Values, strength: Values, within: float,
     return slope, level, which
 
 
-def _whole(crests: Row, ink: Ink, half: float) -> Run | None:
+def _whole(crests: CrestRow, ink: Ink, half: float) -> Stretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
-    drawn = [run for run in runs(crests.along, lambda along: ink.crossed(crests.spots(along)))
-             if run.seen >= SEEN and run.long >= 1.0 and run.start < half and run.end > -half]
-    if sum(run.long for run in drawn) < SHORTEST:
+    drawn = [stretch for stretch in stretches(crests.along, lambda along: ink.crossed(crests.spots(along)))
+             if stretch.seen >= SEEN and stretch.long >= 1.0 and stretch.start < half and stretch.end > -half]
+    if sum(stretch.long for stretch in drawn) < SHORTEST:
         return None
-    whole = Run(drawn[0].start, drawn[-1].end, 1.0)
-    return replace(whole, seen=sum(run.long * run.seen for run in drawn) / whole.long)
+    whole = Stretch(drawn[0].start, drawn[-1].end, 1.0)
+    return replace(whole, seen=sum(stretch.long * stretch.seen for stretch in drawn) / whole.long)
 
 
 def _turns(out: Values, aim: float) -> Values:
@@ -215,7 +216,7 @@ def _turns(out: Values, aim: float) -> Values:
     return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - aim + math.pi) % (2 * math.pi) - math.pi)
 
 
-def _short(page: Page, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
+def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
            level: float) -> Rim | None:
     """A short arc: it is as far off the expected one, and as askew, as its crests are."""
     turned = math.atan(slope)
@@ -227,9 +228,9 @@ def _short(page: Page, centre: Values, radius: float, aim: float, along: Values,
         turns = aim + at / radius
         return page.ink.crossed(centre + (radius + level) * np.column_stack([np.cos(turns), np.sin(turns)]))
 
-    drawn = [run for run in runs(along, hidden) if run.seen >= SEEN]
+    drawn = [stretch for stretch in stretches(along, hidden) if stretch.seen >= SEEN]
     if not drawn:
         return None
-    run = max(drawn, key=lambda run: run.long)
+    stretch = max(drawn, key=lambda stretch: stretch.long)
     rough = float(np.std(off - slope * along - level))
-    return Rim(moved, radius + level, aim, run, np.arange(len(along)), rough)
+    return Rim(moved, radius + level, aim, stretch, np.arange(len(along)), rough)

@@ -12,7 +12,7 @@ from graphplan.kernel.kinds import CIRCLE
 from graphplan.marking.scans.lines import ASKEW
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.ridges import Ridges
-from graphplan.marking.scans.runs import Run, runs
+from graphplan.marking.scans.runs import Stretch, stretches
 from graphplan.marking.scans.warp import Spots
 from graphplan.marking.traces import Trace
 
@@ -29,16 +29,16 @@ class Rim:
     centre: Spots
     radius: float
     zero: float
-    run: Run
+    stretch: Stretch
     which: NDArray[np.intp]
     rough: float
 
     def trace(self) -> Trace:
         """The rim as spots of it, as far as it was drawn."""
-        count = max(5, math.ceil(math.degrees(self.run.long / self.radius) / APART))
-        turns = self.zero + np.linspace(self.run.start, self.run.end, count) / self.radius
+        count = max(5, math.ceil(math.degrees(self.stretch.long / self.radius) / APART))
+        turns = self.zero + np.linspace(self.stretch.start, self.stretch.end, count) / self.radius
         spots = self.centre + self.radius * np.column_stack([np.cos(turns), np.sin(turns)])
-        blur = self.rough / math.sqrt(max(1.0, self.run.long))
+        blur = self.rough / math.sqrt(max(1.0, self.stretch.long))
         return Trace(CIRCLE, tuple((float(x), float(y)) for x, y in spots), blur=blur)
 
 
@@ -54,7 +54,7 @@ def grown(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: In
         if larger is None or (rim is not None and len(larger.which) <= len(rim.which)):
             break
         rim, chosen = larger, larger.which
-    return rim if rim and rim.rough < ROUGH and rim.run.seen > SEEN else None
+    return rim if rim and rim.rough < ROUGH and rim.stretch.seen > SEEN else None
 
 
 def through(spots: Spots) -> tuple[Spots, float]:
@@ -79,9 +79,9 @@ def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float,
         turns = zero + along / radius
         return ink.crossed(centre + radius * np.column_stack([np.cos(turns), np.sin(turns)]))
 
-    own = [run for run in runs(turn * radius, hidden) if run.start <= 1.0 and run.end >= -1.0]
+    own = [stretch for stretch in stretches(turn * radius, hidden) if stretch.start <= 1.0 and stretch.end >= -1.0]
     if not own:
         return None
-    run = max(own, key=lambda run: run.long)
-    on = (run.start <= turn * radius) & (turn * radius <= run.end)
-    return Rim(centre, radius, zero, run, left[near][on], float(np.std(far[near][on] - radius)))
+    stretch = max(own, key=lambda stretch: stretch.long)
+    on = (stretch.start <= turn * radius) & (turn * radius <= stretch.end)
+    return Rim(centre, radius, zero, stretch, left[near][on], float(np.std(far[near][on] - radius)))

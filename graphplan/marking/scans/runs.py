@@ -12,7 +12,7 @@ BIN, GAP = 0.25, 2.0  # mm: how closely a line is looked at, and the widest gap 
 
 
 @dataclass(frozen=True)
-class Run:
+class Stretch:
     """From where to where something was drawn, in mm along it, and the share of it that is seen."""
 
     start: float
@@ -24,7 +24,8 @@ class Run:
         return self.end - self.start
 
 
-def runs(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]) -> Iterator[Run]:
+def stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+              ) -> Iterator[Stretch]:
     """The stretches that crests at these places make; where print hides a line, it may well go on."""
     low = float(along.min())
     count = int((float(along.max()) - low) / BIN) + 1
@@ -37,4 +38,4 @@ def runs(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDA
     for first, last in zip([0, *(breaks + 1)], [*breaks, len(marked) - 1], strict=True):
         start, end = int(marked[first]), int(marked[last])
         share = (last - first + 1) / max(1, int(open_[start : end + 1].sum()))
-        yield Run(low + start * BIN, low + (end + 1) * BIN, share)
+        yield Stretch(low + start * BIN, low + (end + 1) * BIN, share)

@@ -2,24 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.traces import Frame, Handed
+from graphplan.marking.traces import Frames, Submission
 
 if TYPE_CHECKING:
     from graphplan.marking.scans.image import Grey
-    from graphplan.marking.scans.page import Page
+    from graphplan.marking.scans.page import PencilPage
     from graphplan.sheet.plates.display import Sheet
 
 SCALE, PIXELS = 8.0, 4.0e7  # pixels per mm of a straightened page, unless they would be more than these
 SHOWS = frozenset({LINE, CIRCLE})  # dots are found too, but not every point of a drawing is a dot
 
 
-def read_scan(path: Path, printed: Sheet, frames: Mapping[str, Frame], code: int | None = None) -> Handed:
+def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
     """What was drawn on a printed page, in mm of it.
 
     `code` is that of its marks, and `frames` says where its plans lie, which is passed on.
@@ -29,10 +28,10 @@ def read_scan(path: Path, printed: Sheet, frames: Mapping[str, Frame], code: int
     page = read_page(path, printed, code)
     if all(trace.kind == POINT for trace in page.traces):
         raise Refused(f"{path}", "nothing is drawn on the page", "hand in a scan of the drawing, not of the empty task")
-    return Handed(path.name, page.traces, shows=SHOWS, frames=frames, page=page)
+    return Submission(path.name, page.traces, shows=SHOWS, frames=frames, page=page)
 
 
-def read_page(path: Path, printed: Sheet, code: int | None = None) -> Page:
+def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage:
     """The pencil on a printed page, which can be asked for what is expected on it. Fails as `read_scan`."""
     try:
         import cv2  # noqa: F401
@@ -50,10 +49,10 @@ def read_page(path: Path, printed: Sheet, code: int | None = None) -> Page:
     raise refused or Refused(f"{path}", "the document has no pages", "hand in a scan of the sheet")
 
 
-def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> Page:
+def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
     """One picture of a page."""
     from graphplan.marking.scans.image import contrast, smaller
-    from graphplan.marking.scans.page import Page
+    from graphplan.marking.scans.page import PencilPage
     from graphplan.marking.scans.pencil_pixels import ink
     from graphplan.marking.scans.printed_ink import picture
     from graphplan.marking.scans.ridges import ridges
@@ -64,4 +63,4 @@ def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> Page:
     light = picture(printed, scale)
     straight = straighten(smaller(image, PIXELS), printed, light, scale, code, name)
     pencil = ink(straight.image, printed, light, scale)
-    return Page(pencil, ridges(pencil), straight.error)
+    return PencilPage(pencil, ridges(pencil), straight.error)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.errors import Refused
-from graphplan.marking.scans.corners import Found, find
+from graphplan.marking.scans.corners import CornerMarks, find
 from graphplan.marking.scans.frame import by_frame
 from graphplan.marking.scans.image import Grey
 from graphplan.marking.scans.printed_ink import Light, pieces
@@ -55,7 +55,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     return Straight(straight.astype(np.float32), result.warp, result.error)
 
 
-def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: Found) -> Registered | None:
+def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: CornerMarks) -> Registered | None:
     """The sheet laid by its marks, or where some are lost, by its frame, whichever fits the print."""
     best, ink = None, pieces(sheet)
     for start in _starts(image, sheet, light, found):
@@ -66,7 +66,7 @@ def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: Found) -
     return best
 
 
-def _starts(image: Grey, sheet: Sheet, light: Light, found: Found) -> Iterator[Warp]:
+def _starts(image: Grey, sheet: Sheet, light: Light, found: CornerMarks) -> Iterator[Warp]:
     """The ways to lay the sheet, the surest first."""
     if len(found) >= ENOUGH:
         yield _by_marks(found, sheet)
@@ -74,7 +74,7 @@ def _starts(image: Grey, sheet: Sheet, light: Light, found: Found) -> Iterator[W
         yield from by_frame(image, sheet, light)
 
 
-def _by_marks(found: Found, sheet: Sheet) -> Warp:
+def _by_marks(found: CornerMarks, sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
     import cv2
 

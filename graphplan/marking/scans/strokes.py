@@ -10,11 +10,11 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.marking.scans.lines import Row, bends, line, row
+from graphplan.marking.scans.lines import CrestRow, bends, line, row
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.ridges import Ridges
 from graphplan.marking.scans.rims import grown
-from graphplan.marking.scans.runs import Run, runs
+from graphplan.marking.scans.runs import Stretch, stretches
 from graphplan.marking.scans.vote import LEAST, Vote
 from graphplan.marking.traces import Trace
 
@@ -23,7 +23,7 @@ LONGER = 1.25  # how much longer a rim is than the piece of it that looked strai
 
 
 @dataclass
-class Strokes:
+class StrokeSearch:
     """The lines and rims among crests, as they are taken away; `left` says which are not."""
 
     found: Ridges
@@ -31,7 +31,7 @@ class Strokes:
     left: NDArray[np.bool_]
 
     @classmethod
-    def of(cls, found: Ridges, ink: Ink) -> Strokes:
+    def of(cls, found: Ridges, ink: Ink) -> StrokeSearch:
         """All crests, none taken yet."""
         return cls(found, ink, np.ones(len(found), bool))
 
@@ -46,8 +46,8 @@ class Strokes:
             if crests is None:
                 vote.forget()
                 continue
-            for run in self._runs(crests):
-                trace, which = self._taken(crests, run)
+            for stretch in self._runs(crests):
+                trace, which = self._taken(crests, stretch)
                 if trace:
                     traces.append(trace)
                     self.left[which] = False
@@ -55,19 +55,19 @@ class Strokes:
             vote.forget()
         return traces
 
-    def _runs(self, crests: Row) -> list[Run]:
+    def _runs(self, crests: CrestRow) -> list[Stretch]:
         """The stretches of a row that were drawn."""
-        found = runs(crests.along, lambda along: self.ink.crossed(crests.spots(along)))
-        return [run for run in found
-                if run.long >= LEAST and run.seen >= SEEN and crests.part(run).sum() >= FEW]
+        found = stretches(crests.along, lambda along: self.ink.crossed(crests.spots(along)))
+        return [stretch for stretch in found
+                if stretch.long >= LEAST and stretch.seen >= SEEN and crests.part(stretch).sum() >= FEW]
 
-    def _taken(self, crests: Row, run: Run) -> tuple[Trace | None, NDArray[np.intp]]:
+    def _taken(self, crests: CrestRow, stretch: Stretch) -> tuple[Trace | None, NDArray[np.intp]]:
         """What a run belongs to, a line or a rim, and the crests that go with it."""
-        own = crests.which[crests.part(run)]
+        own = crests.which[crests.part(stretch)]
         own = own[self.left[own]]
         if len(own) < FEW:
             return None, own
-        rim = grown(self.found, np.flatnonzero(self.left), own, self.ink) if bends(crests, run) else None
-        if rim is None or rim.run.long < LONGER * run.long:
-            return line(crests, run), own  # a hand that wobbles bends lines, too, but no further than they go
+        rim = grown(self.found, np.flatnonzero(self.left), own, self.ink) if bends(crests, stretch) else None
+        if rim is None or rim.stretch.long < LONGER * stretch.long:
+            return line(crests, stretch), own  # a hand that wobbles bends lines, too, but no further than they go
         return rim.trace(), rim.which

@@ -15,8 +15,8 @@ from graphplan.marking.files.curves import SHORT, circle, ring
 from graphplan.marking.files.safe import MB, TRACES, Budget, on_paper, text
 from graphplan.marking.spelling import spelled
 from graphplan.marking.tables.results import entry, turned
-from graphplan.marking.tables.table_rows import Row, rows
-from graphplan.marking.traces import Frame, Handed, Number, Spot, Trace
+from graphplan.marking.tables.table_rows import TableRow, rows
+from graphplan.marking.traces import Number, PlanFrame, Spot, Submission, Trace
 
 LARGEST = MB // 2
 DOTS = 3000  # in a line, or as many squared: the time that dotted keys take grows so
@@ -44,13 +44,13 @@ def _short(panel: str) -> str:
     return " ".join(panel.casefold().split()).removesuffix(" plan")
 
 
-def read_table(path: Path, panels: Collection[str]) -> Handed:
+def read_table(path: Path, panels: Collection[str]) -> Submission:
     """The marks of a table with the columns mark, x and y, and also x2 and y2, r, panel and precision."""
     traces = [trace for row in rows(path) if (trace := _marked(row, panels))]
-    return Handed(path.name, tuple(traces), shows=_shown(traces))
+    return Submission(path.name, tuple(traces), shows=_shown(traces))
 
 
-def _marked(row: Row, panels: Collection[str]) -> Trace | None:
+def _marked(row: TableRow, panels: Collection[str]) -> Trace | None:
     """The mark in a row; None where it is not measured."""
     at, end, radius = row.lengths("x", "y"), row.lengths("x2", "y2"), row.lengths("r")
     (blur,) = row.lengths("precision") or (0.0,)
@@ -88,7 +88,7 @@ def _shown(traces: Iterable[Trace]) -> frozenset[str]:
     return frozenset({POINT, *(trace.kind for trace in traces)})
 
 
-def read_toml(path: Path, panels: Collection[str]) -> Handed:
+def read_toml(path: Path, panels: Collection[str]) -> Submission:
     """The marks, lines, circles, frames and results of a TOML file."""
     written = text(path, LARGEST)
     if sum(line.count(".") ** 2 for line in written.splitlines()) > DOTS**2:
@@ -109,7 +109,7 @@ class _Tables:
         self.path, self.panels, self.blur = path, panels, 0.0
         self.budget = Budget(path, TRACES, "marks")
 
-    def read(self, tables: Mapping[str, Any]) -> Handed:
+    def read(self, tables: Mapping[str, Any]) -> Submission:
         known = [*TABLES, "precision", "results", "frames"]
         if unknown := [key for key in tables if key not in known]:
             raise self._fault(unknown[0], "there is no such entry", f"one of {', '.join(known)}")
@@ -122,7 +122,8 @@ class _Tables:
                    for number in self._numbers(kind, self._table(f"results.{kind}", table))]
         frames = {self._panel("frames", panel): self._frame(f"frames.{panel}", table)
                   for panel, table in self._table("frames", tables.get("frames", {})).items()}
-        return Handed(self.path.name, tuple(traces), tuple(numbers), _shown(traces) if traces else frozenset(), frames)
+        shown = _shown(traces) if traces else frozenset()
+        return Submission(self.path.name, tuple(traces), tuple(numbers), shown, frames)
 
     def _traces(self, where: str, kind: str, table: Mapping[str, Any], panel: str) -> Iterable[Trace]:
         """The entries of a table, and of the tables in it that are named after plans."""
@@ -168,7 +169,7 @@ class _Tables:
             except ValueError as error:
                 raise self._fault(where, str(error), "such as A = [1.5, 2] with unit = \"m/s\"") from None
 
-    def _frame(self, where: str, table: Any) -> Frame:
+    def _frame(self, where: str, table: Any) -> PlanFrame:
         """Where a plan lies: its origin in mm, its scale in mm for one of its units, how far it is turned."""
         entries = self._table(where, table)
         if unknown := set(entries) - {"origin", "scale", "turn"}:
@@ -178,7 +179,7 @@ class _Tables:
         turn = self._length(f"{where}.turn", entries.get("turn", 0.0))
         if scale <= 0:
             raise self._fault(f"{where}.scale", "a plan has a size", "mm for one unit of the plan")
-        return Frame(complex(*origin), cmath.rect(scale, math.radians(turn)))
+        return PlanFrame(complex(*origin), cmath.rect(scale, math.radians(turn)))
 
     def _panel(self, where: str, name: str) -> str:
         try:

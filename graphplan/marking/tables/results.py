@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from pathlib import Path
 
-from graphplan.marking.tables.table_rows import Row, rows
+from graphplan.marking.tables.table_rows import TableRow, rows
 from graphplan.marking.tables.written_units import (
     ACCELERATING,
     FORCE,
@@ -17,7 +17,7 @@ from graphplan.marking.tables.written_units import (
     TURNING_FASTER,
     factor,
 )
-from graphplan.marking.traces import Handed, Number
+from graphplan.marking.traces import Number, Submission
 from graphplan.mechanism.model import Units
 
 KINDS = {
@@ -31,12 +31,12 @@ ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "ome
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
 
-def read_results(path: Path) -> Handed:
+def read_results(path: Path) -> Submission:
     """The numbers of a table with the columns quantity, of and unit, and x and y, size and angle, or value."""
-    return Handed(path.name, numbers=tuple([found for row in rows(path) if (found := _number(row))]))
+    return Submission(path.name, numbers=tuple([found for row in rows(path) if (found := _number(row))]))
 
 
-def _number(row: Row) -> Number | None:
+def _number(row: TableRow) -> Number | None:
     """What a row says; None where it is not filled in."""
     x, polar, value = row.numbers("x", "y"), row.numbers("size", "angle"), row.numbers("value")
     given = [found for found in (x, polar and turned(*polar), value) if found]

@@ -15,7 +15,7 @@ LARGEST = 4 * MB
 
 
 @dataclass(frozen=True)
-class Row:
+class TableRow:
     """One row by its columns, and where it stands."""
 
     path: Path
@@ -52,7 +52,7 @@ class Row:
         return Refused(f"{self.path}: line {self.line}", why, do)
 
 
-def rows(path: Path) -> Iterator[Row]:
+def rows(path: Path) -> Iterator[TableRow]:
     """The rows of a table, by the names in its first line; comments begin with #, empty rows are left out."""
     lines = _lines(path)
     separator = next((_separator(line) for line in lines if _said(line)), ",")
@@ -66,7 +66,7 @@ def rows(path: Path) -> Iterator[Row]:
         if len(cells) > len(header) and any(cells[len(header) :]):
             raise Refused(f"{path}: line {line}", f"it has {len(cells)} columns, the first line {len(header)}",
                           "as many; decimal commas need ; or tabs between columns")
-        yield Row(path, line, dict(zip(header, cells, strict=False)), separator != ",")
+        yield TableRow(path, line, dict(zip(header, cells, strict=False)), separator != ",")
 
 
 def columns(path: Path) -> Sequence[str]:

@@ -16,8 +16,8 @@ import numpy as np
 from graphplan.accuracy.first_order import readings
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.marking.judge.matching import Walk
-from graphplan.marking.judge.student_sheet import Deviation, PointDeviation, plain
+from graphplan.marking.judge.matching import Matching
+from graphplan.marking.judge.student_sheet import PointResidual, Residual, plain
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, NumberVerdict
 from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
@@ -39,18 +39,18 @@ class Expected:
     parts: tuple[Any, ...]
     reading: float
 
-    def deviation(self, walk: Walk, value: Sequence[float]) -> Deviation:
+    def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
         """How far a value is from it, in its own unit."""
-        partials = np.array([walk.board.domain.partials(part) for part in self.parts])
+        partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
         steady = np.array(plain(self.parts))
         rounded = ROUNDED * float(np.max(np.abs(steady)))
         covariance = partials @ partials.T + (self.reading**2 + rounded**2) * np.eye(len(steady))
-        return (PointDeviation if len(steady) == 2 else Deviation)(np.array(value) - steady, covariance)
+        return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 
 
-def judged(walk: Walk, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
+def judged(matching: Matching, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
     """What is said of every number of a table. Fails with `Refused` where one is not asked for, or told twice."""
-    own, true = _expected(walk, walk.own), _expected(walk, walk.board.drawing.values)
+    own, true = _expected(matching, matching.own), _expected(matching, matching.sheet.drawing.values)
     told: set[Key] = set()
     for number in numbers:
         key = number.kind, number.of
@@ -61,58 +61,59 @@ def judged(walk: Walk, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
         if key in told:
             raise Refused(f"{number.kind} of {number.of}", "it is told twice", "tell it once")
         told.add(key)
-        yield _judged(walk, number, own, {key: plain(expected.parts) for key, expected in true.items()})
+        yield _judged(matching, number, own, {key: plain(expected.parts) for key, expected in true.items()})
 
 
-def _expected(walk: Walk, values: Sequence[Any]) -> dict[Key, Expected]:
+def _expected(matching: Matching, values: Sequence[Any]) -> dict[Key, Expected]:
     """Every number that a drawing says."""
-    drawing, found = walk.board.drawing, {}
-    for reading, marks, value in readings(drawing, values, walk.board.domain):
+    drawing, found = matching.sheet.drawing, {}
+    for reading, marks, value in readings(drawing, values, matching.sheet.domain):
         parts = value if isinstance(value, tuple) else (value,)
-        found[reading.kind, reading.of] = Expected(parts, _read(walk, reading, [plain(mark) for mark in marks]))
+        found[reading.kind, reading.of] = Expected(parts, _read(matching, reading, [plain(mark) for mark in marks]))
     return found
 
 
-def _read(walk: Walk, reading: Reading, marks: Sequence[Any]) -> float:
+def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
     """The standard deviation of reading one part of a number off its last mark; nothing of what is given."""
     if not marks:
         return 0.0
-    home = walk.board.plan_of_step[walk.board.drawing.drawn.wanted[reading.marks[-1]]]
-    length = READ * walk.board.pencil.point / walk.board.mm(home)
-    shaken = [_difference(walk, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
+    home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
+    length = READ * matching.sheet.pencil.point / matching.sheet.mm(home)
+    shaken = [_difference(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
     return math.hypot(*shaken) / math.sqrt(1 if reading.kind in NUMBERS else 2)
 
 
-def _difference(walk: Walk, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
+def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:
     """How much a reading changes as its last mark is shifted."""
     def value(last: tuple[float, float]) -> Any:
-        found = walk.board.drawing.value(reading, [*marks[:-1], last], Floats())
+        found = matching.sheet.drawing.value(reading, [*marks[:-1], last], Floats())
         return complex(*found) if isinstance(found, tuple) else found
 
     x, y = marks[-1]
     return float(abs(value((x + shift[0], y + shift[1])) - value((x, y))))
 
 
-def _judged(walk: Walk, number: Number, own: Mapping[Key, Expected], true: Mapping[Key, tuple[float, ...]]
+def _judged(matching: Matching, number: Number, own: Mapping[Key, Expected], true: Mapping[Key, tuple[float, ...]]
             ) -> NumberVerdict:
     """The verdict on one number: right by the student's own drawing, after a slip if that is astray itself."""
-    value, key, chance = in_scene_units(number, walk.board.drawing.scene.units), (number.kind, number.of), \
-        walk.rules.chance
+    value, key, chance = in_scene_units(number, matching.sheet.drawing.scene.units), (number.kind, number.of), \
+        matching.rules.chance
     expected, truth = own[key], true[key]
-    deviation = expected.deviation(walk, value)
-    straight = Expected(truth, expected.reading).deviation(walk, plain(expected.parts))
-    astray = walk.erred and not Deviation(straight.off, deviation.covariance).fits(chance)
-    right = deviation.fits(chance)
-    reason = None if right else _reason(walk, value, key, own)
-    tolerance = deviation.tolerance(chance) if deviation.covariance.any() else 0.0  # none of a zero that is given
-    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, deviation.size, tolerance, truth,
+    residual = expected.residual(matching, value)
+    straight = Expected(truth, expected.reading).residual(matching, plain(expected.parts))
+    astray = matching.erred and not Residual(straight.off, residual.covariance).fits(chance)
+    right = residual.fits(chance)
+    reason = None if right else _reason(matching, value, key, own)
+    tolerance = residual.tolerance(chance) if residual.covariance.any() else 0.0  # none of a zero that is given
+    return NumberVerdict(number, (FOLLOWS if astray else RIGHT) if right else WRONG, residual.size, tolerance, truth,
                          reason[1] if reason else None, reason[0] if reason else "")
 
 
-def _reason(walk: Walk, value: Sequence[float], key: Key, own: Mapping[Key, Expected]) -> tuple[str, Said] | None:
+def _reason(matching: Matching, value: Sequence[float], key: Key, own: Mapping[Key, Expected]
+            ) -> tuple[str, Said] | None:
     """The mistake that makes a number out of the right one."""
     for kind, told, undone, which in _mistakes(value, key, own):
-        if own[which].deviation(walk, undone).fits(walk.rules.chance):
+        if own[which].residual(matching, undone).fits(matching.rules.chance):
             return kind, told
     return None
 

@@ -9,7 +9,8 @@ from graphplan.check.arithmetics import Arithmetic
 from graphplan.errors import Refused
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide, TurningDrive
-from graphplan.mechanism.placements import is_exact, placed_by
+from graphplan.mechanism.numerals import is_exact
+from graphplan.mechanism.placements import placed_by
 
 Directed = TypeVar("Directed", Slide, Balance)
 

@@ -6,9 +6,13 @@ from collections.abc import Collection
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.marking.judge.verdict import STATES
-from graphplan.mechanism.schema import DRAFT, FROM_0, NUMBER, TEXT, Fragment, listed, table, told
+from graphplan.mechanism import fields
+from graphplan.mechanism.fields import Fragment
+from graphplan.mechanism.schema import DRAFT, listed, table
+from graphplan.mechanism.schema import described as told
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 
+TEXT, NUMBER, FROM_0 = fields.TEXT.schema, fields.NUMBER.schema, fields.AMOUNT.schema
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 EXACT: Fragment = {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}

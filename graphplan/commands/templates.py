@@ -9,7 +9,8 @@ import tomllib
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 
-from graphplan.mechanism.schema import Fragment, scene
+from graphplan.mechanism.fields import Fragment
+from graphplan.mechanism.schema import scene
 
 TOP = ("title", "source", "gravity")
 LOADS = ("balance", "masses", "forces", "moments", "friction")  # one paragraph: all of them need a balance

@@ -15,9 +15,9 @@ from graphplan.mechanism.bracing import Bracing, bracing
 from graphplan.mechanism.faults import Faults
 from graphplan.mechanism.items import quoted
 from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.pivots import framed, missing_pivots
-from graphplan.mechanism.placements import exactly, is_exact
 from graphplan.mechanism.structure import mobility
 
 _SAME = Fraction(1, 10**12)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from graphplan.mechanism.items import Item, Vector, described
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning
+from graphplan.mechanism.fields import NAME, NUMBER, VECTOR, Kind, Names
+from graphplan.mechanism.items import Item, Vector
+from graphplan.mechanism.model import Pair, Written
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact
 
 Direction = Vector | Fraction | str
 """A direction as written: a vector, an angle in degrees, or two points such as "O A"."""
@@ -27,7 +29,7 @@ class Misfit(Exception):
         super().__init__(what)
 
 
-def read_direction(item: Item, points: Collection[str]) -> Direction | None:
+def _direction(item: Item, names: Names) -> Direction | None:
     """A direction in one of its three spellings."""
     if isinstance(item.value, list):
         components = item.vector()
@@ -36,18 +38,39 @@ def read_direction(item: Item, points: Collection[str]) -> Direction | None:
             return None
         return components
     if isinstance(item.value, str):
-        if not {*item.value.split()} <= {*points} and (told := item.slip()):
+        if not {*item.value.split()} <= {*names.points} and (told := item.slip()):
             item.fault(*told)
             return None
-        names = item.points(points)
-        if names is not None and len(names) != 2:
-            item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "O A"')
-            return None
-        return None if names is None else " ".join(names)
+        return item.two_points(names.points, "O A")
     return item.number()
 
 
-def points_of(direction: Direction) -> tuple[str, ...]:
+def _guide(item: Item, names: Names) -> tuple[Pair, tuple[str, ...] | None, Written] | None:
+    """A guide's direction in this pose, the two points that give it, if points do, and the direction as written."""
+    direction = _direction(item, names)
+    if direction is None:
+        return None
+    through = points_of(direction)
+    if any(name not in names.placed for name in through):
+        return (Fraction(1), Fraction(0)), through, direction  # the point has its own fault; look for more
+    try:
+        x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
+    except Misfit as misfit:
+        item.fault(misfit.what, misfit.instead)
+        return None
+    if not exact:
+        names.irrational.append(f"{item.where}: angle")
+    rational = exact and is_exact(*(names.placed[name] for name in through))
+    return (x, y) if rational else (float(x), float(y)), through or None, direction
+
+
+TWO_POINTS = Kind("two points", lambda item, names: item.two_points(names.points, "A B"),
+                  {"type": "string", "pattern": rf"^\s*{NAME}\s+{NAME}\s*$"})
+DIRECTION = Kind("direction", _direction, {"anyOf": [VECTOR.schema, NUMBER.schema, TWO_POINTS.schema]})
+GUIDE = Kind("direction", _guide, DIRECTION.schema)
+
+
+def points_of(direction: object) -> tuple[str, ...]:
     """The points that give a direction, if points do."""
     return tuple(direction.split()) if isinstance(direction, str) else ()
 

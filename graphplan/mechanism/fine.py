@@ -11,8 +11,8 @@ from typing import Any
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.equations import Pose
 from graphplan.mechanism.model import Scene, Slide
-from graphplan.mechanism.numerals import Reckoning, heading, root
-from graphplan.mechanism.placements import exactly, is_exact, placed_by
+from graphplan.mechanism.numerals import Reckoning, exactly, heading, is_exact, root
+from graphplan.mechanism.placements import placed_by
 
 DIGITS = 100
 _BITS = 360

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.mechanism.faults import Faults, perhaps
@@ -18,11 +18,16 @@ Vector = tuple[Fraction, Fraction]
 
 @dataclass(frozen=True)
 class Item:
-    """A value as tomllib gave it, `where` it stands in the scene, and the faults to add to."""
+    """A value as tomllib gave it, `where` it stands in the scene, the faults to add to, and the key it is under."""
 
     value: object
     where: str
     faults: Faults
+    key: str = ""
+
+    def instead(self, value: object) -> Item:
+        """Another value at the same place, such as a part of this one."""
+        return replace(self, value=value)
 
     def fault(self, what: str, instead: str) -> None:
         """Note a fault of this very item."""
@@ -47,13 +52,21 @@ class Item:
             return None
         from graphplan.mechanism.slips import slip  # few scenes have faults
 
-        return slip(self.value, self.where.rpartition(".")[2])
+        return slip(self.value, self.key)
 
-    def positive(self) -> Fraction | None:
-        """A number above zero: a distance."""
+    def positive(self, what: str) -> Fraction | None:
+        """A number above zero."""
         number = self.number()
         if number is not None and number <= 0:
-            self.fault(f"the distance {shown(number)} is not positive", "a distance above 0")
+            self.fault(f"the {what} {shown(number)} is not positive", f"a {what} above 0")
+            return None
+        return number
+
+    def amount(self) -> Fraction | None:
+        """A number that is not negative."""
+        number = self.number()
+        if number is not None and number < 0:
+            self.fault(f"the {self.key} {shown(number)} is negative", "a number of 0 or more")
             return None
         return number
 
@@ -62,7 +75,7 @@ class Item:
         if not isinstance(self.value, list) or len(self.value) != 2:
             self.fault(f"{described(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
             return None
-        x, y = (Item(part, self.where, self.faults).number() for part in self.value)
+        x, y = (self.instead(part).number() for part in self.value)
         return None if x is None or y is None else (x, y)
 
     def text(self, wanted: str, instead: str) -> str | None:
@@ -105,12 +118,21 @@ class Item:
                 self.fault(f"point {name} is named twice", "each point once")
         return tuple(names) if len(self.faults) == before else None
 
+    def two_points(self, known: Collection[str], such: str) -> str | None:
+        """Two points, as one string."""
+        names = self.points(known)
+        if names is not None and len(names) != 2:
+            self.fault(f"{described(self.value)} where two points are wanted", f'two points such as "{such}"')
+            return None
+        return None if names is None else " ".join(names)
+
     def table(self) -> dict[str, Item] | None:
         """The items of a table."""
         if not isinstance(self.value, dict):
             self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
             return None
-        return self._inside(self.value)
+        prefix = f"{self.where}." if self.where else ""
+        return {key: Item(value, prefix + quoted(key), self.faults, key) for key, value in self.value.items()}
 
     def fields(self, known: Iterable[str], required: Mapping[str, str]) -> dict[str, Item] | None:
         """The items of a table with these keys only; `required` keys must be there, each with what it should say."""
@@ -131,10 +153,6 @@ class Item:
             return [Item(row, f"{self.where}.{i}", self.faults) for i, row in enumerate(self.value, 1)]
         self.fault(f"{described(self.value)} where a list of tables is wanted", f"[[{self.where}]], in double brackets")
         return []
-
-    def _inside(self, table: Mapping[str, object]) -> dict[str, Item]:
-        prefix = f"{self.where}." if self.where else ""
-        return {key: Item(value, prefix + quoted(key), self.faults) for key, value in table.items()}
 
 
 def quoted(key: str) -> str:

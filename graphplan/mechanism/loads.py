@@ -1,209 +1,127 @@
-"""Loads: the tables of a scene that ask for forces, read into the model: masses, forces, moments, balance, friction."""
+"""Loads: the tables of a scene that ask for forces: masses, forces, moments, balance, friction."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sized
 from fractions import Fraction
+from typing import Any
 
-from graphplan.errors import by_name
 from graphplan.mechanism.checks import check_balance
+from graphplan.mechanism.directions import GUIDE
 from graphplan.mechanism.faults import Faults
-from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.model import FRAME, Balance, Force, Friction, Loads, Mass, Moment, Number, Pair, Scene, Slide
-from graphplan.mechanism.numerals import shown
-from graphplan.mechanism.sections import Names, read_guide, read_pair
+from graphplan.mechanism.fields import (
+    AMOUNT,
+    LINK,
+    NUMBER,
+    POINT,
+    TWO_LINKS,
+    VECTOR,
+    Either,
+    Field,
+    Named,
+    Names,
+    Row,
+    Rows,
+    Table,
+    moving,
+    on_link,
+)
+from graphplan.mechanism.items import Item
+from graphplan.mechanism.model import FRAME, Balance, Force, Friction, Loads, Mass, Moment, Pair, Scene
+from graphplan.mechanism.sections import has_slide
 
-TABLES = ("masses", "forces", "moments", "balance", "friction")
-NOTHING: Pair = (Fraction(0), Fraction(0))
-
-
-def read_loads(items: Mapping[str, Item], names: Names, slides: tuple[Slide, ...]) -> Loads | None:
-    """The loads of a scene; None where it has none of their tables."""
-    gravity = (items["gravity"].vector() if "gravity" in items else None) or NOTHING
-    if not any(table in items for table in TABLES):
-        return None
-    rows = {table: items[table].rows() if table in items else [] for table in ("forces", "moments", "friction")}
-    forces = [_force(row, names) for row in rows["forces"]]
-    moments = [_moment(row, names) for row in rows["moments"]]
-    frictions = [_friction(row, names, slides) for row in rows["friction"]]
-    return Loads(
-        gravity,
-        _masses(items["masses"], names) if "masses" in items else {},
-        tuple(force for force in forces if force),
-        tuple(moment for moment in moments if moment),
-        _balances(items["balance"], names) if "balance" in items else (),
-        _once(frictions, items["friction"]) if frictions else (),
-    )
+# --- masses, forces, moments ---------------------------------------------------------------------------------------
 
 
-def _masses(item: Item, names: Names) -> dict[str, Mass]:
-    """The masses of links, by link."""
-    masses: dict[str, Mass] = {}
-    for link, entry in (item.table() or {}).items():
-        if link == FRAME:
-            entry.fault("the frame is given a mass", "a moving link")
-        elif link not in names.links:
-            item.faults.unknown(entry.where, "link", link, names.links)
-        wanted = {"mass": "a mass, such as mass = 10", "centre": 'a point of the link, such as centre = "S"'}
-        fields = entry.fields(("mass", "inertia", "centre"), wanted)
-        if fields is None:
-            continue
-        mass, centre = _amount(fields["mass"], "mass"), fields["centre"].name_of("point", names.points)
-        inertia = _amount(fields["inertia"], "inertia") if "inertia" in fields else Fraction(0)
-        if centre is not None and _on_link(fields["centre"], centre, link, names) and mass is not None:
-            masses[link] = Mass(mass, inertia or Fraction(0), centre)
-    return masses
-
-
-def _amount(item: Item, what: str) -> Number | None:
-    """A number that is not negative."""
-    number = item.number()
-    if number is not None and number < 0:
-        item.fault(f"the {what} {shown(number)} is negative", "a number of 0 or more")
-        return None
-    return number
-
-
-def _on_link(item: Item, point: str, link: str, names: Names) -> bool:
-    """Whether a point is one of a link's; a fault where it is not."""
-    own = names.links.get(link, ())
-    if own and point not in own:
-        item.fault(f"{point} is no point of link {link}", "one of " + ", ".join(sorted(own, key=by_name)))
-    return point in own
-
-
-def _loaded(item: Item, names: Names) -> str | None:
-    """The moving link that a load is on."""
-    link = item.name_of("link", names.links)
+def _weighed(link: str, item: Item, names: Names) -> None:
+    """A fault where a link can have no mass."""
     if link == FRAME:
-        item.fault("a load on the frame moves nothing", "a moving link")
+        item.fault("the frame is given a mass", "a moving link")
+    elif link not in names.links:
+        item.faults.unknown(item.where, "link", link, names.links)
+
+
+MASSES = Named(Table("a mass", (
+    Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
+    Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
+    Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
+), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
+
+_LOADED = moving("a load on the frame moves nothing")
+FORCES = Rows(Table("a force", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
+    Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
+    Field("value", "the components of the force", VECTOR, "two components, such as value = [-150, 0]"),
+), lambda row: Force(**row.values) if on_link(row, row["on"]) else None))
+MOMENTS = Rows(Table("a moment", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
+    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER, "a moment, such as value = 12.0"),
+), lambda row: Moment(**row.values)))
+
+
+# --- balance and friction ------------------------------------------------------------------------------------------
+
+
+def _balance(row: Row) -> Balance | None:
+    vector, _, written = row["direction"]
+    return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+
+
+_BALANCED = moving("a balance on the frame, which does not move, keeps no motion")
+BALANCE = Rows(Either((Table("a moment", (
+    Field("link", "the link on which a moment keeps the motion", _BALANCED,
+          'the link on which a moment acts, such as link = "1"'),
+), lambda row: Balance(**row.values)), Table("a force along a line", (
+    Field("at", "the point of that link where the force acts", POINT,
+          'the point where a force acts, such as at = "B"'),
+    Field("on", "the link on which a force keeps the motion", _BALANCED,
+          'the link on which it acts, such as on = "1"'),
+    Field("direction", "the force's direction: a vector, an angle in degrees, or two points", GUIDE,
+          "the force's direction: a vector, an angle in degrees, or two points"),
+), _balance))), single=True)
+
+
+def _journal(row: Row) -> Friction | None:
+    at = row["at"]
+    if sum(at in points for points in row.names.links.values()) < 2 and row.item.faults.none_in("links"):
+        row.items["at"].fault(f"{at} is no joint of two links", "a joint")
         return None
-    return link
+    return Friction(at, None, row["radius"], row["coefficient"])
 
 
-def _force(row: Item, names: Names) -> Force | None:
-    wanted = {
-        "on": 'the loaded link, such as on = "2"',
-        "at": 'a point of that link, such as at = "C"',
-        "value": "two components, such as value = [-150, 0]",
-    }
-    fields = row.fields(wanted, wanted)
-    if fields is None:
+def _rubbing(row: Row) -> Friction | None:
+    slide = has_slide(row, "a joint and its radius")
+    return Friction("", (slide.link, slide.along), Fraction(0), row["coefficient"]) if slide else None
+
+
+def _rubbed(friction: Friction) -> tuple[object, str]:
+    """The pair that has the friction."""
+    if friction.slide is None:
+        return friction.at, f"friction of joint {friction.at}"
+    return friction.slide, "friction of slide {} along {}".format(*friction.slide)
+
+
+_COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
+                     "the coefficient of friction, such as coefficient = 0.1")
+FRICTION = Rows(Either((Table("friction in a journal", (
+    Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
+    Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
+    _COEFFICIENT,
+), _journal), Table("friction in a slide", (
+    Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
+    _COEFFICIENT,
+), _rubbing))), once=_rubbed, remedy="one for each joint or slide")
+
+TABLES = ("forces", "moments", "friction", "masses", "balance")
+
+
+def loads(read: Mapping[str, Any]) -> Loads | None:
+    """The loads of a scene, from what is read of its tables; None where it has none of them."""
+    if read.keys().isdisjoint(TABLES):
         return None
-    link, at = _loaded(fields["on"], names), fields["at"].name_of("point", names.points)
-    value = fields["value"].vector()
-    if link is None or at is None or value is None or not _on_link(fields["at"], at, link, names):
-        return None
-    return Force(link, at, value)
-
-
-def _moment(row: Item, names: Names) -> Moment | None:
-    wanted = {"on": 'the loaded link, such as on = "3"', "value": "a moment, such as value = 12.0"}
-    fields = row.fields(wanted, wanted)
-    if fields is None:
-        return None
-    link, value = _loaded(fields["on"], names), fields["value"].number()
-    return None if link is None or value is None else Moment(link, value)
-
-
-def _balances(item: Item, names: Names) -> tuple[Balance, ...]:
-    """One balance as a table, or several, for as many drives, as an array of tables."""
-    rows = item.rows() if isinstance(item.value, list) else [item]
-    found = [_balance(row, names) for row in rows]
-    return tuple(balance for balance in found if balance)
-
-
-def _balance(row: Item, names: Names) -> Balance | None:
-    force = isinstance(row.value, dict) and bool(row.value.keys() & {"at", "on", "direction"})
-    if not force:
-        fields = row.fields(("link",), {"link": 'the link on which a moment acts, such as link = "1"'})
-        link = _balanced(fields["link"], names) if fields else None
-        return Balance(link) if link is not None else None
-    wanted = {
-        "at": 'the point where a force acts, such as at = "B"',
-        "on": 'the link on which it acts, such as on = "1"',
-        "direction": "the force's direction: a vector, an angle in degrees, or two points",
-    }
-    fields = row.fields(wanted, wanted)
-    if fields is None:
-        return None
-    link, at = _balanced(fields["on"], names), fields["at"].name_of("point", names.points)
-    guide = read_guide(fields["direction"], names)
-    if link is None or at is None or guide is None or not _on_link(fields["at"], at, link, names):
-        return None
-    return Balance(link, at, guide[0], guide[2])
-
-
-def _balanced(item: Item, names: Names) -> str | None:
-    """The moving link that a balance acts on."""
-    link = item.name_of("link", names.links)
-    if link == FRAME:
-        item.fault("a balance on the frame, which does not move, keeps no motion", "a moving link")
-        return None
-    return link
-
-
-def _friction(row: Item, names: Names, slides: tuple[Slide, ...]) -> Friction | None:
-    """Friction in a joint (a journal has a radius) or in a slide."""
-    sliding = isinstance(row.value, dict) and "slide" in row.value
-    place = {"slide": 'a slide, such as slide = ["3", "2"]'} if sliding else {
-        "at": 'a joint, such as at = "B", or slide = ["3", "2"]', "radius": "the journal's radius"}
-    wanted = {**place, "coefficient": "the coefficient of friction, such as coefficient = 0.1"}
-    fields = row.fields(wanted, wanted)
-    if fields is None:
-        return None
-    coefficient = _amount(fields["coefficient"], "coefficient")
-    if sliding:
-        pair = read_pair(fields["slide"], names)
-        if pair is None or coefficient is None:
-            return None
-        return Friction("", pair, Fraction(0), coefficient) if _is_slide(fields["slide"], pair, slides) else None
-    at, radius = fields["at"].name_of("point", names.points), _amount(fields["radius"], "radius")
-    if at is not None and sum(at in points for points in names.links.values()) < 2 and row.faults.none_in("links"):
-        fields["at"].fault(f"{at} is no joint of two links", "a joint")
-        return None
-    return None if at is None or radius is None or coefficient is None else Friction(at, None, radius, coefficient)
-
-
-def _is_slide(item: Item, pair: tuple[str, str], slides: tuple[Slide, ...]) -> bool:
-    """Whether the scene has this slide; a fault where it has not, unless the slides have faults of their own."""
-    found = any((slide.link, slide.along) == pair for slide in slides)
-    if not found and item.faults.none_in("slides", "links"):
-        known = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides]
-        meant = [f'slide = ["{slide.link}", "{slide.along}"]' for slide in slides if (slide.along, slide.link) == pair]
-        instead = "perhaps " + meant[0] if meant else ", ".join(sorted(known, key=by_name)) or "a joint and its radius"
-        item.fault(f"no slide of link {pair[0]} along link {pair[1]}", instead)
-    return found
-
-
-def _once(frictions: list[Friction | None], item: Item) -> tuple[Friction, ...]:
-    """The frictions, each pair's once."""
-    found: dict[object, Friction] = {}
-    for row, friction in enumerate(frictions, 1):
-        if friction is None:
-            continue
-        place = friction.at or friction.slide
-        if place in found:
-            told = f"joint {friction.at}" if friction.slide is None else "slide {} along {}".format(*friction.slide)
-            item.faults.add(f"{item.where}.{row}", f"a second friction of {told}", "one for each joint or slide")
-        found[place] = friction
-    return tuple(found.values())
-
-
-def read_reactions(item: Item, names: Names, slides: tuple[Slide, ...]) -> tuple[str, ...] | None:
-    """The joints and slides whose reactions are asked for; None for "all"."""
-    if not item.faults.none_in("slides", "links", "points"):
-        return ()  # a joint or slide that is meant may be among those that have faults
-    joints = [p for p in names.points if sum(p in points for points in names.links.values()) > 1]
-    known = [*joints, *(slide.name for slide in slides)]
-    if item.value == "all":
-        return None
-    if not isinstance(item.value, list):
-        instead = 'a list such as ["A", "3 along 2"], or "all"'
-        item.fault(f"{described(item.value)} where a list of joints and slides is wanted", instead)
-        return ()
-    named = [Item(entry, item.where, item.faults).name_of("joint or slide", known) for entry in item.value]
-    return tuple(dict.fromkeys(name for name in named if name is not None))
+    none: Pair = (Fraction(0), Fraction(0))
+    return Loads(read.get("gravity", none), read.get("masses", {}), read.get("forces", ()), read.get("moments", ()),
+                 read.get("balance", ()), read.get("friction", ()))
 
 
 def check_loads(scene: Scene, faults: Faults) -> None:

@@ -9,6 +9,8 @@ from fractions import Fraction
 from math import cos, isqrt, radians, sin
 from typing import Any, NamedTuple
 
+from graphplan.mechanism.model import Pair
+
 _DIGITS = 100
 """The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""
 
@@ -82,3 +84,13 @@ TO_A_FLOAT = Reckoning(root, heading)
 def shown(number: Fraction | float) -> str:
     """A number for an error line: as an integer where it is one, otherwise to six digits."""
     return str(number) if isinstance(number, Fraction) and number.denominator == 1 else f"{float(number):.6g}"
+
+
+def exactly(point: Pair) -> tuple[Fraction, Fraction]:
+    """A point's coordinates as fractions: a float is taken as the binary fraction that it is."""
+    return Fraction(point[0]), Fraction(point[1])
+
+
+def is_exact(*points: Pair) -> bool:
+    """Whether all these are given by fractions."""
+    return all(isinstance(x, Fraction) for point in points for x in point)

@@ -5,103 +5,117 @@ A point is a pair of fractions wherever its inputs are and its rule is exact, ot
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping
+from collections.abc import Mapping
 from fractions import Fraction
 from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
 from graphplan.errors import by_name
 from graphplan.mechanism.arcs import RULES
-from graphplan.mechanism.directions import Misfit, points_of, read_direction
-from graphplan.mechanism.items import Item, Vector, described, quoted
+from graphplan.mechanism.directions import DIRECTION, TWO_POINTS, Misfit, points_of
+from graphplan.mechanism.fields import (
+    DISTANCE,
+    NUMBER,
+    POINT,
+    VECTOR,
+    Either,
+    Field,
+    Kind,
+    Named,
+    Names,
+    Table,
+    Value,
+    choice,
+)
+from graphplan.mechanism.items import Item, described, quoted
 from graphplan.mechanism.model import Pair, Placement
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning
-
-_FORMS: dict[str, dict[str, str]] = {
-    "polar": {
-        "from": 'the point to measure from, such as from = "O"',
-        "distance": "a length, such as distance = 250",
-        "angle": "degrees from +x, such as angle = 20",
-    },
-    "compass": {
-        "distances": "the distances from two points, such as distances = { A = 730, C = 300 }",
-        "side": 'side = "left" or "right" of the ray from the first to the second centre',
-    },
-    "arc-line": {
-        "distances": "the distance from one point, such as distances = { A = 730 }",
-        "on": "the line, such as on = { through = [0, 107], direction = [1, 0] }",
-        "pick": 'pick = "right" (further along) or "left" (back along) the line\'s direction',
-    },
-    "on-line": {
-        "on": 'the line\'s two points, such as on = "A B"',
-        "distance": "a length from the first point towards the second, such as distance = 340",
-    },
-}
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact
 
 
-def read_placement(item: Item, points: Collection[str]) -> Placement | None:
-    """How one point is placed, with its numbers exact; coordinates are data `at`."""
+def _way(how: str, says: str, *fields: Field) -> Table:
+    """A way to place a point, by the data under these keys."""
+    return Table(f"{how}: {says}" if how in ("polar", "compass") else says, fields,
+                 lambda row: Placement(how, row.values))
+
+
+def _distances(wanted: int) -> Kind:
+    """Distances from so many points."""
+    def read(item: Item, names: Names) -> dict[str, Fraction] | None:
+        table = item.table()
+        if table is None:
+            return None
+        if len(table) != wanted:
+            item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
+            return None
+        distances = {centre: distance.positive("distance") for centre, distance in table.items()}
+        for centre in distances:
+            if centre not in names.points:
+                item.faults.unknown(table[centre].where, "point", centre, names.points)
+        return {centre: distance for centre, distance in distances.items() if distance is not None}
+
+    return Kind(f"distances by {wanted} point{'s' * (wanted > 1)}", read, {
+        "type": "object", "propertyNames": POINT.schema, "additionalProperties": DISTANCE.schema,
+        "minProperties": wanted, "maxProperties": wanted})
+
+
+def _coordinates(item: Item, names: Names) -> Placement | None:
+    at = item.vector()
+    return None if at is None else Placement("given", {"at": at})
+
+
+_THROUGH = Kind("point or two numbers", lambda item, names: (POINT if isinstance(item.value, str) else VECTOR).read(
+    item, names), {"anyOf": [VECTOR.schema, POINT.schema]})
+_LINE = Table("a line", (
+    Field("through", "a point of the line, [x, y] or its name", _THROUGH, "a point of the line, [x, y] or a name"),
+    Field("direction", "the line's direction: a vector, an angle in degrees, or two points", DIRECTION,
+          "the line's direction, such as [1, 0]"),
+))
+_WAYS = (
+    _way("polar", "from a point, by distance and angle",
+         Field("from", "the point to measure from", POINT, 'the point to measure from, such as from = "O"'),
+         Field("distance", "the distance from that point", DISTANCE, "a length, such as distance = 250"),
+         Field("angle", "the direction in degrees from +x, counter-clockwise", NUMBER,
+               "degrees from +x, such as angle = 20")),
+    _way("compass", "where two arcs meet",
+         Field("distances", "the distances from two points: two arcs", _distances(2),
+               "the distances from two points, such as distances = { A = 730, C = 300 }"),
+         Field("side", "the side of the ray from the first to the second centre", choice("left", "right"),
+               'side = "left" or "right" of the ray from the first to the second centre')),
+    _way("arc-line", "where an arc meets a line",
+         Field("distances", "the distance from one point: an arc", _distances(1),
+               "the distance from one point, such as distances = { A = 730 }"),
+         Field("on", "the line that the arc meets", _LINE,
+               "the line, such as on = { through = [0, 107], direction = [1, 0] }"),
+         Field("pick", "the intersection further along the line's direction (right) or back (left)",
+               choice("left", "right"),
+               'pick = "right" (further along) or "left" (back along) the line\'s direction')),
+    _way("on-line", "on the line of two points",
+         Field("on", "the two points of the line", TWO_POINTS, 'the line\'s two points, such as on = "A B"'),
+         Field("distance", "how far from the first point towards the second", NUMBER,
+               "a length from the first point towards the second, such as distance = 340")),
+)
+_COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
+
+
+def _form(item: Item) -> Value | None:
+    """The way to place a point of which the most keys are there; coordinates where it is no table."""
     if not isinstance(item.value, dict):
-        at = item.vector()
-        return None if at is None else Placement("given", {"at": at})
-    how = max(_FORMS, key=lambda form: len(_FORMS[form].keys() & item.value.keys()))  # type: ignore[attr-defined]
-    if not _FORMS[how].keys() & item.value.keys():
-        item.fault(
-            f"{described(item.value)} places no point",
-            'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }',
-        )
-        return None
-    fields = item.fields(_FORMS[how], _FORMS[how])
-    if fields is None:
-        return None
-    data = {key: _read_field(how, key, field, points) for key, field in fields.items()}
-    return None if None in data.values() else Placement(how, data)
+        return _COORDINATES
+    way = max(_WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
+    if item.value.keys() & {*way.keys}:
+        return way
+    item.fault(f"{described(item.value)} places no point",
+               'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
+    return None
 
 
-def _read_field(how: str, key: str, item: Item, points: Collection[str]) -> object:
-    if key == "from":
-        return item.name_of("point", points)
-    if key == "distances":
-        return _read_distances(item, points, wanted=2 if how == "compass" else 1)
-    if key in ("side", "pick"):
-        return item.choice(("left", "right"))
-    if key == "on":
-        return _read_line(item, points) if how == "arc-line" else _read_point_pair(item, points)
-    return item.positive() if how == "polar" and key == "distance" else item.number()
+def _named(point: str, item: Item, names: Names) -> None:
+    """A fault where a point's name cannot stand in a list of points."""
+    if "," in point or point.split() != [point] or not point.isprintable():
+        item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
 
 
-def _read_distances(item: Item, points: Collection[str], wanted: int) -> dict[str, Fraction] | None:
-    table = item.table()
-    if table is None:
-        return None
-    if len(table) != wanted:
-        item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
-        return None
-    distances = {centre: distance.positive() for centre, distance in table.items()}
-    for centre in distances:
-        if centre not in points:
-            item.faults.unknown(table[centre].where, "point", centre, points)
-    known = {centre: d for centre, d in distances.items() if d is not None and centre in points}
-    return known if len(known) == wanted else None
-
-
-def _read_line(item: Item, points: Collection[str]) -> dict[str, object] | None:
-    required = {"through": "a point of the line, [x, y] or a name", "direction": "the line's direction, such as [1, 0]"}
-    fields = item.fields(required, required)
-    if fields is None:
-        return None
-    base = fields["through"]
-    through = base.name_of("point", points) if isinstance(base.value, str) else base.vector()
-    direction = read_direction(fields["direction"], points)
-    return None if through is None or direction is None else {"through": through, "direction": direction}
-
-
-def _read_point_pair(item: Item, points: Collection[str]) -> str | None:
-    names = item.points(points)
-    if names is not None and len(names) != 2:
-        item.fault(f"{described(item.value)} where two points are wanted", 'two points such as "A B"')
-        return None
-    return None if names is None else " ".join(names)
+POINTS = Named(Either((_COORDINATES, *_WAYS), _form), POINT, _named, least=1)
 
 
 def needs(placement: Placement) -> tuple[str, ...]:
@@ -145,16 +159,6 @@ def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, P
         x, y, _ = RULES[placements[name].how](placements[name].data, points.__getitem__, False, by)
         points[name] = x, y
     return points
-
-
-def exactly(point: Pair) -> Vector:
-    """A point's coordinates as fractions: a float is taken as the binary fraction that it is."""
-    return Fraction(point[0]), Fraction(point[1])
-
-
-def is_exact(*points: Pair) -> bool:
-    """Whether all these are given by fractions."""
-    return all(isinstance(x, Fraction) for point in points for x in point)
 
 
 def _put(placement: Placement, points: Mapping[str, Pair]) -> Pair:

@@ -3,86 +3,82 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
 from fractions import Fraction
-from typing import Any
 
 from graphplan.mechanism.faults import perhaps
+from graphplan.mechanism.fields import DISTANCE, TEXT, Field, Kind, Named, Names, Row, Table, choice
 from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.model import Presentation, Units
+from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.units import METRES
 
 PAPERS = tuple(f"A{size}{way}" for size in (4, 3, 2, 1, 0) for way in ("", " portrait"))
-FRAMES, CONVENTIONS = ("iso", "gost"), ("real", "drawn")
+FRAMES = ("iso", "gost")
 CODES = ("en", "de", "lv", "et", "ru", "uk")
-TEXTS = ("owner", "number", "date", "drawn_by", "approved_by")
-WORDS = {"paper": PAPERS, "frame": FRAMES, "language": CODES, "convention": CONVENTIONS}
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
-SCALES = ("k_s", "k_v", "k_a", "k_F")
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
-KEYS = (*WORDS, *TEXTS, "scale", *SCALES, "multiples")
 
 
-def read_presentation(item: Item, units: Units) -> Presentation:
-    """How the scene wishes its sheet; what it leaves out, or gets wrong, is as it is without the table."""
-    fields = item.fields(KEYS, {}) or {}
-    found: dict[str, Any] = {key: fields[key].choice(words) for key, words in WORDS.items() if key in fields}
-    found |= {key: _line(fields[key]) for key in TEXTS if key in fields}
-    found |= {key: _positive(fields[key], "scale") for key in SCALES if key in fields}
-    if "scale" in fields:
-        found["k_s"] = _ratio(fields["scale"], units, "k_s" in fields)
-    if "multiples" in fields:
-        found["multiples"] = _multiples(fields["multiples"])
-    _check_accelerations(fields, found)
-    return Presentation(**{key: value for key, value in found.items() if value})
-
-
-def _line(item: Item) -> str | None:
-    """A text on one line."""
+def _line(item: Item, names: Names) -> str | None:
     text = item.text("a text", "a text in quotes")
     if text is not None and not text.replace("\N{NO-BREAK SPACE}", " ").isprintable():
         item.fault("a text with line breaks or characters that cannot be printed", "a text on one line")
-        return None
     return text
 
 
-def _positive(item: Item, what: str) -> Fraction | None:
-    """A number above zero."""
-    number = item.number()
-    if number is not None and number <= 0:
-        item.fault(f"the {what} {shown(number)} is not positive", f"a {what} above 0")
-        return None
-    return number
-
-
-def _ratio(item: Item, units: Units, told: bool) -> Fraction | None:
-    """The scene's lengths in a millimetre of paper, from a ratio such as 1:2, unless they are told already."""
+def _ratio(item: Item, names: Names) -> Fraction | None:
+    """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
     ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
-    if told:
-        item.fault("k_s tells the scale already", "scale or k_s, not both")
-    elif ratio is None:
+    if ratio is None:
         item.fault(f"{described(item.value)} is no ratio", 'a length on paper to a length of the scene, such as "1:2"')
-    else:
-        return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[units.length]
-    return None
+        return None
+    return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 
-def _multiples(item: Item) -> dict[str, Fraction]:
-    """By how much other plans are larger than the mechanism's; which force plans there are only the drawing tells."""
-    multiples: dict[str, Fraction] = {}
-    for plan, entry in (item.table() or {}).items():
-        if plan not in PLANS and not plan.startswith(("force plan ", "lever ")):
-            entry.fault("there is no such plan", perhaps(plan, (*PLANS, "force plan 2, 3"), "plan"))
-        multiple = _positive(entry, "multiple")
-        if multiple is not None:
-            multiples[plan] = multiple
-    return multiples
+def _plan(name: str, item: Item, names: Names) -> None:
+    """A fault where there is no such plan; which force plans there are only the drawing tells."""
+    if name not in PLANS and not name.startswith(("force plan ", "lever ")):
+        item.fault("there is no such plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
 
 
-def _check_accelerations(fields: Mapping[str, Item], found: Mapping[str, Fraction | None]) -> None:
-    """All plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
-    k_s, k_v, k_a = (found.get(key) for key in ("k_s", "k_v", "k_a"))
+def _presentation(row: Row) -> Presentation | None:
+    """How the scene wishes its sheet; all plans are drawn in lengths of the mechanism plan, so k_a is k_v^2/k_s."""
+    values = {key: row[key] for key in row.items}
+    if "scale" in values:
+        if "k_s" in values:
+            row.items["scale"].fault("k_s tells the scale already", "scale or k_s, not both")
+        values["k_s"] = values.pop("scale")
+    k_s, k_v, k_a = (values.get(key) for key in ("k_s", "k_v", "k_a"))
     if k_s and k_v and k_a and shown(k_a) != shown(k_v**2 / k_s):
-        fields["k_a"].fault(f"{shown(k_a)} does not fit k_s and k_v", f"k_v^2/k_s, which is {shown(k_v**2 / k_s)}")
+        what = f"{shown(k_a)} does not fit k_s and k_v"
+        row.items["k_a"].fault(what, f"k_v^2/k_s, which is {shown(k_v**2 / k_s)}")
+    return Presentation(**{key: value for key, value in values.items() if value})
+
+
+def _above_0(what: str) -> Kind:
+    return Kind(DISTANCE.says, lambda item, names: item.positive(what), DISTANCE.schema)
+
+
+_TEXT, _SCALE = Kind("text", _line, TEXT.schema), _above_0("scale")
+SHEET = Table("the sheet", (
+    Field("paper", "the sheet; without it the smallest that will do", choice(*PAPERS)),
+    Field("frame", "frame and title block after ISO 5457 and ISO 7200, or after GOST 2.301 and GOST 2.104",
+          choice(*FRAMES), default="iso"),
+    Field("language", "the language of all words on the sheet", choice(*CODES), default="en"),
+    Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
+          choice("real", "drawn"), default="real"),
+    Field("owner", "the legal owner, for the title block", _TEXT),
+    Field("number", "the identification number", _TEXT),
+    Field("date", "the date of issue", _TEXT),
+    Field("drawn_by", "who drew it", _TEXT, default="graphplan"),
+    Field("approved_by", "who approved it", _TEXT),
+    Field("scale", "the scale of the mechanism plan, a ratio of paper to scene",
+          Kind("ratio", _ratio, {"type": "string", "pattern": f"^{RATIO}$"})),
+    Field("k_s", "the same as lengths of the scene for a mm of paper", _SCALE),
+    Field("k_v", "the speed, in length/s, for a mm of paper", _SCALE),
+    Field("k_a", "the acceleration, in length/s^2, for a mm of paper", _SCALE),
+    Field("k_F", "the force for a mm of paper", _SCALE),
+    Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",
+          Named(_above_0("multiple"), TEXT, _plan)),
+), _presentation)

@@ -15,25 +15,41 @@ from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
 from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.faults import Faults, perhaps
+from graphplan.mechanism.fields import TEXT, VECTOR, Field, Names, Table
 from graphplan.mechanism.items import Item, quoted
+from graphplan.mechanism.loads import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, check_loads, loads
 from graphplan.mechanism.loads import TABLES as LOADS
-from graphplan.mechanism.loads import check_loads, read_loads, read_reactions
-from graphplan.mechanism.model import FRAME, Find, Pair, Placement, Presentation, Scene, Slide, Units
-from graphplan.mechanism.numerals import decimal
-from graphplan.mechanism.placements import is_exact, needs, place, read_placement
-from graphplan.mechanism.sections import (
-    Names,
-    moving_links,
-    read_asked,
-    read_drives,
-    read_links,
-    read_motions,
-    read_question,
-    read_slides,
-    read_units,
-)
+from graphplan.mechanism.model import Find, Pair, Presentation, Scene
+from graphplan.mechanism.numerals import decimal, is_exact
+from graphplan.mechanism.placements import POINTS, needs, place
+from graphplan.mechanism.presentation import SHEET
+from graphplan.mechanism.sections import DRIVES, FIND, LINKS, MOTIONS, SLIDES
+from graphplan.mechanism.units import UNITS
 
-_TABLES = ("title", "source", "gravity", "units", "points", "links", "slides", "drive", "motion", "find", "sheet")
+SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
+    Field("title", "what the mechanism is", TEXT),
+    Field("source", "where it comes from: author, title, year, figure", TEXT),
+    Field("gravity", "the acceleration of gravity in m/s^2, where forces are asked for", VECTOR, default=[0, 0]),
+    Field("units", "the units of the scene and of its results", UNITS),
+    Field("points", "every named point, in this pose of the mechanism", POINTS,
+          "[points] with entries such as A = [0, 0]"),
+    Field("links", "a link is the list of its points; a point that several links name is a revolute joint there",
+          LINKS, '[links] with entries such as 1 = "O A"'),
+    Field("slides", "a sliding pair: one link slides along another", SLIDES),
+    Field("drive", "what drives it: one entry for each degree of freedom", DRIVES),
+    Field("motion", "the given motion of a point, for open chains", MOTIONS),
+    Field("find", "what is asked for; without it the velocity and acceleration of every joint, and the rates of every "
+          "link", FIND),
+    Field("sheet", "how the sheet should look; the command line has the last word", SHEET),
+    Field("masses", "the mass of a link", MASSES),
+    Field("forces", "a force on a link", FORCES),
+    Field("moments", "a moment on a link", MOMENTS),
+    Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
+          BALANCE),
+    Field("friction", "friction in a joint or in a slide", FRICTION),
+))
+ORDER = ("points", "links", "slides", "drive", "motion", "units", "title", "source", "find", "gravity", *LOADS, "sheet")
+"""In which sections are read: what others speak of comes first."""
 
 
 def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
@@ -44,7 +60,7 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
     written = os.fspath(source)
     name = written if name is None else name
     try:
-        return parse(_bytes(written).decode("utf-8-sig"), name)
+        text = _bytes(written).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         fault = Fault("file", f"byte {error.start + 1} is not UTF-8", "text saved as UTF-8")
     except IsADirectoryError:
@@ -57,6 +73,8 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
         fault = Fault("file", "no such file and no packaged scene", instead)
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
         fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
+    else:
+        return parse(text, name)
     raise SceneError(name, (fault,))
 
 
@@ -118,34 +136,39 @@ def _toml(text: str, name: str) -> dict[str, object]:
 
 def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
     """The whole scene; where something is faulty the scene is patched up, and only good for finding more faults."""
-    items = _top(tables, faults)
-    table = items["points"]
-    points = table.table() or {}
-    placements = _placements(points, table)
-    placed = place(placements, table)
-    names = Names(tuple(points), placed, read_links(items["links"], points))
-    slides = read_slides(items["slides"], names)
-    drives = read_drives(items["drive"], names, slides)
-    motions = read_motions(items["motion"], names)
-    units = read_units(items["units"])
+    items = Item(tables, "", faults).fields(SCENE.keys, {}) or {}
+    for field in SCENE.fields:
+        if field.wanted and not (field.name in items and items[field.name].value):
+            faults.add(field.name, f"the scene has no {field.name}", field.wanted)
+    points = items.get("points", Item({}, "points", faults))
+    names = Names(tuple(points.value) if isinstance(points.value, dict) else ())
+    kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
+    for key in ORDER:
+        if key in items and (value := kinds[key].read(items[key], names)) is not None:
+            read[key] = value
+        if key == "points":
+            placements = read.get(key, {})
+            names.placed = place(placements, points)
+        elif key in ("links", "slides", "units") and key in read:
+            setattr(names, key, read[key])
     scene = Scene(
-        title=_text(items.get("title")),
-        source=_text(items.get("source")),
+        title=read.get("title", ""),
+        source=read.get("source", ""),
         name=name,
-        units=units,
-        points={point: placed.get(point, (Fraction(0), Fraction(0))) for point in points},
-        placements={point: placements[point] for point in points if point in placements},
+        units=names.units,
+        points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
+        placements=placements,
         links=names.links,
-        slides=slides,
-        drives=drives,
-        motions=motions,
-        find=_find(items.get("find"), names, slides),
-        loads=read_loads(items, names, slides),
-        sheet=_presentation(items.get("sheet"), units),
+        slides=names.slides,
+        drives=read.get("drive", ()),
+        motions=read.get("motion", {}),
+        find=read.get("find") or _asked(names),
+        loads=loads(read),
+        sheet=read.get("sheet") or Presentation(),
     )
-    rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in points
-               if point in placed and point in _counting(scene) and not is_exact(placed[point])]
-    return _checked(replace(scene, irrational=(*rounded, *names.irrational)), placed, faults)
+    rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
+               if point in names.placed and point in _counting(scene) and not is_exact(names.placed[point])]
+    return _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
 
 
 def _counting(scene: Scene) -> set[str]:
@@ -159,62 +182,16 @@ def _counting(scene: Scene) -> set[str]:
         found |= {slide.at, *(slide.through or ())}
     if loads is not None:
         found |= {point for points in scene.links.values() for point in points}
-        found |= {point for balance in loads.balances for point in points_of(balance.written or "")}
+        found |= {point for balance in loads.balances for point in points_of(balance.written)}
     return found
 
 
-def _top(tables: dict[str, object], faults: Faults) -> dict[str, Item]:
-    """The top-level tables; those that are left out are there and empty, except those whose absence says something."""
-    empty: dict[str, object] = {"units": {}, "points": {}, "links": {}, "slides": [], "drive": [], "motion": {}}
-    items = Item({**empty, **tables}, "", faults).fields((*_TABLES, *LOADS), {}) or {}
-    for key, such in (("points", "A = [0, 0]"), ("links", '1 = "O A"')):
-        if not items[key].value:
-            items[key].fault(f"the scene has no {key}", f"[{key}] with entries such as {such}")
-    return items
-
-
-def _placements(points: dict[str, Item], table: Item) -> dict[str, Placement]:
-    placements: dict[str, Placement] = {}
-    for point, item in points.items():
-        if "," in point or point.split() != [point] or not point.isprintable():
-            item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
-        placement = read_placement(item, points)
-        if placement is not None:
-            placements[point] = placement
-    return placements
-
-
-def _text(item: Item | None) -> str:
-    return (item.text("a text", "a text in quotes") or "") if item else ""
-
-
-def _presentation(item: Item | None, units: Units) -> Presentation:
-    """How the sheet should look; few scenes say."""
-    if item is None:
-        return Presentation()
-    from graphplan.mechanism.presentation import read_presentation
-
-    return read_presentation(item, units)
-
-
-def _find(item: Item | None, names: Names, slides: tuple[Slide, ...]) -> Find:
-    """What is asked for: if nothing is said, velocity and acceleration of every joint that can move, or where there is
-    none of every point that can, and the rates of every link."""
-    if item is not None:
-        fields = item.fields(("velocity", "acceleration", "links", "slides", "reactions"), {}) or {}
-        return Find(
-            read_question(fields["velocity"], names) if "velocity" in fields else (),
-            read_question(fields["acceleration"], names) if "acceleration" in fields else (),
-            read_reactions(fields["reactions"], names, slides) if "reactions" in fields else None,
-            read_asked(fields["links"], "link", moving_links(names)) if "links" in fields else None,
-            read_asked(fields["slides"], "slide", [s.name for s in slides], "slides") if "slides" in fields else None,
-        )
-    fixed = names.links.get(FRAME, ())
-    named = Counter(point for points in names.links.values() for point in points)
-    at = {slide.at for slide in slides}
-    movable = [p for p in names.points if named[p] and p not in fixed]
-    moving = tuple(p for p in movable if named[p] > 1 or p in at) or tuple(movable)
-    return Find(moving, moving, links=moving_links(names))
+def _asked(names: Names) -> Find:
+    """What is asked for where nothing is said: velocity and acceleration of every joint that can move, or where there
+    is none of every point that can, and the rates of every link."""
+    at, named = {slide.at for slide in names.slides}, Counter(p for points in names.links.values() for p in points)
+    moving = tuple(p for p in names.movable if named[p] > 1 or p in at) or names.movable
+    return Find(moving, moving, links=names.moving)
 
 
 def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:

@@ -1,290 +1,192 @@
-"""Sections: the tables of a scene besides its points, each read into the model."""
+"""Sections: the tables of a scene besides its points and loads: links, slides, drives, motions and questions."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from fractions import Fraction
 from math import pi
 
-from graphplan.errors import by_name
-from graphplan.mechanism.directions import Misfit, points_of, read_direction, vector
-from graphplan.mechanism.items import Item, Vector, described
-from graphplan.mechanism.model import (
-    FRAME,
-    Drive,
-    Motion,
-    Number,
-    Pair,
-    Slide,
-    SlidingDrive,
-    TurningDrive,
-    Units,
-    Written,
+from graphplan.mechanism.directions import GUIDE
+from graphplan.mechanism.fields import (
+    BODY,
+    LINK,
+    NAME,
+    NUMBER,
+    POINT,
+    TWO_LINKS,
+    VECTOR,
+    Either,
+    Field,
+    Kind,
+    Named,
+    Names,
+    Row,
+    Rows,
+    Table,
+    asked,
+    moving,
+    on_link,
 )
-from graphplan.mechanism.numerals import root
-from graphplan.mechanism.placements import exactly, is_exact
+from graphplan.mechanism.items import Item
+from graphplan.mechanism.model import FRAME, Drive, Find, Motion, Pair, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.numerals import exactly, is_exact, root
 
-_UNITS = {
-    "length": ("mm", "cm", "m", "in", "ft"),
-    "force": ("N", "kN", "kgf", "lbf"),
-    "mass": ("kg", "g", "t", "lb"),
-}
+# --- links ---------------------------------------------------------------------------------------------------------
 
 
-@dataclass
-class Names:
-    """What the other tables may speak of: point names, the links with their points, coordinates where known."""
-
-    points: Collection[str]
-    placed: dict[str, Pair]
-    links: dict[str, tuple[str, ...]]
-    irrational: list[str] = field(default_factory=list)
-
-    @property
-    def bodies(self) -> tuple[str, ...]:
-        """The names of all links; the fixed ground may be spoken of where no link is it."""
-        return (*self.links, *([FRAME] if FRAME not in self.links else []))
+def _link(item: Item, names: Names) -> tuple[str, ...]:
+    """The points of a link; none of a faulty one."""
+    named = item.points(names.points)
+    if named == ():
+        item.fault("a link without points", 'its points, such as "A B"')
+    if not item.key.strip() or not item.key.isprintable():
+        item.fault("a link without a readable name", 'a name, such as 1 = "A B"')
+    return named or ()
 
 
-def read_units(item: Item) -> Units:
-    """The units of the scene."""
-    fields = item.fields(_UNITS, {}) or {}
-    units = {key: entry.choice(_UNITS[key]) for key, entry in fields.items()}
-    return Units(**{key: unit for key, unit in units.items() if unit is not None})
-
-
-def read_links(item: Item, points: Collection[str]) -> dict[str, tuple[str, ...]]:
-    """The links with their points; of a faulty one only the name."""
-    links: dict[str, tuple[str, ...]] = {}
-    for name, entry in (item.table() or {}).items():
-        named = entry.points(points)
-        if named == ():
-            entry.fault("a link without points", 'its points, such as "A B"')
-        if not name.strip() or not name.isprintable():
-            entry.fault("a link without a readable name", 'a name, such as 1 = "A B"')
-        links[name] = named or ()
-    return links
+LINKS = Named(Kind("points", _link, {"type": "string", "pattern": rf"^\s*{NAME}(\s+{NAME})*\s*$"}), LINK, least=1)
 
 
 # --- slides --------------------------------------------------------------------------------------------------------
 
 
-def read_slides(item: Item, names: Names) -> tuple[Slide, ...]:
-    """The sliding pairs; the direction's length stays as written."""
-    slides: list[Slide] = []
-    for row in item.rows():
-        slide = _read_slide(row, names)
-        if slide and any({slide.link, slide.along} == {other.link, other.along} for other in slides):
-            row.fault(f"a second slide between links {slide.link} and {slide.along}", "one slide between two links")
-        elif slide:
-            slides.append(slide)
-    return tuple(slides)
-
-
-def _read_slide(row: Item, names: Names) -> Slide | None:
-    wanted = {
-        "link": 'the sliding link, such as link = "3"',
-        "along": 'the link with the guide, such as along = "2"',
-        "at": 'a point of the sliding link on the guide line, such as at = "B"',
-        "direction": 'the guide\'s direction: a vector, an angle in degrees, or two points "O A"',
-    }
-    fields = row.fields(wanted, wanted)
-    if fields is None:
-        return None
-    link, along = (fields[key].name_of("link", names.links) for key in ("link", "along"))
-    at = fields["at"].name_of("point", names.points)
-    guide = read_guide(fields["direction"], names)
-    if link is None or along is None or at is None or guide is None:
-        return None
+def _slide(row: Row) -> Slide | None:
+    """A sliding pair; the direction's length stays as written."""
+    link, along = row["link"], row["along"]
     if link == along:
-        row.fault(f"link {link} slides along itself", "two different links")
+        row.item.fault(f"link {link} slides along itself", "two different links")
         return None
-    if at not in names.links[link]:
-        if names.links[link]:
-            own = ", ".join(sorted(names.links[link], key=by_name))
-            fields["at"].fault(f"{at} is no point of the sliding link {link}", f"one of {own}")
-        return None
-    return Slide(link, along, at, *guide)
+    return Slide(link, along, row["at"], *row["direction"]) if on_link(row, link, "the sliding link") else None
 
 
-def read_guide(item: Item, names: Names) -> tuple[Pair, tuple[str, str] | None, Written] | None:
-    """A guide's direction in this pose, the two points that give it, if points do, and the direction as written."""
-    direction = read_direction(item, names.points)
-    if direction is None:
-        return None
-    through = points_of(direction)
-    if any(name not in names.placed for name in through):
-        place = Fraction(1), Fraction(0)  # the point has its own fault; look for more
-        return place, (through[0], through[1]), direction
-    try:
-        x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
-    except Misfit as misfit:
-        item.fault(misfit.what, misfit.instead)
-        return None
-    if not exact:
-        names.irrational.append(f"{item.where}: angle")
-    rational = exact and is_exact(*(names.placed[name] for name in through))
-    pair: Pair = (x, y) if rational else (float(x), float(y))
-    return pair, (through[0], through[1]) if through else None, direction
+SLIDES = Rows(Table("a sliding pair", (
+    Field("link", "the sliding link", LINK, 'the sliding link, such as link = "3"'),
+    Field("along", "the link with the guide", LINK, 'the link with the guide, such as along = "2"'),
+    Field("at", "a point of the sliding link on the guide line", POINT,
+          'a point of the sliding link on the guide line, such as at = "B"'),
+    Field("direction", "the guide's direction: a vector, an angle in degrees, or two points", GUIDE,
+          'the guide\'s direction: a vector, an angle in degrees, or two points "O A"'),
+), _slide), remedy="one slide between two links", once=lambda slide: (
+    frozenset((slide.link, slide.along)), f"slide between links {slide.link} and {slide.along}"))
+
+
+def has_slide(row: Row, otherwise: str, few: str = "") -> Slide | None:
+    """The slide that the key `slide` of a row names; a fault where there is none, unless slides have their own."""
+    item, (link, along) = row.items["slide"], row["slide"]
+    guides = {(slide.link, slide.along): slide for slide in row.names.slides}
+    if (link, along) in guides or not item.faults.none_in("slides", "links"):
+        return guides.get((link, along))
+    known = [f'slide = ["{one}", "{other}"]' for one, other in sorted(guides)]
+    instead = few + ", ".join(known) if known else otherwise
+    meant = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
+    item.fault(f"no slide of link {link} along link {along}", meant)
+    return None
 
 
 # --- drives --------------------------------------------------------------------------------------------------------
 
 
-def read_drives(item: Item, names: Names, slides: Iterable[Slide]) -> tuple[Drive, ...]:
-    """The drives, turning and sliding."""
-    guides = {(slide.link, slide.along): slide for slide in slides}
-    drives: dict[frozenset[str], Drive] = {}
-    for row in item.rows():
-        sliding = isinstance(row.value, dict) and row.value.keys() & {"slide", "speed", "acceleration"}
-        drive = _read_sliding(row, names, guides) if sliding else _read_turning(row, names)
-        if drive is None:
-            continue
-        other = drive.along if isinstance(drive, SlidingDrive) else drive.relative_to
-        if frozenset((drive.link, other)) in drives:
-            row.fault(f"a second drive between links {drive.link} and {other}", "one drive between two links")
-        drives[frozenset((drive.link, other))] = drive
-    return tuple(drives.values())
-
-
-def _read_turning(row: Item, names: Names) -> TurningDrive | None:
-    wanted = {"link": 'the driven link, such as link = "1"'}
-    fields = row.fields(("link", "omega", "rpm", "alpha", "relative_to"), wanted)
-    if fields is None:
+def _turning(row: Row) -> TurningDrive | None:
+    link, base, rpm = row["link"], row["relative_to"], row.values.get("rpm")
+    if link == base:
+        row.item.fault(f"link {link} is driven relative to itself", "another link, or no relative_to for the frame")
         return None
-    link = fields["link"].name_of("link", names.links)
-    base = fields["relative_to"].name_of("link", names.bodies) if "relative_to" in fields else FRAME
-    omega, alpha = _read_speed(row, fields, names), Fraction(0)
-    if "alpha" in fields:
-        alpha = fields["alpha"].number() or alpha
-    if link == FRAME:
-        fields["link"].fault("the frame is driven", "a moving link")
-    elif link is not None and link == base:
-        row.fault(f"link {link} is driven relative to itself", "another link, or no relative_to for the frame")
-    elif link is not None and base is not None and omega is not None:
-        return TurningDrive(link, base, omega, alpha, fields["rpm"].number() if "rpm" in fields else None)
-    return None
+    if rpm:
+        row.names.irrational.append(f"{row.items['rpm'].where}: rpm (2 pi/60)")
+    omega = row["omega"] if rpm is None else float(rpm / 30 * Fraction(pi)) if rpm else rpm
+    return TurningDrive(link, base, omega, row["alpha"], rpm)
 
 
-def _read_speed(row: Item, fields: dict[str, Item], names: Names) -> Number | None:
-    """The angular velocity, from omega or from rpm."""
-    if ("omega" in fields) == ("rpm" in fields):
-        told = "omega and rpm are both given" if "omega" in fields else "omega is missing"
-        row.fault(told, "either omega in rad/s or rpm")
-        return None
-    if "omega" in fields:
-        return fields["omega"].number()
-    turns = fields["rpm"].number()
-    if not turns:
-        return turns
-    names.irrational.append(f"{fields['rpm'].where}: rpm (2 pi/60)")
-    return float(turns / 30 * Fraction(pi))
-
-
-def _read_sliding(row: Item, names: Names, guides: dict[tuple[str, str], Slide]) -> SlidingDrive | None:
-    wanted = {
-        "slide": 'the sliding link and the guide\'s, such as slide = ["3", "2"]',
-        "speed": "a length per second, such as speed = 0.5",
-    }
-    fields = row.fields(("slide", "speed", "acceleration"), wanted)
-    if fields is None:
-        return None
-    pair = read_pair(fields["slide"], names)
-    speed, acceleration = fields["speed"].number(), Fraction(0)
-    if "acceleration" in fields:
-        acceleration = fields["acceleration"].number() or acceleration
-    if pair is None or speed is None:
-        return None
-    slide = guides.get(pair)
-    if slide is None and not row.faults.none_in("slides", "links"):
-        return None  # the slide may be among those that have faults
+def _sliding(row: Row) -> SlidingDrive | None:
+    slide = has_slide(row, "[[slides]] with it", "one of ")
     if slide is None:
-        known = [f'slide = ["{link}", "{along}"]' for link, along in sorted(guides)]
-        meant = [f'slide = ["{link}", "{along}"]' for link, along in guides if (along, link) == pair]
-        instead = "perhaps " + meant[0] if meant else "one of " + ", ".join(known) if known else "[[slides]] with it"
-        fields["slide"].fault(f"no slide of link {pair[0]} along link {pair[1]}", instead)
         return None
-    if (speed or acceleration) and not (is_exact(slide.direction) and _length_is_rational(slide.direction)):
-        names.irrational.append(f"{row.where}: actuator along a direction of irrational length")
-    return SlidingDrive(*pair, speed, acceleration)
-
-
-def read_pair(item: Item, names: Names) -> tuple[str, str] | None:
-    if not isinstance(item.value, list) or len(item.value) != 2:
-        item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
-        return None
-    one, other = (Item(name, item.where, item.faults).name_of("link", names.links) for name in item.value)
-    return None if one is None or other is None else (one, other)
+    if (row["speed"] or row["acceleration"]) and not _length_is_rational(slide.direction):
+        row.names.irrational.append(f"{row.item.where}: actuator along a direction of irrational length")
+    return SlidingDrive(slide.link, slide.along, row["speed"], row["acceleration"])
 
 
 def _length_is_rational(direction: Pair) -> bool:
     x, y = exactly(direction)
-    return root(x * x + y * y)[1]
+    return is_exact(direction) and root(x * x + y * y)[1]
+
+
+def _driven(drive: Drive) -> tuple[frozenset[str], str]:
+    """The two links that a drive is between."""
+    other = drive.along if isinstance(drive, SlidingDrive) else drive.relative_to
+    return frozenset((drive.link, other)), f"drive between links {drive.link} and {other}"
+
+
+DRIVES = Rows(Either((Table("a turning drive", (
+    Field("link", "the driven link", moving("the frame is driven"), 'the driven link, such as link = "1"'),
+    Field("omega", "its angular velocity in rad/s, counter-clockwise positive", NUMBER),
+    Field("rpm", "its angular velocity in turns a minute, instead of omega", NUMBER),
+    Field("alpha", "its angular acceleration in rad/s^2", NUMBER, default=0),
+    Field("relative_to", "the link that it turns relative to", BODY, default=FRAME),
+), _turning, either=("omega", "rpm"), remedy="either omega in rad/s or rpm"), Table("a sliding actuator", (
+    Field("slide", "the sliding link and the link with the guide", TWO_LINKS,
+          'the sliding link and the guide\'s, such as slide = ["3", "2"]'),
+    Field("speed", "the speed along the direction, in length/s", NUMBER, "a length per second, such as speed = 0.5"),
+    Field("acceleration", "the acceleration along the direction, in length/s^2", NUMBER, default=0),
+), _sliding))), remedy="one drive between two links", once=_driven)
 
 
 # --- motions and questions -----------------------------------------------------------------------------------------
 
 
-def read_motions(item: Item, names: Names) -> dict[str, Motion]:
-    """The given motions of points."""
-    held = {point for link, points in names.links.items() if link != FRAME for point in points}
-    motions: dict[str, Motion] = {}
-    for point, entry in (item.table() or {}).items():
-        fields = entry.fields(("velocity", "acceleration"), {"velocity": "two components, such as velocity = [10, 5]"})
-        if point not in names.points:
-            item.faults.unknown(entry.where, "point", point, names.points)
-        elif point in names.links.get(FRAME, ()):
-            entry.fault(f"{point} is a point of the frame, which stands still", "a point of moving links only")
-        elif point not in held and entry.faults.none_in("links"):
-            entry.fault(f"no link has the point {point}", "a point of a link")
-        if fields is not None:
-            rest: Vector | None = (Fraction(0), Fraction(0))
-            velocity = fields["velocity"].vector()
-            acceleration = fields["acceleration"].vector() if "acceleration" in fields else rest
-            if velocity is not None and acceleration is not None:
-                motions[point] = Motion(velocity, acceleration)
-    return motions
+def _moved(point: str, item: Item, names: Names) -> None:
+    """A fault where a point cannot have a given motion."""
+    if point not in names.points:
+        item.faults.unknown(item.where, "point", point, names.points)
+    elif point in names.links.get(FRAME, ()):
+        item.fault(f"{point} is a point of the frame, which stands still", "a point of moving links only")
+    elif point not in names.held and item.faults.none_in("links"):
+        item.fault(f"no link has the point {point}", "a point of a link")
 
 
-def read_question(item: Item, names: Names) -> tuple[str, ...]:
-    """The points of which something is asked; "all" are the points of all moving links."""
-    fixed = set(names.links.get(FRAME, ()))
-    movable = {point for points in names.links.values() for point in points} - fixed
-    if item.value == "all":
-        return tuple(point for point in names.points if point in movable)
-    if not isinstance(item.value, list):
-        item.fault(f"{described(item.value)} where a list of points is wanted", 'a list such as ["A", "C"], or "all"')
-        return ()
-    asked: dict[str, None] = {}
-    for entry in item.value:
-        point = Item(entry, item.where, item.faults).name_of("point", names.points)
-        if point is not None and point not in movable | fixed and item.faults.none_in("links"):
-            item.fault(f"no link has the point {point}, so it has no motion", "a point of a link")
-        elif point is not None:
-            asked[point] = None
-    return tuple(asked)
+MOTIONS = Named(Table("a motion", (
+    Field("velocity", "its velocity, in length/s", VECTOR, "two components, such as velocity = [10, 5]"),
+    Field("acceleration", "its acceleration, in length/s^2", VECTOR, default=[0, 0]),
+), lambda row: Motion(**row.values)), POINT, _moved)
 
 
-def moving_links(names: Names) -> tuple[str, ...]:
-    """The links that are not the frame."""
-    return tuple(link for link in names.links if link != FRAME)
+def _still(point: object, item: Item, names: Names) -> bool:
+    """Whether a point that is asked for has no motion, as no link has it; that is a fault."""
+    lonely = point in names.points and point not in names.held and item.faults.none_in("links")
+    if lonely:
+        item.fault(f"no link has the point {point}, so it has no motion", "a point of a link")
+    return lonely
 
 
-def read_asked(item: Item, kind: str, known: Collection[str], *tables: str) -> tuple[str, ...]:
-    """The links or slides of which something is asked; "all" are all of them."""
-    if not item.faults.none_in("links", *tables):
-        return ()  # what is meant may be among those that have faults
-    if item.value == "all":
-        return tuple(known)
-    if not isinstance(item.value, list):
-        such = {"link": '["2", "3"]', "slide": '["3 along 2"]'}[kind]
-        item.fault(f"{described(item.value)} where a list of {kind}s is wanted", f'a list such as {such}, or "all"')
-        return ()
-    asked: dict[str, None] = {}
-    for entry in item.value:
-        if entry == FRAME:
-            item.fault("the frame stands still", f"a moving {kind}")
-        elif (name := Item(entry, item.where, item.faults).name_of(kind, known)) is not None:
-            asked[name] = None
-    return tuple(asked)
+def _frame(name: object, item: Item, names: Names) -> bool:
+    """Whether it is the frame of which something is asked; that is a fault."""
+    if name == FRAME:
+        item.fault("the frame stands still", f"a moving {item.key.removesuffix('s')}")
+    return name == FRAME
+
+
+def _slides(names: Names) -> tuple[str, ...]:
+    return tuple(slide.name for slide in names.slides)
+
+
+def _pairs(names: Names) -> Iterator[str]:
+    """The joints and the slides."""
+    yield from (p for p in names.points if sum(p in points for points in names.links.values()) > 1)
+    yield from _slides(names)
+
+
+_POINTS = asked("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
+                entry=POINT, wrong=_still)
+FIND = Table("what is asked for", (
+    Field("velocity", 'the points whose velocities are asked for, or "all"', _POINTS, default=[]),
+    Field("acceleration", 'the points whose accelerations are asked for, or "all"', _POINTS, default=[]),
+    Field("links", 'the links whose angular velocities and accelerations are asked for, or "all"; without it those '
+          "of which two points are asked for",
+          asked("link", '["2", "3"]', lambda names: names.moving, entry=LINK, after=("links",), wrong=_frame)),
+    Field("slides", 'the slides (such as "3 along 2") whose velocities and accelerations are asked for, or "all"; '
+          "without it those whose point is asked for",
+          asked("slide", '["3 along 2"]', _slides, after=("links", "slides"), wrong=_frame)),
+    Field("reactions", 'the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
+          asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
+                many="joints and slides", after=("slides", "links", "points"))),
+), lambda row: Find(**row.values))

@@ -8,18 +8,17 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator
 
-from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.mechanism.units import BY_QUANTITY
 
 NUMBER = r"[-+]?\d+(?:[.,]\d+)?"
 DEGREES, TURNS, RADIANS = ("°", "deg", "degree", "degrees"), ("rpm", "min-1", "1/min"), ("rad",)
-ATOMS = (*METRES, *NEWTONS, *KILOGRAMS, *DEGREES, *TURNS, *RADIANS, "s", "Nm")
+ATOMS = (*(unit for units in BY_QUANTITY.values() for unit in units), *DEGREES, *TURNS, *RADIANS, "s", "Nm")
 UNIT = "(?:{0})(?:[²2]|\\^2)?(?:\\s*[/*·]\\s*(?:{0})(?:[²2]|\\^2)?)*".format(
     "|".join(sorted(map(re.escape, ATOMS), key=len, reverse=True)))
 WRITTEN = re.compile(rf"\s*(?P<number>{NUMBER})\s*(?P<unit>{UNIT})?\s*")
 IN_TEXT = re.compile(rf"(?:=\s*(?P<comma>[-+]?\d+,\d+)|[=\[,]\s*(?P<beside>{NUMBER}\s*(?:{UNIT})))\s*(?=[,\]}}#]|$)")
 VECTOR = re.compile(rf"\[\s*({NUMBER}),\s+({NUMBER})\s*\]")
 TEXTS = re.compile(r"\"[^\"]*\"|'[^']*'|#.*")
-TABLES = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}
 
 
 def slip(text: str, key: str = "") -> tuple[str, str] | None:
@@ -62,7 +61,7 @@ def _instead(number: str, unit: str, key: str) -> str:
         return "the angle in degrees"
     if unit in TURNS and key != "rpm":
         return f"rpm = {number} in the place of omega"
-    for quantity, table in TABLES.items():
+    for quantity, table in BY_QUANTITY.items():
         found = next((name for name in table if re.match(rf"{name}(?![A-Za-z])", unit)), "")
         if found and key != "gravity":
             return f'{number}, with {quantity} = "{found}" in [units]'

@@ -13,7 +13,8 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Program
 from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import Placement, Scene
-from graphplan.mechanism.placements import exactly, needs
+from graphplan.mechanism.numerals import exactly
+from graphplan.mechanism.placements import needs
 from graphplan.phrases import said
 
 

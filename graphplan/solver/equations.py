@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.placements import is_exact
+from graphplan.mechanism.numerals import is_exact
 from graphplan.solver.facts import Fact, Rate, Side
 from graphplan.solver.plane import less
 

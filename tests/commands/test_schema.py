@@ -17,10 +17,10 @@ import graphplan
 from graphplan.commands import main, result_schemas
 from graphplan.commands.templates import STARTS
 from graphplan.errors import SceneError
-from graphplan.mechanism import sections
 from graphplan.mechanism.items import Item
 from graphplan.mechanism.scene import load, packaged, parse
 from graphplan.mechanism.schema import scene
+from graphplan.mechanism.units import BY_QUANTITY
 
 SCENES = Path(graphplan.__file__).parent / "scenes"
 Form = tuple[str, frozenset[str], frozenset[str]]  # a section, the keys of one of its tables, and those it requires
@@ -154,7 +154,7 @@ def test_schema_and_loader_know_the_same_keys(monkeypatch: pytest.MonkeyPatch) -
 def test_schema_and_loader_know_the_same_units() -> None:
     """The units of the schema are those of the loader."""
     units = scene()["properties"]["units"]["properties"]
-    assert {name: tuple(unit["enum"]) for name, unit in units.items()} == sections._UNITS
+    assert {name: unit["enum"] for name, unit in units.items()} == {name: [*of] for name, of in BY_QUANTITY.items()}
 
 
 def test_everything_in_a_scene_is_described() -> None:

@@ -1,0 +1,300 @@
+"""Fields: what a scene may say, each key once: its name, its words, the kind of its value, its default or its remedy.
+
+The reader, the JSON Schema, the commented scenes of `graphplan new` and the reference in README all read these records.
+A kind of value says how it is read (None where that noted a fault) and how JSON Schema has it. Tables, lists of tables
+and tables by name are kinds as well, so that a whole scene is one table of fields.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Hashable
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple, Protocol
+
+from graphplan.errors import by_name
+from graphplan.mechanism.items import Item, described
+from graphplan.mechanism.model import FRAME, Pair, Slide, Units
+
+Fragment = dict[str, Any]
+
+
+@dataclass
+class Names:
+    """What a table may speak of, as far as it is read: names and places of points, links with their points, slides.
+
+    `irrational` gathers where fractions do not hold what is written.
+    """
+
+    points: Collection[str]
+    placed: dict[str, Pair] = field(default_factory=dict)
+    links: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    slides: tuple[Slide, ...] = ()
+    units: Units = field(default_factory=Units)
+    irrational: list[str] = field(default_factory=list)
+
+    @property
+    def bodies(self) -> tuple[str, ...]:
+        """The names of all links; the fixed ground may be spoken of where no link is it."""
+        return (*self.links, *([FRAME] if FRAME not in self.links else []))
+
+    @property
+    def moving(self) -> tuple[str, ...]:
+        """The links that are not the frame."""
+        return tuple(link for link in self.links if link != FRAME)
+
+    @property
+    def held(self) -> set[str]:
+        """The points of all links."""
+        return {point for points in self.links.values() for point in points}
+
+    @property
+    def movable(self) -> tuple[str, ...]:
+        """The points that links have and the frame has not."""
+        return tuple(p for p in self.points if p in self.held and p not in self.links.get(FRAME, ()))
+
+
+class Value(Protocol):
+    """A kind of value: in words, and how it is read."""
+
+    @property
+    def says(self) -> str: ...
+
+    def read(self, item: Item, names: Names) -> Any:
+        """What an item says, or None where that noted a fault."""
+
+
+class Field(NamedTuple):
+    """A key of a table, what it says, and the kind of its value.
+
+    One that must be there has what to write instead (`wanted`); one that may be left out has a default, or nothing.
+    """
+
+    name: str
+    words: str
+    kind: Value
+    wanted: str = ""
+    default: Any = None
+
+
+@dataclass(frozen=True)
+class Row:
+    """A table as it was read: its values by key, the items that they are from, and what the scene has."""
+
+    item: Item
+    items: dict[str, Item]
+    values: dict[str, Any]
+    names: Names
+
+    def __getitem__(self, key: str) -> Any:
+        return self.values[key]
+
+
+@dataclass(frozen=True)
+class Kind:
+    """A kind of value that is no table."""
+
+    says: str
+    reader: Callable[[Item, Names], Any]
+    schema: Fragment
+
+    def read(self, item: Item, names: Names) -> Any:
+        """What an item says, or None where that noted a fault."""
+        return self.reader(item, names)
+
+
+@dataclass(frozen=True)
+class Table:
+    """A table of these fields and no others, and what is made of it: by default the values by key.
+
+    Just one of the keys `either` must be there, which `remedy` says.
+    """
+
+    says: str
+    fields: tuple[Field, ...]
+    make: Callable[[Row], Any] = lambda row: row.values
+    either: tuple[str, ...] = ()
+    remedy: str = ""
+
+    @property
+    def keys(self) -> list[str]:
+        """The names of its fields."""
+        return [field.name for field in self.fields]
+
+    def read(self, item: Item, names: Names) -> Any:
+        """What is made of a table; None where it, or a value in it, has a fault."""
+        items = item.fields(self.keys, {field.name: field.wanted for field in self.fields if field.wanted})
+        if items is None:
+            return None
+        before, values = len(item.faults), {}
+        for name, _, kind, _, default in self.fields:
+            if name in items:
+                values[name] = kind.read(items[name], names)
+            elif default is not None:
+                values[name] = kind.read(item.instead(default), names)
+        if self.either and sum(key in items for key in self.either) != 1:
+            twice = f"{' and '.join(self.either)} are both given"
+            item.fault(twice if self.either[0] in items else f"{self.either[0]} is missing", self.remedy)
+        return self.make(Row(item, items, values, names)) if len(item.faults) == before else None
+
+
+@dataclass(frozen=True)
+class Either:
+    """One of several forms, which its own rule may choose.
+
+    Without a rule it is the last of which a key is there that no other form has, otherwise the first.
+    """
+
+    forms: tuple[Any, ...]
+    choose: Callable[[Item], Value | None] | None = None
+
+    @property
+    def says(self) -> str:
+        """The forms in words."""
+        return ", or ".join(form.says for form in self.forms)
+
+    def read(self, item: Item, names: Names) -> Any:
+        """What the form makes of a table."""
+        if self.choose:
+            form = self.choose(item)
+            return form.read(item, names) if form else None
+        given = {*item.value} if isinstance(item.value, dict) else set()
+        for form in reversed(self.forms[1:]):
+            if given & {*form.keys}.difference(*(other.keys for other in self.forms if other is not form)):
+                return form.read(item, names)
+        return self.forms[0].read(item, names)
+
+
+@dataclass(frozen=True)
+class Rows:
+    """An array of tables; a `single` one may stand as a table of its own.
+
+    `once` gives what of an entry may not come twice, and its name for the fault.
+    """
+
+    entry: Table | Either
+    single: bool = False
+    once: Callable[[Any], tuple[Hashable, str]] | None = None
+    remedy: str = ""
+
+    @property
+    def says(self) -> str:
+        """The entries in words."""
+        return f"{'a table or ' if self.single else ''}an array of tables: {self.entry.says}"
+
+    def read(self, item: Item, names: Names) -> tuple[Any, ...]:
+        """What is made of the tables without faults, in order."""
+        rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
+        found: list[Any] = []
+        seen = set()
+        for row in rows:
+            entry = self.entry.read(row, names)
+            if entry is None:
+                continue
+            if self.once:
+                what, told = self.once(entry)
+                if what in seen:
+                    row.fault(f"a second {told}", self.remedy)
+                seen.add(what)
+            found.append(entry)
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class Named:
+    """A table whose keys are names, of points or links of the scene or others; `check` notes what is wrong with one."""
+
+    entry: Value
+    key: Kind
+    check: Callable[[str, Item, Names], object] = lambda name, item, names: None
+    least: int = 0
+
+    @property
+    def says(self) -> str:
+        """The entries in words."""
+        return f"by {self.key.says}: {self.entry.says}"
+
+    def read(self, item: Item, names: Names) -> dict[str, Any]:
+        """What the entries say, without those that say nothing."""
+        found = {}
+        for name, entry in (item.table() or {}).items():
+            self.check(name, entry, names)
+            found[name] = self.entry.read(entry, names)
+        return {name: value for name, value in found.items() if value is not None}
+
+
+# --- kinds of values -----------------------------------------------------------------------------------------------
+
+
+NAME = r"[^\s,]+"
+TEXT = Kind("text", lambda item, names: item.text("a text", "a text in quotes"), {"type": "string"})
+NUMBER = Kind("number", lambda item, names: item.number(), {"type": "number"})
+DISTANCE = Kind("number above 0", lambda item, names: item.positive("distance"),
+                {"type": "number", "exclusiveMinimum": 0})
+AMOUNT = Kind("number from 0", lambda item, names: item.amount(), {"type": "number", "minimum": 0})
+VECTOR = Kind("two numbers", lambda item, names: item.vector(),
+              {"type": "array", "items": NUMBER.schema, "minItems": 2, "maxItems": 2})
+POINT = Kind("point", lambda item, names: item.name_of("point", names.points),
+             {"type": "string", "pattern": f"^{NAME}$"})
+LINK = Kind("link", lambda item, names: item.name_of("link", names.links), {"type": "string", "pattern": r"\S"})
+BODY = Kind("link", lambda item, names: item.name_of("link", names.bodies), LINK.schema)
+
+
+def _two_links(item: Item, names: Names) -> tuple[str | None, ...] | None:
+    if not isinstance(item.value, list) or len(item.value) != 2:
+        item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
+        return None
+    return tuple(LINK.read(item.instead(name), names) for name in item.value)
+
+
+TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema, "minItems": 2, "maxItems": 2})
+
+
+def choice(*words: str) -> Kind:
+    """One of these words."""
+    return Kind(" ".join(words), lambda item, names: item.choice(words), {"enum": [*words]})
+
+
+def moving(fault: str) -> Kind:
+    """A link that is not the frame; of that the `fault` is told."""
+    def read(item: Item, names: Names) -> str | None:
+        link = item.name_of("link", names.links)
+        if link == FRAME:
+            item.fault(fault, "a moving link")
+        return link
+
+    return Kind("moving link", read, LINK.schema)
+
+
+def asked(noun: str, such: str, known: Callable[[Names], Collection[str]],
+          every: Callable[[Names], Any] | None = None, *, many: str = "", after: tuple[str, ...] = (),
+          entry: Kind = TEXT, wrong: Callable[[object, Item, Names], bool] = lambda name, item, names: False) -> Kind:
+    """A list of what results are asked of, of those `known` that are not `wrong`; or "all", which means `every` one.
+
+    Where the tables `after` have faults nothing is said of names: what is meant may be among those.
+    """
+    many = many or f"{noun}s"
+
+    def read(item: Item, names: Names) -> Any:
+        if not item.faults.none_in(*after):
+            return ()
+        if item.value == "all":
+            return (every or known)(names)
+        if not isinstance(item.value, list):
+            item.fault(f"{described(item.value)} where a list of {many} is wanted", f'a list such as {such}, or "all"')
+            return None
+        parts = [item.instead(value) for value in item.value]
+        found = [part.name_of(noun, known(names)) for part in parts if not wrong(part.value, item, names)]
+        return tuple(dict.fromkeys(name for name in found if name is not None))
+
+    return Kind(f'list of {many}, or "all"', read,
+                {"anyOf": [{"const": "all"}, {"type": "array", "items": entry.schema}]})
+
+
+def on_link(row: Row, link: str, what: str = "link") -> bool:
+    """Whether the point of a row is a point of this link; a fault where it is not."""
+    own = row.names.links.get(link, ())
+    key = "at" if "at" in row.items else "centre"
+    if own and row[key] not in own:
+        instead = "one of " + ", ".join(sorted(own, key=by_name))
+        row.items[key].fault(f"{row[key]} is no point of {what} {link}", instead)
+    return row[key] in own

@@ -26,7 +26,7 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import WEIGHED, Construction
-from graphplan.methods.panels import spoken
+from graphplan.methods.panels import JointForce, Lever
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import ADVANCE
@@ -172,17 +172,17 @@ def test_words_do_not_run_together() -> None:
 
 @pytest.mark.parametrize(("kind", "of", "told"), [
     ("slide velocity", "3 along frame", "3 auf Gestell"), ("reaction", "frame at O", "Gestell in O"),
-    ("slide reaction", "3 along 2", "3 auf 2"), ("velocity", "A", "A"), ("omega", "3", "3"),
+    ("slide reaction", "3 along frame", "3 auf Gestell"), ("velocity", "A", "A"), ("omega", "3", "3"),
 ])
 def test_results_are_named_in_the_language(kind: str, of: str, told: str) -> None:
     """The names of results come out in the language: slides, and reactions at joints."""
-    assert tongue("de")(thing_named(kind, of)) == told
+    assert tongue("de")(thing_named(gp.load("slider-crank"), kind, of)) == told
 
 
 def test_levers_are_named_in_the_language() -> None:
     """A lever is spoken of by what it serves: a balance by number, or a reaction at a joint."""
-    assert tongue("de")(spoken("lever 2")) == "Hebelplan 2"
-    assert tongue("de")(spoken("lever frame at B, x")) == "Hebelplan Gestell in B, x"
+    assert tongue("de")(Lever.of(2).words) == "Hebelplan 2"
+    assert tongue("de")(Lever.of(JointForce("B", "frame"), "x").words) == "Hebelplan Gestell in B, x"
 
 
 @pytest.mark.parametrize("code", OTHERS)

@@ -12,7 +12,7 @@ from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.methods.results import kind_named, thing_named
+from graphplan.methods.results import kind_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.compose import Composer
 from graphplan.sheet.layout.composition import Composition
@@ -95,10 +95,11 @@ class Drafted:
 
     def lines(self) -> list[Said]:
         """Cost and errors in words, a line each."""
-        off = [joined((kind_named(kind), joined(
-            joined((thing_named(kind, of), f"±{deviation}"), " ") for of, deviation in found.items())), ": ")
-               for kind, found in self.deviations.results.items()]
-        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *off]
+        off: dict[str, list[Said]] = {}
+        for result in self.results:
+            off.setdefault(result.kind, []).append(joined((result.thing, f"±{result.deviation}"), " "))
+        told = [joined((kind_named(kind), joined(found)), ": ") for kind, found in off.items()]
+        return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
 
     @property
     def data(self) -> dict[str, Any]:

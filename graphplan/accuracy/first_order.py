@@ -38,6 +38,7 @@ class Result:
 
     kind: str
     of: str
+    thing: str
     deviation: Deviation
     relative: float | None
     shares: tuple[float, ...]
@@ -48,8 +49,7 @@ class Result:
         kind = kind_named(self.kind)
         if self.kind in RATES:
             return said("{0} of link {1}", kind, self.of)
-        thing = thing_named(self.kind, self.of)
-        return joined((kind, thing), " ") if thing.isdigit() else said("{0} of {1}", kind, thing)
+        return joined((kind, self.of), " ") if self.of.isdigit() else said("{0} of {1}", kind, self.thing)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""
@@ -88,8 +88,9 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
         deviation = Deviation(_root(squares), _root(squares) / of_mm if of_mm else None)
         shares = np.bincount(owner, squares, len(hand.slips))
-        found.append(Result(reading.kind, reading.of, deviation, _beside(drawing.scene, reading.kind, deviation.value,
-                                                                        largest), tuple(shares.tolist())))
+        thing = thing_named(drawing.scene, reading.kind, reading.of)
+        beside = _beside(drawing.scene, reading.kind, deviation.value, largest)
+        found.append(Result(reading.kind, reading.of, thing, deviation, beside, tuple(shares.tolist())))
     return tuple(found)
 
 

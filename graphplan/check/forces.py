@@ -10,7 +10,8 @@ from typing import Any
 
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.units import metre
-from graphplan.methods.forces.groups import pair_name, pairs
+from graphplan.methods.forces.groups import pairs
+from graphplan.methods.panels import JointForce
 from graphplan.solver.efficiency import efficiency
 from graphplan.solver.friction import Frictional, with_friction
 from graphplan.solver.rates import Rates
@@ -35,7 +36,7 @@ class Held:
     def truth(self) -> dict[str, dict[str, Any]]:
         """What the solver says of every force that the construction gives, by the same kinds and names."""
         arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
-        joints = {pair_name(p, link): force for (p, link), force in self.reactions.joints.items()}
+        joints = {JointForce(p, link).name: force for (p, link), force in self.reactions.joints.items()}
         slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
         balances = self.named(self.reactions.balances)
         held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
@@ -51,7 +52,7 @@ class Held:
     def asked(self) -> list[tuple[str, str, str]]:
         """The pairs whose reactions are found: joint, link, and the link that carries the pin."""
         found = self.results.get("reaction", {})
-        return [pair for pair in pairs(self.scene) if pair_name(*pair[:2]) in found]
+        return [pair for pair in pairs(self.scene) if JointForce(*pair[:2]).name in found]
 
     @property
     def rubbed(self) -> dict[str, Any]:

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 
 from graphplan.kernel.program import Step
 from graphplan.methods.construction import Construction
+from graphplan.methods.panels import N_PLAN
 
 Line = tuple[float, float, float]
 
@@ -39,7 +40,7 @@ class Shortcuts:
 
 def shortcuts(drawing: Construction) -> list[Shortcuts]:
     """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
-    return [found for step in drawing.program.steps if step.op.name == "carry" and step.panel == "N-plan"
+    return [found for step in drawing.program.steps if step.op.name == "carry" and step.panel == N_PLAN
             for found in _at(drawing, step)]
 
 

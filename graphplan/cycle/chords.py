@@ -18,7 +18,7 @@ from fractions import Fraction
 from itertools import pairwise
 from typing import Generic, NamedTuple, TypeVar
 
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, Panel
 
 T = TypeVar("T")
 
@@ -42,7 +42,7 @@ class Axes:
     pole: Mark
 
 
-def axes(board: Board, panel: str, letter: str, distance: Fraction) -> Axes:
+def axes(board: Board, panel: Panel, letter: str, distance: Fraction) -> Axes:
     """The axes of the diagram of `letter`, its pole at the given distance left of the origin."""
     with board.on(panel=panel):
         O = board.begin(plan=panel, number=1, name=f"O_{letter}")

@@ -19,9 +19,9 @@ from graphplan.cycle.diagram_scales import DiagramScales
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Program
+from graphplan.kernel.program import Board, Mark, Panel, Program
 
-PANELS = dict(zip(QUANTITIES, ("displacement diagram", "velocity diagram", "acceleration diagram"), strict=True))
+PANELS = {quantity: Panel(f"{quantity} diagram") for quantity in QUANTITIES}
 CHORDS, TANGENTS, INTEGRATED = "by chords", "by tangents", "integrated"
 
 Spot = tuple[float, float]

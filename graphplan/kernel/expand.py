@@ -20,7 +20,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Board, Mark, Program, Step
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step
 from graphplan.phrases import Said, joined, phrase, said
 
 SHARP = math.sin(math.radians(15))
@@ -93,7 +93,7 @@ class Expander:
     def __post_init__(self) -> None:
         self.board = Board()
         self.values: list[Any] = []
-        self.panel = ""
+        self.panel = Panel()
         self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 

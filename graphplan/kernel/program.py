@@ -5,12 +5,12 @@ A mark is a name for a step's result and nothing more: it has no coordinates, so
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NoReturn
+from typing import Any, NoReturn, Self
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Movement, Primitive
 from graphplan.phrases import Said, arranged, phrase, said, sentence
@@ -20,6 +20,41 @@ NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phras
 # What stands in a sentence for a choice that a step is given.
 CHOICES: dict[str, Said] = {str(word): word for word in (
     said("on"), said("back"), said("left"), said("right"), said("parallel"), said("perpendicular"))}
+
+
+class Panel(str):
+    """A plan that steps are drawn on: its public name, which knows how it is spoken of and what stands over it.
+
+    `whole` is the plan that it is a part of: itself but where a plan is begun at several places. What it is made of is
+    kept beside the name; nobody reads it out of the name.
+    """
+
+    words: Said
+    heading: Said
+    whole: Panel
+
+    def __new__(cls, name: str = "", words: Said | None = None, heading: Said | None = None) -> Self:
+        self = super().__new__(cls, name)
+        self.words = words or arranged("{0}", name)
+        self.heading, self.whole = heading or arranged("{0:capital}", self.words), self
+        return self
+
+    @property
+    def twin(self) -> Panel:
+        """The plan at whose scale it is drawn, too, if there are such."""
+        return self
+
+    def caption(self, kinds: Collection[str]) -> Said:
+        """What stands over it; `kinds` are the kinds of vector drawn on it."""
+        return self.heading
+
+    def part(self, number: int) -> Panel:
+        """The part of it that is begun as this one."""
+        if number == 1:
+            return self
+        part = Panel(f"{self}, part {number}", said("{0}, part {1}", self.words, number))
+        part.whole = self
+        return part
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,7 +70,7 @@ class Step:
     op: Primitive
     args: tuple[int, ...]
     params: dict[str, Any]
-    panel: str
+    panel: Panel
     why: str = ""
     links: tuple[str, ...] = ()
     names: dict[str, str] = field(default_factory=dict)
@@ -88,10 +123,10 @@ class Board:
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
-        self._context: dict[str, Any] = {"panel": "", "links": ()}
+        self._context: dict[str, Any] = {"panel": Panel(), "links": ()}
 
     @contextmanager
-    def on(self, panel: str | None = None, links: tuple[str, ...] | None = None) -> Iterator[None]:
+    def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None) -> Iterator[None]:
         """Draw the steps inside on this plan, speaking of these links."""
         before = self._context
         self._context = {

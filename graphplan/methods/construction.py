@@ -15,10 +15,11 @@ from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import FRAME, Number, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.motion.time_scale import Tempo
+from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, Lever
 from graphplan.methods.results import (
     ACCELERATION,
     FORCE_READERS,
@@ -48,7 +49,7 @@ class Arrow(NamedTuple):
     kind: str
     point: str
     label: str
-    panel: str
+    panel: Panel
     start: int
     end: int
 
@@ -91,11 +92,12 @@ class Construction:
 
     @cached_property
     def _expander(self) -> Expander:
-        windows = {panel: self._window(panel) for panel in {step.panel for step in self.program.steps}}
+        panels = {step.panel for step in self.program.steps}
+        windows: dict[str, Window] = {panel: self._window(panel) for panel in panels}
         keep = STRICT if self.strict else BY_SET_SQUARE
         return Expander(self.program, self.truth, keep, windows, self.prefer)
 
-    def _window(self, panel: str) -> Window:
+    def _window(self, panel: Panel) -> Window:
         """The sheet around a panel: about as much again as the points that no form has a choice about."""
         points = [self.truth[s.index] for s in self.program.steps if s.panel == panel and s.op.gives == POINT]
         xs, ys = zip(*points, strict=True)
@@ -142,7 +144,7 @@ class Construction:
         letters = self._letters()
         for step in self.drawn.steps:
             op, _, form = step.form.partition(": ")
-            if op == "carry" and (step.panel in ("N-plan", "acceleration plan")) == (kind == ACCELERATION):
+            if op == "carry" and (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == ACCELERATION):
                 if form != "auxiliary point":
                     yield form_named(form.partition(" on ")[0])
                 elif letters:
@@ -150,12 +152,12 @@ class Construction:
 
     def _force_method(self) -> dict[str, list[str]]:
         """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
-        plans = {step.panel for step in self.drawn.steps if step.panel.startswith("force plan")}
+        plans = {step.panel for step in self.drawn.steps if isinstance(step.panel, ForcePlan)}
         steps = [step for step in self.program.steps if step.panel in plans or step.op.name == "towards"]
         names: list[str] = [said("force polygons")] if plans else []
         names += [said("auxiliary points")] if any(step.op.name in ("towards", "weigh") for step in steps) else []
         names += [said("false position")] if any(step.op.name == "false_position" for step in steps) else []
-        names += [said("Zhukovsky's lever")] if any(s.panel.startswith("lever") for s in self.drawn.steps) else []
+        names += [said("Zhukovsky's lever")] if any(isinstance(s.panel, Lever) for s in self.drawn.steps) else []
         return {"force": names} if names else {}
 
     def _letters(self) -> list[str]:

@@ -1,101 +1,104 @@
-"""The plans by name: how the panels of a construction are spoken of, and what stands over them."""
+"""The plans of a construction, and how links and pairs are spoken of."""
 
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Sequence
+from dataclasses import dataclass
 
+from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import FRAME, Scene, Slide
-from graphplan.phrases import Said, arranged, joined, phrase, said
-
-MECHANISM, LEVER, FRICTION, FORCE_PLAN = "mechanism", "lever", " with friction", "force plan "
-PLANS = {
-    MECHANISM: phrase("mechanism plan"), "N-plan": phrase("N-plan"), "velocity plan": phrase("velocity plan"),
-    "acceleration plan": phrase("acceleration plan"), LEVER: phrase("lever"),
-}  # fmt: skip
+from graphplan.phrases import Said, arranged, joined, said
 
 
-def spoken(panel: str) -> Said:
-    """How a plan is spoken of among the steps."""
-    if panel.startswith(FORCE_PLAN):
-        number, links = _round(panel), listed(_links(panel))
-        if number > "1":
-            return said("force plan with friction of {0}, round {1}", links, number)
-        return phrase("force plan with friction of {0}" if number else "force plan of {0}")(links)
-    if panel.startswith(f"{LEVER} "):
-        return said("lever {0}", _whose(panel.removeprefix(f"{LEVER} ")))
-    name, _, part = panel.partition(", part ")
-    plan = PLANS[name]() if name in PLANS else arranged("{0}", name)
-    return said("{0}, part {1}", plan, part) if part else plan
+class _MechanismPlan(Panel):
+    """The mechanism itself; where only compasses and straightedge draw, all plans lie on it."""
+
+    def caption(self, kinds: Collection[str]) -> Said:
+        if not {"part", "reaction", "balance"}.isdisjoint(kinds):
+            return said("Mechanism, velocities, accelerations and forces in one plane")
+        match "velocity" in kinds, "acceleration" in kinds, "load" in kinds:
+            case True, True, _:
+                return said("Mechanism, velocities and accelerations in one plane")
+            case True, False, True:
+                return said("Mechanism plan with orthogonal velocities and loads")
+            case True, False, False:
+                return said("Mechanism plan with orthogonal velocities")
+            case False, _, True:
+                return said("Mechanism plan with loads")
+        return said("Mechanism plan")
 
 
-def caption(panel: str, kinds: Collection[str]) -> Said:
-    """What a plan is; `kinds` are the kinds of vector drawn on it."""
-    if panel == MECHANISM:
-        return _over_the_mechanism(kinds)
-    if panel == "N-plan":
-        return said("N-plan: relative normal accelerations")
-    if panel.startswith(FORCE_PLAN):
-        number, links = _round(panel), listed(_links(panel))
-        if number > "1":
-            return said("Force plan with friction, round {1}: {0}", links, number)
-        return phrase("Force plan with friction: {0}" if number else "Force plan: {0}")(links)
-    if panel == LEVER:
-        return arranged("{0:capital}", said("Zhukovsky's lever"))
-    if panel.startswith(f"{LEVER} "):
-        return _served(panel.removeprefix(f"{LEVER} "))
-    return arranged("{0:capital}", spoken(panel))
+MECHANISM = _MechanismPlan("mechanism", said("mechanism plan"))
+N_PLAN = Panel("N-plan", said("N-plan"), said("N-plan: relative normal accelerations"))
+VELOCITY_PLAN = Panel("velocity plan", said("velocity plan"))
+ACCELERATION_PLAN = Panel("acceleration plan", said("acceleration plan"))
 
 
-def _over_the_mechanism(kinds: Collection[str]) -> Said:
-    """What the mechanism's plan shows; where only compasses and straightedge draw, all plans lie on it."""
-    if not {"part", "reaction", "balance"}.isdisjoint(kinds):
-        return said("Mechanism, velocities, accelerations and forces in one plane")
-    match "velocity" in kinds, "acceleration" in kinds, "load" in kinds:
-        case True, True, _:
-            return said("Mechanism, velocities and accelerations in one plane")
-        case True, False, True:
-            return said("Mechanism plan with orthogonal velocities and loads")
-        case True, False, False:
-            return said("Mechanism plan with orthogonal velocities")
-        case False, _, True:
-            return said("Mechanism plan with loads")
-    return said("Mechanism plan")
+class ForcePlan(Panel):
+    """The force polygon of a group of `links`; `number` is that of its round of friction, 0 without."""
+
+    links: tuple[str, ...]
+    number: int
+
+    @classmethod
+    def of(cls, links: tuple[str, ...], number: int = 0) -> ForcePlan:
+        named, who = "force plan " + ", ".join(links), listed(links)
+        if number > 1:
+            plan = cls(f"{named} with friction, round {number}",
+                       said("force plan with friction of {0}, round {1}", who, number),
+                       said("Force plan with friction, round {1}: {0}", who, number))
+        elif number:
+            plan = cls(f"{named} with friction", said("force plan with friction of {0}", who),
+                       said("Force plan with friction: {0}", who))
+        else:
+            plan = cls(named, said("force plan of {0}", who), said("Force plan: {0}", who))
+        plan.links, plan.number = links, number
+        return plan
+
+    @staticmethod
+    def names(written: str) -> bool:
+        """Whether what a scene writes is meant to name a force plan."""
+        return written.startswith("force plan ")
+
+    @property
+    def twin(self) -> Panel:
+        """The plan of these links without friction: the two are compared."""
+        return ForcePlan.of(self.links)
 
 
-def _whose(what: str) -> Said:
-    """What a lever serves, in short: a balance by its number, or a reaction, as `2 at B, x` or `3 along 2, M`."""
-    site, _, part = what.rpartition(", ")
-    whose = sliding if " along " in site else acting
-    return joined((whose(site), part)) if site else arranged("{0}", what)
+@dataclass(frozen=True)
+class JointForce:
+    """The force at a joint on one of its links, from the others there."""
+
+    point: str
+    link: str
+
+    @property
+    def name(self) -> str:
+        """Its name in results, such as `2 at B`."""
+        return f"{self.link} at {self.point}"
+
+    @property
+    def words(self) -> Said:
+        """The link and the joint."""
+        return joined((_bare(self.link), said("at {0}", self.point)), " ")
 
 
-def _served(what: str) -> Said:
-    """Which lever of several: that of a balance, by number, or of a reaction, such as `2 at B, x`."""
-    if " at " not in what:
-        return said("Zhukovsky's lever {0}", _whose(what))
-    link, _, place = what.partition(" at ")
-    point, _, axis = place.rpartition(", ")
-    return said("Zhukovsky's lever: the force on {0} at {1}, along {2}", link_named(link), point, axis)
+class Lever(Panel):
+    """A lever of Zhukovsky's: the only one, or that of a balance by its number, or of one part of a reaction."""
 
-
-def rubbing(number: int) -> str:
-    """What a force plan's name ends with in a round of friction; the first is but named so."""
-    return "" if not number else FRICTION if number == 1 else f"{FRICTION}, round {number}"
-
-
-def smooth(panel: str) -> str:
-    """The plan without friction of the same links."""
-    return panel.partition(FRICTION)[0]
-
-
-def _links(panel: str) -> list[str]:
-    return smooth(panel).removeprefix(FORCE_PLAN).split(", ")
-
-
-def _round(panel: str) -> str:
-    """Which round of friction a force plan is of."""
-    _, rubs, number = panel.partition(FRICTION)
-    return number.removeprefix(", round ") or ("1" if rubs else "")
+    @classmethod
+    def of(cls, what: JointForce | Slide | int | None = None, part: str = "") -> Lever:
+        if what is None:
+            return cls("lever", said("lever"), arranged("{0:capital}", said("Zhukovsky's lever")))
+        if isinstance(what, int):
+            return cls(f"lever {what}", said("lever {0}", what), said("Zhukovsky's lever {0}", what))
+        name = f"lever {what.name}, {part}"
+        if isinstance(what, Slide):
+            whose = joined((slide_named(what), part))
+            return cls(name, said("lever {0}", whose), said("Zhukovsky's lever {0}", whose))
+        force = said("Zhukovsky's lever: the force on {0} at {1}, along {2}", link_named(what.link), what.point, part)
+        return cls(name, said("lever {0}", joined((what.words, part))), force)
 
 
 def listed(links: Sequence[str]) -> Said:
@@ -116,34 +119,25 @@ def link_named(link: str) -> Said:
 
 def slide_named(slide: Slide) -> Said:
     """A slide by its links: 3 along 2, or 3 along the frame."""
-    return sliding(slide.name)
+    return said("{0} along {1}", _bare(slide.link), _bare(slide.along))
 
 
-def sliding(name: str) -> Said:
-    """A slide by its name in results, such as `3 along frame`."""
-    link, _, guide = name.partition(" along ")
-    return said("{0} along {1}", _bare(link), _bare(guide))
-
-
-def acting(name: str) -> Said:
-    """The link and the joint of a reaction by its name in results, such as `2 at B`."""
-    link, _, point = name.rpartition(" at ")
-    return joined((_bare(link), said("at {0}", point)), " ")
+def reactions_named(scene: Scene) -> dict[str, Said]:
+    """In words, by their names in results, the force on every link of every joint, and every slide."""
+    forces = (JointForce(point, link) for point in scene.joints for link in scene.links_of[point])
+    return {force.name: force.words for force in forces} | {
+        slide.name: slide_named(slide) for slide in scene.slides}
 
 
 def redundancies(scene: Scene) -> Iterator[Said]:
     """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
+    named = reactions_named(scene)
     for pair in scene.redundant_pairs:
         yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
-                   _named(pair))
+                   named[pair])
     if scene.loads and scene.indeterminate_pairs:
         yield said("statically indeterminate, so not drawn: reactions {0}",
-                   joined(map(_named, scene.indeterminate_pairs)))
-
-
-def _named(pair: str) -> Said:
-    """A pair by its name in results."""
-    return sliding(pair) if " along " in pair else acting(pair)
+                   joined(named[pair] for pair in scene.indeterminate_pairs))
 
 
 def _bare(link: str) -> str:

@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain
 from graphplan.mechanism.model import Number, Pair, Scene
-from graphplan.methods.panels import acting, sliding
+from graphplan.methods.panels import reactions_named
 from graphplan.phrases import Said, phrase
 
 VELOCITY, ACCELERATION = "velocity", "acceleration"
@@ -43,6 +43,7 @@ class Vectors(dict[str, Any]):
         raise KeyError(name)
 
 
+PAIRS = frozenset({"slide velocity", "slide acceleration", "slide reaction", "slide moment", "slide arm", "reaction"})
 KINDS = {
     "velocity": phrase("velocity"), "acceleration": phrase("acceleration"), "omega": phrase("omega"),
     "alpha": phrase("alpha"), "slide velocity": phrase("slide velocity"), "force": phrase("force"),
@@ -60,11 +61,9 @@ def kind_named(kind: str) -> Said:
     return KINDS[kind]()
 
 
-def thing_named(kind: str, of: str) -> str:
+def thing_named(scene: Scene, kind: str, of: str) -> str:
     """What a reading of a kind is of, in words: a slide, a link at a joint, else a point or link as it is."""
-    if kind.startswith("slide "):
-        return sliding(of)
-    return acting(of) if kind == "reaction" else of
+    return reactions_named(scene)[of] if kind in PAIRS else of
 
 
 def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:

@@ -27,7 +27,6 @@ from graphplan.marking.judge.findings import (
 from graphplan.marking.judge.remarks import figures, written
 from graphplan.marking.judge.score import GROUPS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
-from graphplan.methods.panels import spoken
 from graphplan.output.svg import svg
 from graphplan.phrases import Said, arranged, said
 from graphplan.sheet.layout.scales import digits
@@ -147,7 +146,7 @@ class _Report:
         sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
             Cell(self.set(called(drawn, verdict.step).short), FIGURE),
-            Cell(self.say(spoken(plans.plan_of_step[verdict.step]))),
+            Cell(self.say(plans.plan_of_step[verdict.step].words)),
             Cell(self.set(drawn.sentence(verdict.step))),
             Cell(self.say(STATES[verdict.state]()), STATE),
             *(Cell(size, FIGURE) for size in sizes),

@@ -19,7 +19,6 @@ from xml.etree.ElementTree import tostring
 
 from svgwrite.container import SVG
 
-from graphplan.methods.panels import spoken
 from graphplan.output.svg import MAKE, Element, group, groups
 from graphplan.phrases import arranged, said
 from graphplan.sheet.cycle_frames import Round, Still
@@ -91,7 +90,7 @@ def _entries(found: Round) -> Iterator[str]:
     """The steps as items of an ordered list."""
     drawn, panel = found.drawing.drawn, ""
     for step in drawn.steps[drawn.givens:]:
-        plan = _say(found, arranged("{0:capital}", spoken(step.panel)))
+        plan = _say(found, arranged("{0:capital}", step.panel.words))
         head = f'<span class="plan">{escape(plan)}</span>' if step.panel != panel else ""
         panel = step.panel
         yield f'<li>{head}<button type="button">{_set(found, drawn.sentence(step.index))}</button></li>'

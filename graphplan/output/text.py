@@ -8,7 +8,6 @@ from typing import Any
 
 from graphplan.kernel.lemoine import counts
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import spoken
 from graphplan.methods.positions import layout
 from graphplan.phrases import Said, joined, said, unit
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -27,7 +26,7 @@ def protocol(drawing: Construction, structure: Iterable[str] = (), drafting: Ite
     for step in drawn.steps[drawn.givens :]:
         if step.panel != panel:
             panel = step.panel
-            lines.append(say(said("On the {0}", spoken(panel))) + ":")
+            lines.append(say(said("On the {0}", step.panel.words)) + ":")
         lines += _numbered(drawn.number(step.index), say(drawn.told(step.index)))
     lines += ["", say(said("Cost: {0}.", counts(drawn).told))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]

@@ -12,8 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.errors import Refused
-from graphplan.kernel.program import Step
-from graphplan.methods.panels import spoken
+from graphplan.kernel.program import Panel, Step
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import STRIP, Page
@@ -71,7 +70,7 @@ class Strip:
                 group = []
         return [*groups, tuple(group)] if group else groups
 
-    def _home(self, step: Step) -> str:
+    def _home(self, step: Step) -> Panel:
         return self.plans.plan_of_step[step.index]
 
     @cached_property
@@ -79,7 +78,7 @@ class Strip:
         """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
         for wide in WIDTHS:
             frame = Rect(0.0, 0.0, wide, ASPECT * wide)
-            found = {panel: self._plan(panel, frame) for panel in self.plans.panels}
+            found: dict[str, Plan] = {panel: self._plan(panel, frame) for panel in self.plans.panels}
             if not any(plan.crowded for plan in found.values()):
                 break
         return found
@@ -146,7 +145,7 @@ class Strip:
         (wide, high), group = self.size, self.groups[place]
         first, last = group[0].index, group[-1].index
         x, y = corner[0], corner[1] - CAPTION
-        head = arranged("{0}. {1:capital}", place + 1, spoken(self._home(group[-1])))
+        head = arranged("{0}. {1:capital}", place + 1, self._home(group[-1]).words)
         yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.plans.tongue(head)), SIZE, bold=True)
         yield Polygon(pens.BORDER, "paper", None, Rect(x, y - high, x + wide, y).corners)
         for item in self.pictured[self._home(group[-1])].items:

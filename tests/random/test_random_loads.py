@@ -19,7 +19,8 @@ from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct
-from graphplan.methods.forces.groups import pair_name, pairs
+from graphplan.methods.forces.groups import pairs
+from graphplan.methods.panels import JointForce
 from graphplan.methods.styles import INERTIA
 from graphplan.solver import Reactions, reactions, with_friction
 
@@ -40,7 +41,7 @@ def truth(scene: Scene) -> Reactions | None:
 def forces(found: Reactions) -> dict[str, object]:
     """The solver's forces by the names of the readings."""
     scene = found.equations.scene
-    joints = {pair_name(point, link): found.joints[point, link] for point, link, _ in pairs(scene)}
+    joints = {JointForce(point, link).name: found.joints[point, link] for point, link, _ in pairs(scene)}
     slides = {name: force for name, (force, _) in found.slides.items()}
     moments = {f"moment {name}": moment for name, (_, moment) in found.slides.items()}
     return joints | slides | moments | named(found)

@@ -8,7 +8,7 @@ import pytest
 from sheets import drawing_of
 
 import graphplan as gp
-from graphplan.methods.panels import caption
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.pages import packed, paged
 from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
@@ -65,7 +65,7 @@ def test_plans_that_lie_as_one_say_so() -> None:
     """Over a strict drawing stands that mechanism, velocities and accelerations have one plane; forces too."""
     plans = Plans(gp.construct(gp.load("four-bar"), strict=True))
     assert plans.panels == ["mechanism"]
-    told = caption("mechanism", plans.kinds("mechanism"))
+    told = MECHANISM.caption(plans.kinds(MECHANISM))
     assert told == "Mechanism, velocities and accelerations in one plane"
     loaded = {"acceleration", "load", "part", "reaction"}
-    assert caption("mechanism", loaded) == "Mechanism, velocities, accelerations and forces in one plane"
+    assert MECHANISM.caption(loaded) == "Mechanism, velocities, accelerations and forces in one plane"

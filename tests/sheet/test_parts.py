@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import pickle
 from fractions import Fraction
 
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from graphplan.methods.panels import caption, listed, spoken
+from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Slide
+from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, Lever, listed
 from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -89,21 +92,44 @@ def test_names_run_together_are_told_apart() -> None:
 
 
 @pytest.mark.parametrize(("panel", "kinds", "text"), [
-    ("mechanism", set(), "Mechanism plan"),
-    ("mechanism", {"load"}, "Mechanism plan with loads"),
-    ("mechanism", {"load", "velocity"}, "Mechanism plan with orthogonal velocities and loads"),
-    ("velocity plan", {"velocity"}, "Velocity plan"),
-    ("force plan 1", {"balance"}, "Force plan: link 1"),
-    ("force plan 2, 3", {"load"}, "Force plan: links 2 and 3"),
-    ("force plan 2, 3 with friction", {"load"}, "Force plan with friction: links 2 and 3"),
-    ("lever", {"load"}, "Zhukovsky's lever"),
-    ("lever 2", {"load"}, "Zhukovsky's lever 2"),
-    ("lever 2 at B, x", {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
-    ("lever frame at O, y", {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
+    (MECHANISM, set(), "Mechanism plan"),
+    (MECHANISM, {"load"}, "Mechanism plan with loads"),
+    (MECHANISM, {"load", "velocity"}, "Mechanism plan with orthogonal velocities and loads"),
+    (VELOCITY_PLAN, {"velocity"}, "Velocity plan"),
+    (ForcePlan.of(("1",)), {"balance"}, "Force plan: link 1"),
+    (ForcePlan.of(("2", "3")), {"load"}, "Force plan: links 2 and 3"),
+    (ForcePlan.of(("2", "3"), 1), {"load"}, "Force plan with friction: links 2 and 3"),
+    (Lever.of(), {"load"}, "Zhukovsky's lever"),
+    (Lever.of(2), {"load"}, "Zhukovsky's lever 2"),
+    (Lever.of(JointForce("B", "2"), "x"), {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
+    (Lever.of(JointForce("O", "frame"), "y"), {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
 ])  # fmt: skip
-def test_a_caption_says_what_its_plan_is(panel: str, kinds: set[str], text: str) -> None:
+def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: str) -> None:
     """Each plan is named as a textbook would, with its links, and the mechanism's with what is drawn on it."""
-    assert caption(panel, kinds) == text
+    assert panel.caption(kinds) == text
+
+
+@pytest.mark.parametrize(("panel", "name"), [
+    (MECHANISM, "mechanism"), (N_PLAN.part(2), "N-plan, part 2"), (ForcePlan.of(("2", "3")), "force plan 2, 3"),
+    (ForcePlan.of(("2", "3"), 1), "force plan 2, 3 with friction"),
+    (ForcePlan.of(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (Lever.of(), "lever"),
+    (Lever.of(2), "lever 2"), (Lever.of(JointForce("O", "frame"), "y"), "lever frame at O, y"),
+    (Lever.of(Slide("3", "frame", "B", (1, 0)), "M"), "lever 3 along frame, M"),
+])  # fmt: skip
+def test_a_plan_has_one_public_name(panel: Panel, name: str) -> None:
+    """A plan is named in files and options as ever, and stays what it is on its way to another process."""
+    assert panel == name
+    again = pickle.loads(pickle.dumps(panel))
+    assert (again, type(again), again.words, again.caption(())) == (panel, type(panel), panel.words, panel.caption(()))
+    assert (again.whole, again.twin) == (panel.whole, panel.twin)
+
+
+def test_links_with_the_words_of_names_are_no_riddle() -> None:
+    """What a link is called changes nothing of what its plans are: nothing is read out of a name."""
+    odd = "2 with friction, round 3"
+    assert ForcePlan.of((odd,)).words == f"force plan of link {odd}"
+    assert ForcePlan.of((odd,), 1).twin == ForcePlan.of((odd,))
+    assert Lever.of(JointForce("B", "4 along 3"), "x").words == "lever 4 along 3 at B, x"
 
 
 def test_links_are_listed_shortly() -> None:
@@ -111,8 +137,8 @@ def test_links_are_listed_shortly() -> None:
     assert listed(["4", "5", "6", "7"]) == "links 4 to 7"
     assert listed(["2", "3", "5"]) == "links 2, 3 and 5"
     assert listed(["rod", "piston"]) == "links rod and piston"
-    assert spoken("force plan 4, 5, 6") == "force plan of links 4 to 6"
-    assert (spoken("mechanism"), spoken("N-plan")) == ("mechanism plan", "N-plan")
+    assert ForcePlan.of(("4", "5", "6")).words == "force plan of links 4 to 6"
+    assert (MECHANISM.words, N_PLAN.words) == ("mechanism plan", "N-plan")
 
 
 @given(st.text(st.characters(codec="latin-1"), max_size=200), st.floats(20, 100))

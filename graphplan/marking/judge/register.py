@@ -49,11 +49,12 @@ class Register:
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  labels: Mapping[int, int]):
         self.drawing, self.scales, self.submission, self.pencil = drawing, composition.scales, submission, pencil
-        self.plan_of_step, self.labels, self.taken = Plans(drawing).plan_of_step, labels, set(labels.values())
+        self.plan_of_step: Sequence[str] = Plans(drawing).plan_of_step
+        self.labels, self.taken = labels, set(labels.values())
         self.values: tuple[Sequence[Any], ...] = (drawing.values,)
 
     @property
-    def panels(self) -> list[str]:
+    def panels(self) -> Sequence[str]:
         return Plans(self.drawing).panels
 
     def mechanism(self) -> Fit:

@@ -102,7 +102,7 @@ class StudentSheet:
     pencil: Pencil
 
     @cached_property
-    def plan_of_step(self) -> list[str]:
+    def plan_of_step(self) -> Sequence[str]:
         """The plan of every step."""
         return Plans(self.drawing).plan_of_step
 

@@ -10,7 +10,7 @@ from graphplan.methods.forces.letters import pair_letter, reaction_letter
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
 from graphplan.methods.forces.unknown_forces import Group, Joint, Site
-from graphplan.methods.panels import FORCE_PLAN, MECHANISM, rubbing, spoken
+from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.methods.poses import Pose
 
 Part = frozenset[str]
@@ -21,7 +21,7 @@ class Parts:
 
     def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
-        self.panel = FORCE_PLAN + ", ".join(group.links) + rubbing(forces.number)
+        self.panel = ForcePlan.of(group.links, forces.number)
         self.known: dict[Site, Known] = {}
         self.ends: dict[Site, Span] = {}
         self.pairs: dict[Site, Pair | None] = {}
@@ -29,7 +29,7 @@ class Parts:
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
         with board.on(self.panel, group.links):
-            self.origin = self.numbered(board.begin(plan=spoken(self.panel), number=1))
+            self.origin = self.numbered(board.begin(plan=self.panel.words, number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None

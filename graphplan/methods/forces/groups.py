@@ -9,6 +9,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
+from graphplan.methods import panels
 from graphplan.methods.forces.assumed_motion import (
     AXES,
     Assumed,
@@ -30,7 +31,7 @@ from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import Group, Position, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import MECHANISM, slide_named
+from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -133,11 +134,6 @@ def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:
             yield point, link, pin
 
 
-def pair_name(point: str, link: str) -> str:
-    """How the reaction on a link at a joint is named among the readings."""
-    return f"{link} at {point}"
-
-
 def with_friction(loading: Loading, forces: Forces) -> Iterator[Result]:
     """The balances with friction, by kind and name."""
     for name, balance in loading.loads.named_balances.items():
@@ -153,7 +149,7 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
         if (asked is None or point in asked) and _told(scene, forces, point, link):
-            yield REACTION, pair_name(point, link), reaction_on(forces, board, point, link)
+            yield REACTION, JointForce(point, link).name, reaction_on(forces, board, point, link)
     for slide in scene.slides:
         if (asked is None or slide.name in asked) and slide in forces.slides:
             yield SLIDE_REACTION, slide.name, forces.slides[slide]
@@ -172,7 +168,7 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tu
     results: list[Result] = []
     shown: list[Shown] = []
     for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
-        panel, motion = "lever" if len(loading.loads.balances) == 1 else f"lever {mode + 1}", velocity
+        panel, motion = panels.Lever.of(None if len(loading.loads.balances) == 1 else mode + 1), velocity
         if not moving(scene):
             assumed = working(scene, mode)
             motion = velocities(assumed, pose, plans.planner(assumed, panel))
@@ -199,36 +195,36 @@ class Freed:
         """Those of the joints and slides of these names that statics tells."""
         scene = self.loading.net.scene
         for point, link, pin in pairs(scene):
-            if point in asked and pair_name(point, link) not in scene.indeterminate_pairs:
+            if point in asked and JointForce(point, link).name not in scene.indeterminate_pairs:
                 self._joint(point, link, pin)
         for slide in self.loading.scene.slides:
             if slide.name in asked and slide.name not in scene.indeterminate_pairs:
                 self._slide(slide)
         return self
 
-    def _lever(self, assumed: Assumed, whose: str) -> Lever:
-        panel = f"lever {whose}"
+    def _lever(self, assumed: Assumed, panel: panels.Lever) -> Lever:
         motion = velocities(assumed, self.pose, self.plans.planner(assumed, panel))
         return Lever(self.board, motion, self.loading, panel, assumed.renamed)
 
     def _joint(self, point: str, link: str, pin: str) -> None:
         """A joint's reaction by two levers, one for each component."""
-        spans, name = [], pair_name(point, link)
+        spans, force = [], JointForce(point, link)
         for axis, letter in zip(AXES, "xy", strict=True):
-            lever = self._lever(freed_joint(self.loading.scene, point, link, pin, axis), f"{name}, {letter}")
+            assumed = freed_joint(self.loading.scene, point, link, pin, axis)
+            lever = self._lever(assumed, panels.Lever.of(force, letter))
             spans.append(lever.across(point, link, pin))
             self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
         (tail, corner), other = spans
         with self.board.on(lever.panel):
-            self.results.append((REACTION, name, (tail, self.board.transfer(*other, corner))))
+            self.results.append((REACTION, force.name, (tail, self.board.transfer(*other, corner))))
 
     def _slide(self, slide: Slide) -> None:
         """A slide's reaction by two levers: its force, and its moment."""
-        lever = self._lever(freed_slide(self.loading.scene, slide), f"{slide.name}, F")
+        lever = self._lever(freed_slide(self.loading.scene, slide), panels.Lever.of(slide, "F"))
         force = lever.off_guide(slide)
         self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
         self.results.append((SLIDE_REACTION, slide.name, force))
-        lever = self._lever(freed_turning(self.loading.scene, slide), f"{slide.name}, M")
+        lever = self._lever(freed_turning(self.loading.scene, slide), panels.Lever.of(slide, "M"))
         moment = lever.turning(slide.link, slide.along)
         self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
         self.results.append((SLIDE_MOMENT, slide.name, moment))

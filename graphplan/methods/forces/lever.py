@@ -12,10 +12,10 @@ from collections.abc import Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Balance, Slide
+from graphplan.methods import panels
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.reactions import Shown
 from graphplan.methods.motion.velocity import Polar, Velocity
-from graphplan.methods.panels import spoken
 from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]
@@ -24,13 +24,13 @@ Span = tuple[Mark, Mark]
 class Lever:
     """One lever: the loads of a scene at the ends of one set of velocities, on a panel of its own."""
 
-    def __init__(self, board: Board, velocity: Velocity, loading: Loading, panel: str = "lever",
+    def __init__(self, board: Board, velocity: Velocity, loading: Loading, panel: panels.Lever,
                  renamed: dict[tuple[str, str], str] | None = None):
         self.board, self.velocity, self.loading, self.panel = board, velocity, loading, panel
         self.renamed = renamed or {}
         self.shown: list[Shown] = []
         with board.on(panel):
-            self.pole = board.begin(plan=spoken(panel), number=1, name="o")
+            self.pole = board.begin(plan=panel.words, number=1, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
 

@@ -17,7 +17,7 @@ from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pol
 from graphplan.methods.motion.network import Network, Place, Weld
 from graphplan.methods.motion.plan import Plan, Vector
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import slide_named, spoken
+from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -50,7 +50,7 @@ class Anchor:
 class Normal(Plan):
     """The plan of relative normal accelerations."""
 
-    panel, turn, across = "N-plan", "perpendicular", False
+    panel, turn, across = N_PLAN, "perpendicular", False
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         super().__init__(board, net, pose)
@@ -173,7 +173,7 @@ class Normal(Plan):
             with self.board.on(self.panel):
                 begun = sum(step.op.name == "begin" and step.panel == self.panel for step in self.board.steps)
                 name = self.figure_name(link, anchor.point)
-                return self.board.begin(plan=spoken(self.panel), number=begun + 1, name=name)
+                return self.board.begin(plan=self.panel.words, number=begun + 1, name=name)
         if anchor.slide is None:
             return self.figure(anchor.link, anchor.point)
         return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
@@ -310,11 +310,11 @@ class Normal(Plan):
 class PolarAcceleration(Normal):
     """All accelerations from one pole pi: each link's normal vectors are laid off where they are needed."""
 
-    panel = "acceleration plan"
+    panel = ACCELERATION_PLAN
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         with board.on(self.panel):
-            self.pole = board.begin(plan=spoken(self.panel), number=1, name="pi")
+            self.pole = board.begin(plan=self.panel.words, number=1, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 
     def home(self, place: Place) -> Mark:

@@ -17,7 +17,7 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import FRAME, Slide
 from graphplan.methods.motion.moves import (
     Auxiliary,
@@ -45,7 +45,7 @@ TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on 
 class Plan:
     """Draws moves on one panel. Subclasses say where vectors begin, and what drives and guides add."""
 
-    panel: str
+    panel: Panel
     turn: str
     across: bool  # whether a sliding pair's free vector lies square to the guide
 

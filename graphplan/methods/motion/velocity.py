@@ -10,7 +10,7 @@ from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Set
 from graphplan.methods.motion.network import Network, Place, Weld
 from graphplan.methods.motion.plan import Plan, Vector
 from graphplan.methods.motion.time_scale import Tempo
-from graphplan.methods.panels import MECHANISM, spoken
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
@@ -101,12 +101,12 @@ class Orthogonal(Velocity):
 class Polar(Velocity):
     """True velocities from one pole p; a link's image is a quarter turned."""
 
-    panel, turn, across = "velocity plan", "perpendicular", False
+    panel, turn, across = VELOCITY_PLAN, "perpendicular", False
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
         with board.on(self.panel):
-            self.pole = board.begin(plan=spoken(self.panel), number=1, name="p")
+            self.pole = board.begin(plan=self.panel.words, number=1, name="p")
 
     def far_from(self, place: Place) -> Mark:
         """As far from the pole as the place is from another point of its link."""

@@ -14,9 +14,9 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, OPENING, POINT, TABLE
-from graphplan.kernel.program import Step
+from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MECHANISM, caption
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import sentence as spoken
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import clip, laid_off, pens
@@ -254,10 +254,10 @@ class _Figures:
 
     @cached_property
     def plans(self) -> dict[str, Plan]:
-        return {panel: self._plan(panel, view) for panel, view in self.composition.views.items()}
+        return {panel: self._plan(panel, self.composition.views[panel]) for panel in self.seen.panels}
 
-    def _plan(self, panel: str, view: View) -> Plan:
-        told = self.seen.tongue(caption(panel, self.seen.kinds(panel)))
+    def _plan(self, panel: Panel, view: View) -> Plan:
+        told = self.seen.tongue(panel.caption(self.seen.kinds(panel)))
         return Plan(panel, told, view.scale, view.origin, view.rect)
 
     @cached_property

@@ -13,6 +13,7 @@ from functools import cached_property
 from itertools import chain, pairwise
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.methods.panels import VELOCITY_PLAN
 from graphplan.output.exports.figure import SYMBOLS, Arrow, Figure, Link, Object, Plan
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
@@ -260,7 +261,7 @@ class Traced:
     @property
     def quantity(self) -> str:
         """What kind the given vectors of the plan are of."""
-        return "velocity" if self.first or self.plan.name == "velocity plan" else "acceleration"
+        return "velocity" if self.first or self.plan.name == VELOCITY_PLAN else "acceleration"
 
     @cached_property
     def dots(self) -> list[Object]:

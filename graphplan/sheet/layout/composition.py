@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.methods.panels import MECHANISM, smooth
+from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.given_scales import ROUNDING, GivenScales, given_scales
@@ -75,8 +75,8 @@ def composed(plans: Plans, rows: Measure[Sequence[Row]], title: TitleBlock, pape
 
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
-    extents = {panel: plans.extent(panel) for panel in plans.panels}
-    needs = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
+    extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
+    needs: dict[str, float] = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
     frame, given = frame_of(plans.drawing.scene), given_scales(plans)
     best: Composition | None = None
     tried: list[Composition] = []
@@ -131,19 +131,14 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     k_s = given.k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))[0]
-    multiples = _alike({p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]})
+    most = {p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]}
+    multiples: dict[str, Fraction] = {p: min(most[q] for q in most if q.twin == p.twin) for p in most}  # comparable
     drawing, names = plans.drawing, plans.drawing.scene.units
     scales = Scales(k_s, drawing.kappa, names.length, multiples | given.multiples, float(drawing.phi), names.force,
                     drawing.scene.sheet.convention)  # fmt: skip
     boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
     views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
     return Composition(arrangement, scales, views, needs, extents, plans)
-
-
-def _alike(multiples: Mapping[str, Fraction]) -> dict[str, Fraction]:
-    """The plan of a group with friction and that without it are compared, so they have one scale: the smaller."""
-    return {panel: min(other for name, other in multiples.items() if smooth(name) == smooth(panel))
-            for panel in multiples}
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:

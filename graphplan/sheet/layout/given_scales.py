@@ -8,7 +8,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.errors import Refused
-from graphplan.methods.panels import FORCE_PLAN, MECHANISM, smooth
+from graphplan.kernel.program import Panel
+from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Drawing, Plans
@@ -57,18 +58,18 @@ def _given(drawing: Drawing) -> Iterator[tuple[str, float, float]]:
     yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
 
 
-def _multiple(plans: Plans, panel: str) -> Fraction | None:
+def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
     """The multiple given for a plan, or 1 where a scale of its vectors is given."""
     sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
-    plan = panel.partition(", part ")[0]
-    told = sheet.multiples.get(plan, sheet.multiples.get(smooth(plan)))
+    plan = panel.whole
+    told = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
     scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
     return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
 
 
 def _check_force_plans(plans: Plans) -> None:
     """Every force plan that is spoken of is one that is drawn, unless none is."""
-    drawn = [panel for panel in plans.panels if panel.startswith(FORCE_PLAN)]
+    drawn = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
     for plan in plans.drawing.scene.sheet.multiples:
-        if drawn and plan.startswith(FORCE_PLAN) and plan not in drawn:
+        if drawn and ForcePlan.names(plan) and plan not in drawn:
             raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
-from graphplan.methods.panels import spoken
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
@@ -34,9 +33,9 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     plans = composition.plans
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_framed(composition))
-    for panel, window in composition.views.items():
+    for panel in plans.panels:
         items += captions(arrangement.panels[panel], panel, plans, scales)
-        items += picture(plans, panel, window)
+        items += picture(plans, panel, composition.views[panel])
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
     items += titled(composition, document)
@@ -71,6 +70,6 @@ def stacked(items: Iterable[Item]) -> list[Item]:
 def _description(composition: Composition, plans: Plans) -> str:
     """What a reader who cannot see the sheet is told."""
     steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
-    told = [joined((spoken(panel), joined(composition.scales.said(panel, plans.kinds(panel)))), ": ")
-            for panel in composition.views]
+    told = [joined((panel.words, joined(composition.scales.said(panel, plans.kinds(panel)))), ": ")
+            for panel in composition.plans.panels]
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))

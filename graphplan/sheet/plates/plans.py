@@ -13,9 +13,9 @@ from typing import Any, Protocol
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import Number, Scene, TurningDrive
-from graphplan.methods.panels import LEVER, MECHANISM
+from graphplan.methods.panels import MECHANISM, Lever
 from graphplan.sheet.plates import laid_off
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
@@ -91,7 +91,7 @@ class Plans:
     numbered: bool = False
 
     @cached_property
-    def plan_of_step(self) -> list[str]:
+    def plan_of_step(self) -> list[Panel]:
         """The plan of every step: its own if something it reads lies there, else where what it reads lies.
 
         A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is. Compasses alone
@@ -99,24 +99,22 @@ class Plans:
         """
         if self.drawing.strict:
             return [MECHANISM] * len(self.drawing.drawn)
-        out: list[str] = []
+        out: list[Panel] = []
         for step in self.drawing.drawn.steps:
             out.append(self._home(step, out))
         return out
 
-    def _home(self, step: Step, found: Sequence[str]) -> str:
+    def _home(self, step: Step, found: Sequence[Panel]) -> Panel:
         if not step.args:
-            number = step.params.get("number", 1)
-            return step.panel if number == 1 else f"{step.panel}, part {number}"
+            return step.panel.part(step.params.get("number", 1))
         steps = self.drawing.drawn.steps
         read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
-        own = (home for home in reversed(read) if home == step.panel or home.startswith(f"{step.panel}, part "))
-        return next(own, read[0])
+        return next((home for home in reversed(read) if home.whole == step.panel), read[0])
 
     @cached_property
-    def panels(self) -> list[str]:
+    def panels(self) -> list[Panel]:
         """The plans in drawing order, the mechanism's first."""
-        return list(dict.fromkeys((MECHANISM, *self.plan_of_step)))
+        return list(dict.fromkeys([MECHANISM, *self.plan_of_step]))
 
     @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
@@ -157,7 +155,7 @@ class Plans:
 
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
-        lever = {"velocity"} if panel == LEVER and self._moves else set()
+        lever = {"velocity"} if panel == Lever.of() and self._moves else set()
         return lever | {vector.kind for vector in self.vectors(panel)}
 
     @property

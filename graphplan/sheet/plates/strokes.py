@@ -13,7 +13,7 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
-from graphplan.methods.panels import MECHANISM
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates import clip, laid_off, pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Spot
 from graphplan.sheet.plates.plans import Plans, Vector, corner
@@ -94,7 +94,7 @@ class Strokes:
     def _laid_off(self, step: Step, root: Spot, here: Spot) -> Iterator[Item]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
         if laid_off.given(self.plans.drawing.drawn.steps, step) and math.dist(root, here) > SHORT:
-            kind = "velocity" if self.panel in (MECHANISM, "velocity plan") else "acceleration"
+            kind = "velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"
             yield Arrow(pens.GIVEN[kind], "vectors", step.index, root, here, min(3.0, 0.6 * math.dist(root, here)))
             return
         brought = step.op.name not in laid_off.MEASURED and self.plans.plan_of_step[step.args[0]] != self.panel

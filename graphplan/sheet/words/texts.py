@@ -9,7 +9,7 @@ from typing import Any
 
 from graphplan.kernel.expand import RATHER
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.methods.panels import slide_named, spoken
+from graphplan.methods.panels import slide_named
 from graphplan.methods.results import kind_named
 from graphplan.phrases import Said, arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
@@ -77,7 +77,7 @@ class Words:
         for step in drawn.steps[drawn.givens :]:
             if step.panel != panel:
                 panel = step.panel
-                yield self._heading(said("On the {0}", spoken(panel)), SIZE, 1.2, step.index)
+                yield self._heading(said("On the {0}", step.panel.words), SIZE, 1.2, step.index)
             sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
             told.add(step.why)
             yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))

@@ -90,9 +90,15 @@ class Disagreement(GraphplanError):
     status = 1
 
     def __init__(self, name: str, what: str, drawn: str, solved: str, gap: float):
-        self.name, self.what, self.drawn, self.solved, self.gap = name, what, drawn, solved, gap
         super().__init__(f"{name}: the construction and the analytic solver disagree; the {what} is {drawn} as drawn, "
                          f"{solved} as solved, {gap:.2g} of its size apart")
+
+
+class BrokenClaim(Disagreement):
+    """A drawn step that is not what it should be, such as a point off the line that it should lie on."""
+
+    def __init__(self, name: str, step: str):
+        GraphplanError.__init__(self, f"{name}: {step}")
 
 
 class Undrawable(Exception):

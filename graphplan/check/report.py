@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.compared import KINDS, RATES, Compared, Numbers, kind_of
-from graphplan.errors import ConstructionError, Disagreement
+from graphplan.errors import BrokenClaim, ConstructionError, Disagreement
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.solver import Rates
@@ -84,6 +84,11 @@ class Report:
 
     @property
     def agrees(self) -> bool:
+        """Whether construction and solver say the same, and no drawn step breaks a claim."""
+        return self.same and not self.drawing.broken
+
+    @property
+    def same(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
         return not self.wrong and all(number.gap <= LOST * number.size or number.holds for _, _, number in self._all)
 
@@ -95,15 +100,13 @@ class Report:
 
     @property
     def disagreement(self) -> Disagreement:
-        """The error that names the number in which the two differ most, and by how much."""
+        """The error that names the number in which the two differ most; where none does, the step that breaks a claim.
+        """
+        if self.same:
+            return BrokenClaim(self.scene.name, self.drawing.broken)
         part, name, number = max(self._all, key=lambda one: (one[2].apart, one[2].beside("gap")))
         return Disagreement(self.scene.name, f"{part} of {name}", told(number.value), told(number.truth),
                             float(number.beside("gap")))
-
-    @property
-    def complaint(self) -> str:
-        """What is wrong with the numbers, if anything: one line."""
-        return "" if self.agrees else str(self.disagreement)
 
 
 LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding

@@ -1,4 +1,4 @@
-"""Check the construction against the analytic solver, side by side.
+"""Check the construction against the analytic solver, and each drawn step against what it claims to be.
 
 examples:
   graphplan check alt-eight-link
@@ -45,8 +45,10 @@ def run(options: argparse.Namespace) -> int:
         write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n")
     else:
         write("\n".join(_lines(found, groups, notes)) + "\n")
-    if not found.agrees:
-        error(found.complaint)
+    if found.drawing.broken:
+        error(f"check: {found.drawing.broken}")
+    if not found.same:
+        error(str(found.disagreement))
     return 0 if found.agrees else 1
 
 

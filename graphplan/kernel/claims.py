@@ -13,7 +13,7 @@ from collections.abc import Callable, Sequence
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Claim
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.program import Step
 
 TOLERANCE = 1e-9
 STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
@@ -342,12 +342,6 @@ def residuals(step: Step, values: Sequence[Any]) -> list[tuple[Claim, float]]:
     return [(claim, abs(RESIDUALS[claim[0]](drawn, *claim[1:]))) for claim in step.op.claims]
 
 
-def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[str]:
-    """The claims that a step does not keep, each with how far it is from it; a residual that is no number is one."""
-    return [f"{claim[0]}: {residual:.1e}" for claim, residual in residuals(step, values) if not residual <= tolerance]
-
-
-def check_claims(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[str]:
-    """All claims that a program does not keep in one pose, in the letters of the sheet; empty where all hold."""
-    return [f"step {program.number(step.index)}, {program.text(step.index)}: {step.op.name} is not {claim}"
-            for step in program.steps for claim in unmet(step, values, tolerance)]
+def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[tuple[Claim, float]]:
+    """The claims that a step breaks, with their residuals; one that is no number breaks its claim."""
+    return [(claim, residual) for claim, residual in residuals(step, values) if not residual <= tolerance]

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, fields
 from functools import cached_property
+from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
+from graphplan.kernel.broken import broken
 from graphplan.kernel.evaluate import evaluate
-from graphplan.kernel.expand import BY_SET_SQUARE, RATHER, STRICT, Expander, Window, form_named
+from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, RATHER, STRICT, Expander, Window, form_named
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
@@ -108,6 +111,16 @@ class Construction:
     def _gathered(self) -> tuple[Program, list[Any]]:
         program, order = gathered(self._expander.run())
         return program, [self._expander.values[index] for index in order]
+
+    @cached_property
+    def broken(self) -> str:
+        """The first drawn step or compound that breaks a claim, in words; nothing where none does.
+
+        What cannot be drawn in this pose claims nothing. Drawn steps lose digits where curves cross flat.
+        """
+        with suppress(ConstructionError):
+            return next(chain(broken(self.drawn, self.values, AGREE), broken(self.program, self.truth)), "")
+        return ""
 
     @property
     def drawn(self) -> Program:

@@ -73,6 +73,35 @@ def test_check_shows_both_opinions_where_they_differ(monkeypatch: pytest.MonkeyP
     assert "disagree" in streams.err
 
 
+@pytest.mark.parametrize(("name", "op"), [("four-bar", "parallel"), ("four-bar", "meet"), ("four-bar", "transfer"),
+                                          ("rosenauer-basic", "similar"), ("ozols-5-3", "lay_along"),
+                                          ("triad-loaded", "lay_off")])
+def test_check_names_the_first_step_that_breaks_a_claim(name: str, op: str, monkeypatch: pytest.MonkeyPatch,
+                                                        capsys: pytest.CaptureFixture[str]) -> None:
+    """With one rule off, `check` ends with status 1 and one line for the first step that is not what it should be."""
+    spoilt(monkeypatch, op, 1e-3)
+    assert main(["check", name]) == 1
+    drawing = gp.construct(gp.load(name), checked=False)
+    drawn = drawing.drawn
+    first = next(step.index for step in drawn.steps if step.op.name == op and drawing.values[step.index][0])
+    (claim,) = (line for line in capsys.readouterr().err.splitlines() if line.startswith("check: "))
+    assert claim.startswith(f"check: step {drawn.number(first)} ({drawn.text(first)} = {op}(")
+
+
+def test_right_numbers_do_not_excuse_a_step_that_is_wrong(monkeypatch: pytest.MonkeyPatch,
+                                                          capsys: pytest.CaptureFixture[str]) -> None:
+    """A plan that begins elsewhere than where it is put gives the same numbers; no command shows it all the same."""
+    rule = TABLE["begin"].rule
+    monkeypatch.setitem(TABLE, "begin", replace(TABLE["begin"], rule=lambda domain, **at: tuple(
+        number + domain.lift(7) for number in rule(domain, **at))))
+    assert main(["check", "ozols-5-1"]) == 1
+    error = capsys.readouterr().err
+    assert (error.count("\n"), "not where it is given" in error) == (1, True)
+    assert [main([command, "ozols-5-1"]) for command in ("solve", "steps", "cost")] == [1, 1, 1]
+    with pytest.raises(gp.Disagreement, match="not where it is given"):
+        gp.construct(gp.load("ozols-5-1"))
+
+
 @pytest.mark.parametrize("part", [1e-3, 1e-7, 1e-11])
 def test_the_slightest_fault_is_no_rounding(part: float, monkeypatch: pytest.MonkeyPatch) -> None:
     """A rule that is off by far more than rounding, though by less than nine digits, is proven to be wrong."""

@@ -12,7 +12,7 @@ from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
 
 from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
-from graphplan.kernel.claims import check_claims
+from graphplan.kernel.broken import broken
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Pencil
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import pruned
@@ -100,6 +100,6 @@ def test_expansion_keeps_values_and_claims(name: str, keep: str) -> None:
             assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]],
                         50 * size(program, values))
             assert drawn(expanded, Floats()) == expander.values
-            assert check_claims(pruned(expanded), drawn(pruned(expanded), Floats()) or [], 1e-6) == []
+            assert list(broken(pruned(expanded), drawn(pruned(expanded), Floats()) or [], 1e-6)) == []
             left += keep == "strict" and any(step.op.name not in STRICT for step in expanded.steps)
     assert left == 0

@@ -24,6 +24,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
 from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked
 from graphplan.sheet.plates.view import View, least, plan_scale, view
 from graphplan.sheet.words.rows import LEADING, Cell, Row, lettered
@@ -78,15 +79,16 @@ class Strip:
         """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
         for wide in WIDTHS:
             frame = Rect(0.0, 0.0, wide, ASPECT * wide)
-            found: dict[str, Plan] = {panel: self._plan(panel, frame) for panel in self.plans.panels}
+            views: dict[str, View] = {panel: self._window(panel, frame) for panel in self.plans.panels}
+            plates = Plates(self.plans, views)
+            found: dict[str, Plan] = {plate.panel: Plan(plate.view, tuple(stacked(picture(plate)))) for plate in plates}
             if not any(plan.crowded for plan in found.values()):
                 break
         return found
 
-    def _plan(self, panel: str, frame: Rect) -> Plan:
+    def _window(self, panel: str, frame: Rect) -> View:
         _, box = plan_scale(self.plans.extent(panel), inside(frame))
-        window = view(box, frame, least(box, inside(frame)) or 1.0)
-        return Plan(window, tuple(stacked(picture(self.plans, panel, window))))
+        return view(box, frame, least(box, inside(frame)) or 1.0)
 
     def sheets(self, paper: str) -> list[Sheet]:
         """The strip on sheets of this paper."""

@@ -16,7 +16,7 @@ from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Circle, Sheet, Text
 from graphplan.sheet.plates.plans import MECHANISM
-from graphplan.sheet.plates.strokes import HIDDEN, SHORT
+from graphplan.sheet.plates.plate import HIDDEN, SHORT
 from graphplan.sheet.words.force_tables import ForceTables
 
 

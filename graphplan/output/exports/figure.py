@@ -24,7 +24,7 @@ from graphplan.sheet.plates.display import Arc, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.plates.strokes import ALONE, BEYOND, FLATTEST, LOCUS_BEYOND, STRIKE, WIDEST
+from graphplan.sheet.plates.plate import ALONE, BEYOND, FLATTEST, LOCUS_BEYOND, STRIKE, WIDEST
 from graphplan.sheet.plates.symbols import hull, straight
 from graphplan.sheet.plates.view import View
 from graphplan.words.tongue import ENGLISH, Tongue

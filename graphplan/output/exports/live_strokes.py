@@ -21,9 +21,10 @@ from graphplan.sheet.lettering.lettering import Runs, listed, name_runs, width
 from graphplan.sheet.lettering.letters import ALONG, MIDDLE, NEAR
 from graphplan.sheet.plates import clip, laid_off, pens
 from graphplan.sheet.plates.display import Arc, Item, Polyline, Spot, Text
+from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import corner
-from graphplan.sheet.plates.strokes import LAYER, NOTHING, SHORT
+from graphplan.sheet.plates.plate import NOTHING, SHORT
 from graphplan.sheet.plates.symbols import RADIUS
 
 HAIR = 0.1  # mm: a stroke that passes a link's points no farther off lies along it

@@ -6,6 +6,7 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.methods.panels import MECHANISM
@@ -16,6 +17,7 @@ from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, ins
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
 from graphplan.sheet.plates.plans import Extent, Plans, around
+from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
 from graphplan.sheet.words.rows import Row
 
@@ -37,6 +39,11 @@ class Composition:
     needs: Mapping[str, float]
     extents: Mapping[str, Extent]
     plans: Plans
+
+    @cached_property
+    def plates(self) -> Plates:
+        """What is drawn, where it lies on the page."""
+        return Plates(self.plans, self.views)
 
     @property
     def score(self) -> tuple[float, float]:

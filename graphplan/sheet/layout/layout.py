@@ -33,9 +33,9 @@ def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] 
     plans = composition.plans
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_framed(composition))
-    for panel in plans.panels:
-        items += captions(arrangement.panels[panel], panel, plans, scales)
-        items += picture(plans, panel, composition.views[panel])
+    for plate in composition.plates:
+        items += captions(arrangement.panels[plate.panel], plate.panel, plans, scales)
+        items += picture(plate)
     rows = fill(arrangement.rows, arrangement.columns)
     items += lettered(rows or [])
     items += titled(composition, document)

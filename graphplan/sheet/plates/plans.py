@@ -16,9 +16,9 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import Number, Scene, TurningDrive
 from graphplan.methods.panels import MECHANISM, Lever
-from graphplan.sheet.plates import laid_off
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
+from graphplan.sheet.plates.symbols import off, turn
 from graphplan.words.tongue import ENGLISH, Tongue
 
 
@@ -65,6 +65,11 @@ class Drawing(Protocol):
 def corner(step: Step) -> bool:
     """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
     return step.op.name != "given" and step.name.rstrip("'").isdigit()
+
+
+def given(steps: Sequence[Step], step: Step) -> bool:
+    """Whether a point is the end of a given vector: laid off by its size from where a plan begins, and lettered."""
+    return step.op.scaled and bool(step.name) and steps[step.args[step.op.root or 0]].op.free
 
 
 @dataclass(frozen=True)
@@ -196,8 +201,8 @@ class Plans:
         for vector in self.vectors(panel):
             yield from (vector.start, vector.end)
         for index in self.points(panel):
-            start = laid_off.root(steps[index])
-            if start is not None and self.plan_of_step[start] == panel and laid_off.given(steps, steps[index]):
+            start = steps[index].args[steps[index].op.root or 0] if given(steps, steps[index]) else None
+            if start is not None and self.plan_of_step[start] == panel:
                 yield from (start, index)
             elif forces and panel != MECHANISM and steps[index].name:
                 yield index
@@ -205,9 +210,7 @@ class Plans:
 
 def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:
     """Where a half circle is farthest from its diameter, on the side of the crossing."""
-    dx, dy = end[0] - centre[0], end[1] - centre[1]
-    left = dx * (crossing[1] - centre[1]) - dy * (crossing[0] - centre[0]) >= 0
-    return (centre[0] - dy, centre[1] + dx) if left else (centre[0] + dy, centre[1] - dx)
+    return off(centre, (end[0] - centre[0], end[1] - centre[1]), 0.0, 1.0 if turn(centre, end, crossing) >= 0 else -1.0)
 
 
 def around(spots: Sequence[Spot]) -> Rect:

@@ -1,0 +1,161 @@
+"""What is drawn of a step: where it lies on the page, and its strokes and arcs as far as they are drawn.
+
+Strokes and arcs are told by their marks. So the sheet knows where they lie, in mm of the page with x to the right and y
+up, and what keeps a construction alive can move them with the marks.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.program import Panel, Step
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Arrow, Item, Polyline, Spot
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import Vector
+from graphplan.sheet.plates.view import View
+
+LAYER = "construction"
+
+
+@dataclass(frozen=True, eq=False)
+class DrawnStep:
+    """A drawn step, or a point of the pose that no step reads: what it makes, from which others, on which plan.
+
+    `number` is 0 for the pose, `index` negative where no step reads it; `value` has the shape of its kind
+    (kernel/kinds.py), in the units of its plan; all else is in mm of the page.
+    """
+
+    step: Step
+    number: int
+    panel: Panel
+    view: View
+    args: tuple[DrawnStep, ...] = field(repr=False)
+    value: tuple[float, ...]
+    sentence: str
+
+    @property
+    def index(self) -> int:
+        return self.step.index
+
+    @property
+    def name(self) -> str:
+        """The letter as in the program, or nothing."""
+        return self.step.name
+
+    @property
+    def kind(self) -> str:
+        """The kind of mark."""
+        return self.step.op.gives
+
+    @cached_property
+    def at(self) -> Spot:
+        """Where a point lies, or a circle's centre."""
+        return self.view((self.value[0], self.value[1]))
+
+    @property
+    def radius(self) -> float:
+        """Of a circle or an opening."""
+        return math.sqrt(max(self.value[-1], 0.0)) * self.view.scale
+
+    @property
+    def line(self) -> tuple[float, float, float]:
+        """A line by its equation a x + b y + c = 0, running along (b, -a)."""
+        a, b, c = self.value
+        return a, b, c * self.view.scale - a * self.view.origin[0] - b * self.view.origin[1]
+
+    @property
+    def along(self) -> Spot:
+        """One mm the way a line runs."""
+        a, b, _ = self.value
+        size = math.hypot(a, b) or 1.0
+        return b / size, -a / size
+
+    @property
+    def free(self) -> bool:
+        """Whether it stands where it is put: a point of the pose, or the beginning of a plan."""
+        return self.step.op.free
+
+    @property
+    def root(self) -> DrawnStep | None:
+        """The mark of its own plan that a point is laid off from, if it is: a stroke joins the two."""
+        root = None if self.step.op.root is None else self.args[self.step.op.root]
+        return root if root and root.kind == POINT and root.panel == self.panel else None
+
+    def factor(self, other: DrawnStep) -> float:
+        """How many mm here are one mm on the plan of another: by it a length is carried over."""
+        return self.view.scale / other.view.scale
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A straight stroke, or a vector where it has a head, from `low` to `high` on the way from one mark to another.
+
+    They are parts of that way; where the marks do not tell it they are mm the way that the line runs, `in_mm`.
+    """
+
+    of: DrawnStep
+    start: DrawnStep
+    end: DrawnStep
+    low: float = 0.0
+    high: float = 1.0
+    pen: Pen = pens.THIN
+    in_mm: bool = False
+    head: float = 0.0
+    layer: str = LAYER
+    vector: Vector | None = None
+
+    @property
+    def ends(self) -> tuple[Spot, Spot]:
+        """Where it begins and ends."""
+        (x, y), (u, v) = self.start.at, self.end.at
+        dx, dy = self.of.along if self.in_mm else (u - x, v - y)
+        return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
+
+    @property
+    def letter(self) -> str:
+        """What a vector is called, if it is."""
+        return self.vector.label if self.vector else ""
+
+    @property
+    def length(self) -> float:
+        return math.dist(*self.ends)
+
+    def part(self, low: float, high: float) -> Stroke:
+        """A part of it, by fractions of its length."""
+        long = self.high - self.low
+        return replace(self, low=self.low + low * long, high=self.low + high * long)
+
+    @property
+    def item(self) -> Item:
+        """The stroke as it lies."""
+        if not self.head:
+            return Polyline(self.pen, self.layer, self.of.index, self.ends)
+        label = f"{self.vector.kind} {self.vector.point}" if self.vector else ""
+        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
+
+
+@dataclass(frozen=True)
+class StruckArc:
+    """An arc of a circle: so many degrees before and after the ray from its centre to a mark on it."""
+
+    of: DrawnStep
+    mark: DrawnStep
+    before: float
+    after: float
+
+    @property
+    def half(self) -> bool:
+        """Whether it is the half circle over a diameter."""
+        return self.before == 0.0 or self.after == 0.0
+
+    @property
+    def item(self) -> Arc:
+        """The arc as it lies."""
+        (x, y), (u, v) = self.of.at, self.mark.at
+        middle = math.degrees(math.atan2(v - y, u - x))
+        return Arc(pens.ARC, LAYER, self.of.index, self.of.at, self.of.radius, middle - self.before,
+                   middle + self.after)  # fmt: skip

@@ -1,0 +1,277 @@
+"""The one model of what is drawn: every plan on its panel, step by step, in mm of the page.
+
+A line runs a little beyond the marks that lie on it; an arc is struck only about the crossings it serves; what leaves
+the panel breaks off at its edge and says where it goes.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement
+from graphplan.kernel.program import Panel, Step
+from graphplan.mechanism.model import Scene
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
+from graphplan.phrases import sentence as spoken
+from graphplan.sheet.plates import clip, pens
+from graphplan.sheet.plates.display import Circle, Item, Spot
+from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
+from graphplan.sheet.plates.linkage import Linkage
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import Plans, corner, given
+from graphplan.sheet.plates.symbols import turn
+from graphplan.sheet.plates.view import View
+
+BEYOND, LOCUS_BEYOND, ALONE = 2.5, 6.0, 7.0  # mm past the outermost mark; each way where there is only one mark
+CLOSE = 1.0  # mm: marks closer together do not tell the way of a line
+NOTHING = 0.3  # mm: what is left of a stroke is not drawn if it is shorter
+SHORT, HIDDEN = 0.5, 3.0  # mm: a vector shorter than this is not drawn; nor is a load that its joint would hide
+STRIKE, FLATTEST, WIDEST = 4.5, 5.0, 18.0  # half an arc: mm, and between these angles
+GIVEN_HEAD, BREAK_HEAD, BREAK = 3.0, 2.0, 4.0  # mm: heads of given vectors and of ends that break off; their length
+
+
+@dataclass(frozen=True)
+class Plates:
+    """A construction as it is drawn, each plan in its window on the page."""
+
+    plans: Plans
+    views: Mapping[str, View]
+
+    @property
+    def scene(self) -> Scene:
+        return self.plans.drawing.scene
+
+    @cached_property
+    def steps(self) -> list[DrawnStep]:
+        """The drawn program, by index: those that are given, and the steps."""
+        drawing, say = self.plans.drawing, self.plans.tongue
+        found: list[DrawnStep] = []
+        told = zip(drawing.drawn.steps, drawing.values, drawing.sentences(), self.plans.plan_of_step, strict=True)
+        for step, value, sentence, panel in told:
+            args, number = tuple(found[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
+            floats = tuple(map(float, value))
+            found.append(DrawnStep(step, number, panel, self.views[panel], args, floats, say(sentence)))
+        return found
+
+    @cached_property
+    def pose(self) -> dict[str, DrawnStep]:
+        """Every point of the scene, those that no step reads among them."""
+        found = {drawn.name: drawn for drawn in self.steps if not drawn.number}
+        for name in self.scene.points:
+            if name not in found:
+                (x, y), index = self.plans.place(name), min((0, *(drawn.index for drawn in found.values()))) - 1
+                step = Step(index, name, TABLE["given"], (), {"x": x, "y": y}, MECHANISM)
+                told = spoken("given", step.op.sentence, (), {"out": name, "x": f"{x:g}", "y": f"{y:g}"})
+                found[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y), self.plans.tongue(told))
+        return found
+
+    def __iter__(self) -> Iterator[Plate]:
+        """The plans in drawing order, the mechanism's first."""
+        return iter(self._plates.values())
+
+    def __getitem__(self, panel: str) -> Plate:
+        return self._plates[panel]
+
+    @cached_property
+    def _plates(self) -> dict[str, Plate]:
+        return {panel: Plate(self, panel) for panel in self.plans.panels}
+
+
+@dataclass(frozen=True)
+class Plate:
+    """One plan on its panel."""
+
+    plates: Plates
+    panel: Panel
+
+    @property
+    def plans(self) -> Plans:
+        return self.plates.plans
+
+    @property
+    def view(self) -> View:
+        return self.plates.views[self.panel]
+
+    @property
+    def caption(self) -> str:
+        """What the plan is."""
+        return self.plans.tongue(self.panel.caption(self.plans.kinds(self.panel)))
+
+    @cached_property
+    def steps(self) -> list[DrawnStep]:
+        """The steps that are drawn here, in order, after what is given here."""
+        return [drawn for drawn in self.plates.steps if drawn.panel == self.panel]
+
+    def shown(self, mark: DrawnStep) -> bool:
+        """Whether a point lies on the panel."""
+        return mark.kind == POINT and mark.panel == self.panel and self.view.rect.holds(mark.at)
+
+    def marks(self, curve: DrawnStep) -> list[DrawnStep]:
+        """The marks of this plan that lie on a line or an arc."""
+        on = (self.plates.steps[mark] for mark in self.plans.marks_on.get(curve.index, ()))
+        return [mark for mark in on if mark.panel == self.panel]
+
+    @cached_property
+    def mechanism(self) -> list[Item]:
+        """The links, pairs and ground, on the plan of the mechanism."""
+        linkage = Linkage(self.plates.scene, self.view)
+        shown = linkage.items() if self.panel == MECHANISM else ()
+        return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
+
+    def items(self) -> Iterator[Item]:
+        """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""
+        for drawn in self.steps:
+            yield from (stroke.item for stroke in self.strokes(drawn))
+            for arc in self.arcs(drawn):
+                yield from clip.clipped(arc.item, self.view.rect)
+            if pen := self.dot(drawn):
+                yield Circle(pen, LAYER, drawn.index, drawn.at, 0.5 if drawn.name else 0.4)
+        yield from (stroke.item for stroke in self.vectors)
+
+    def dot(self, drawn: DrawnStep) -> Pen | None:
+        """What dots a mark that a step makes, but for corners of force polygons and where forces end."""
+        if not (drawn.number and self.shown(drawn)) or corner(drawn.step) or drawn in self._force_heads:
+            return None
+        return pens.ORIGIN if drawn.free else pens.DOT
+
+    # ---- vectors ---------------------------------------------------------------------------------------------------
+
+    @cached_property
+    def vectors(self) -> list[Stroke]:
+        """The vectors that are asked for and long enough to be drawn."""
+        least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
+        return [stroke for kind, stroke in self._asked if stroke.length >= least.get(kind, SHORT)]
+
+    @cached_property
+    def _asked(self) -> list[tuple[str, Stroke]]:
+        """All vectors that are asked for on this plan, by kind; each is there when both its ends are."""
+        found = []
+        for vector in self.plans.vectors(self.panel):
+            start, end = self.plates.steps[vector.start], self.plates.steps[vector.end]
+            found.append((vector.kind, Stroke(
+                max(start, end, key=lambda mark: mark.index), start, end, pen=pens.VECTORS[vector.kind],
+                head=min(pens.HEADS[vector.kind], 0.6 * math.dist(start.at, end.at)), layer="vectors", vector=vector)))
+        return found
+
+    @cached_property
+    def _force_heads(self) -> set[DrawnStep]:
+        return {stroke.end for kind, stroke in self._asked if kind in pens.FORCES}
+
+    # ---- strokes ---------------------------------------------------------------------------------------------------
+
+    def strokes(self, drawn: DrawnStep) -> Iterator[Stroke]:
+        """What of a line is drawn, or the stroke along which a point is laid off; vectors stand apart."""
+        root = drawn.root
+        if drawn.index in self.stretches:
+            stretch = self.stretches[drawn.index]
+            yield from self._bare(stretch, self._links_along(stretch))
+            yield from (stroke for stroke, _ in self.breaks(stretch))
+        elif root and not self._vector_between(root.at, drawn.at):
+            yield from self._laid_off(drawn, root)
+
+    def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
+        """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
+        stroke, step = Stroke(drawn, root, drawn), drawn.step
+        if given(self.plans.drawing.drawn.steps, step) and stroke.length > SHORT:
+            kind = "velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"
+            yield replace(stroke, pen=pens.GIVEN[kind], head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
+            return
+        brought = step.op.movement is not Movement.MEASURED and drawn.args[0].panel != self.panel
+        if inside := self._inside(replace(stroke, pen=pens.NORMAL if brought else pens.THIN)):
+            yield from self._bare(inside)
+
+    def _vector_between(self, one: Spot, other: Spot) -> bool:
+        """Whether a vector takes the place of a stroke."""
+        ends = [(stroke.start.at, stroke.end.at) for _, stroke in self._asked]
+        return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
+                   for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
+
+    @cached_property
+    def stretches(self) -> dict[int, Stroke]:
+        """What of each line lies in the panel, links and forces along it or not."""
+        found = {drawn.index: self._stretch(drawn) for drawn in self.steps if drawn.kind == LINE}
+        return {index: stretch for index, stretch in found.items() if stretch is not None}
+
+    def _stretch(self, line: DrawnStep) -> Stroke | None:
+        """From the first mark on a line to the last and a little beyond, as far as the panel goes."""
+        ux, uy = line.along
+        marks = sorted(self.marks(line), key=lambda mark: (mark.at[0] * ux + mark.at[1] * uy, mark.index))
+        if not marks:
+            return None
+        first, last = marks[0], marks[-1]
+        long = math.dist(first.at, last.at)
+        close = long < CLOSE
+        beyond, pen = ALONE if close else LOCUS_BEYOND if line.name else BEYOND, pens.THIN
+        if self.directs(line):
+            beyond = 0.0
+        elif line.name or line.step.op.movement in (Movement.RULED, Movement.GUIDED):
+            pen = pens.LOCUS if line.name else pens.PRODUCED
+        unit = 1.0 if close else long
+        return self._inside(Stroke(line, first, last, -beyond / unit, (long + beyond) / unit, pen, close))
+
+    def directs(self, line: DrawnStep) -> bool:
+        """Whether a line only serves as a direction: from one mark to another."""
+        return line.step.op.movement is Movement.RULED and len(self.marks(line)) == 2
+
+    def _inside(self, stroke: Stroke) -> Stroke | None:
+        """What of a stroke lies in the panel."""
+        inside = clip.segment(self.view.rect, *stroke.ends) if stroke.length > 0 else None
+        return stroke.part(*inside) if inside else None
+
+    def breaks(self, stretch: Stroke) -> Iterator[tuple[Stroke, DrawnStep]]:
+        """The arrows at the ends where a line breaks off, each with the mark outside the panel that it points to."""
+        part = BREAK / stretch.length
+        for mark, low, high in ((stretch.start, part, 0.0), (stretch.end, 1.0 - part, 1.0)):
+            if not self.shown(mark):
+                pen = pens.THIN.filled(pens.GREY)
+                yield replace(stretch.part(low, high), pen=pen, head=BREAK_HEAD), mark
+
+    def _bare(self, stroke: Stroke, links: Iterable[tuple[float, float]] = ()) -> Iterator[Stroke]:
+        """What is left of a stroke where no link and no force lies along it."""
+        long, done = stroke.length, 0.0
+        for low, high in (*sorted([*links, *self._forces_along(stroke)]), (1.0, 1.0)):
+            if (low - done) * long > NOTHING:
+                yield stroke.part(done, low)
+            done = max(done, high)
+
+    def _links_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
+        """Where links lie along a stroke, as fractions of its length: there the link is the line."""
+        scene = self.plates.scene
+        for link in scene.moving if self.panel == MECHANISM else ():
+            spots = [self.plates.pose[name].at for name in scene.links[link]]
+            hit = _along(stroke, spots)
+            if len(hit) > 1 and (len(hit) == len(spots) or len(spots) == 3):
+                yield min(hit), max(hit)
+
+    def _forces_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
+        """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
+        for force in self.vectors if stroke.length > NOTHING else ():
+            if force.vector and force.vector.kind in pens.FORCES and force.end.index < stroke.of.index:
+                hit = _along(stroke, force.ends)
+                if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
+                    yield max(min(hit), 0.0), min(max(hit), 1.0)
+
+    # ---- arcs ------------------------------------------------------------------------------------------------------
+
+    def arcs(self, drawn: DrawnStep) -> list[StruckArc]:
+        """What of an arc is struck: about its crossings, or a half circle over its diameter."""
+        marks = self.marks(drawn) if drawn.kind == CIRCLE and drawn.radius > 1e-6 else []
+        end = self.plans.diameter(drawn.step) if marks else None
+        if end is not None and self.plates.steps[end].panel == self.panel:
+            left = turn(drawn.at, self.plates.steps[end].at, marks[0].at) >= 0
+            half = StruckArc(drawn, self.plates.steps[end], *((0.0, 180.0) if left else (180.0, 0.0)))
+            if all(map(self.view.rect.holds, half.item.spots())):
+                return [half]
+        wide = min(WIDEST, max(FLATTEST, math.degrees(STRIKE / drawn.radius))) if marks else 0.0
+        return [StruckArc(drawn, mark, wide, wide) for mark in marks]
+
+
+def _along(stroke: Stroke, spots: Iterable[Spot]) -> list[float]:
+    """How far along a stroke, in its lengths, those of the spots are that lie on its line."""
+    (start, end), long = stroke.ends, stroke.length
+    ux, uy = (end[0] - start[0]) / long, (end[1] - start[1]) / long
+    arms = [(x - start[0], y - start[1]) for x, y in spots]
+    return [(x * ux + y * uy) / long for x, y in arms if abs(x * uy - y * ux) < 0.1]

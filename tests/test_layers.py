@@ -40,6 +40,7 @@ OUTSIDE = {
     "ezdxf": {"output", "marking"},
     "cv2": {"marking"},
     "pypdfium2": {"marking"},
+    "svgelements": {"marking"},
     "numba": {"kernel/tape/compiled.py"},
     "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,8 +14,8 @@ if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
 Size = tuple[float, float] | None  # width and height in mm, where they are known
-Reader = Callable[[Path, Collection[str], Frames, Size], Submission]
-IMAGES = (".png", ".jpg", ".jpeg", ".pdf")
+FILES, IMAGES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
+EXTRAS = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}  # the package that reads a kind, and its extra
 
 
 def read(path: Path, panels: Collection[str], frames: Frames,
@@ -29,11 +30,11 @@ def read(path: Path, panels: Collection[str], frames: Frames,
     suffix = path.suffix.casefold()
     if suffix in IMAGES:
         return _scanned(path, frames, printed, code)
-    if suffix not in READERS:
+    if suffix not in FILES:
         kind = suffix if suffix[1:].isalnum() else "without a suffix that is known"
         raise Refused(f"{path}", f"files of this kind ({kind[:40]}) are not read",
-                      f"give one of {' '.join([*READERS, *IMAGES])}")
-    found = READERS[suffix](path, panels, frames, size)
+                      f"give one of {' '.join([*FILES, *IMAGES])}")
+    found = _read(path, suffix, panels, frames, size)
     if not found.traces and not found.numbers:
         raise Refused(f"{path}", "nothing is measured in it, no mark and no result", "fill it in")
     return found
@@ -49,7 +50,33 @@ def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, co
     return read_scan(path, printed(), frames, code)
 
 
-def _table(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
+def _read(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:
+    """A file of numbers or of a drawing program."""
+    package, extra = EXTRAS.get(suffix, ("", ""))
+    if package and not find_spec(package):
+        raise Refused(f"{path}", f"reading {suffix[1:].upper()} needs {package}", f"pip install 'graphplan[{extra}]'")
+    match suffix:
+        case ".csv":
+            return _table(path, panels)
+        case ".toml":
+            from graphplan.marking.tables.points import read_toml
+
+            return read_toml(path, panels)
+        case ".svg":
+            from graphplan.marking.files.svg import read_svg
+
+            return read_svg(path, frames, size)
+        case ".dxf":
+            from graphplan.marking.files.dxf import read_dxf
+
+            return read_dxf(path, frames, size)
+        case _:
+            from graphplan.marking.files.geogebra import read_ggb
+
+            return read_ggb(path)
+
+
+def _table(path: Path, panels: Collection[str]) -> Submission:
     """Measured points or results: the names of the columns tell."""
     from graphplan.marking.tables.table_rows import columns
 
@@ -64,32 +91,3 @@ def _table(path: Path, panels: Collection[str], frames: Frames, size: Size) -> S
         return read_results(path)
     raise Refused(f"{path}", "its first line names no columns that are read",
                   "mark,x,y for measured points or quantity,of,x,y,unit for results")
-
-
-def _toml(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
-    from graphplan.marking.tables.points import read_toml
-
-    return read_toml(path, panels)
-
-
-def _svg(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
-    from graphplan.marking.files.svg import read_svg
-
-    return read_svg(path, frames, size)
-
-
-def _dxf(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
-    from graphplan.marking.files.dxf import read_dxf
-
-    return read_dxf(path, frames, size)
-
-
-def _ggb(path: Path, panels: Collection[str], frames: Frames, size: Size) -> Submission:
-    from graphplan.marking.files.ggb import read_ggb
-
-    return read_ggb(path)
-
-
-READERS: dict[str, Reader] = {
-    ".csv": _table, ".toml": _toml, ".svg": _svg, ".dxf": _dxf, ".ggb": _ggb,
-}  # fmt: skip

@@ -108,7 +108,7 @@ HOSTILE = {
     "no numbers": ("x.svg", SVG.format('<circle r="nan" cx="1"/>').encode(), "'nan' is no length"),
     "far away": ("x.svg", SVG.format('<circle r="1" cx="1e300"/>').encode(), "farther away than 1e"),
     "infinite scale": ("x.svg", SVG.format('<circle r="1" cx="9" transform="scale(1e308)"/>').encode(), "a transform"),
-    "no path": ("x.svg", SVG.format('<path stroke="#000" d="M 0 0 L 1"/>').encode(), "L lacks numbers"),
+    "no path": ("x.svg", SVG.format('<path stroke="#000" d="M 0 0 L 1"/>').encode(), "'M 0 0 L 1' is no path"),
     "other XML": ("x.svg", b"<html/>", "XML of another kind"),
     "nothing drawn": ("x.svg", SVG.format("<g/>").encode(), "nothing is drawn"),
     "zip bomb": ("x.ggb", archive({"geogebra.xml": BOMB}), "unpacks to more than 16 MB"),

@@ -170,7 +170,8 @@ def test_curves_known_again(tmp_path: Path, path: str) -> None:
     """A path is a line or a circle where it is one within a hundredth of its size, and else nothing."""
     group = '<g stroke="#000" transform="scale({0}) translate(50 50)"><path d="{1}"/><path d="M0 -40H40"/></g>'
     document = SVG.format(group.format(2 * 1.0, path))
-    found = [t for t in submission(tmp_path, "curve.svg", document.encode()).traces if lying(t) != [50, 90, 90, 90]]
+    traces = submission(tmp_path, "curve.svg", document.encode()).traces
+    found = [trace for trace in traces if lying(trace) != pytest.approx([50, 90, 90, 90])]
     if PATHS[path] is None:
         assert not found
         return
@@ -291,8 +292,9 @@ def off(line: tuple[float, float, float], spot: Spot) -> float:
     return abs(a * spot[0] + b * spot[1] + c) / math.hypot(a, b)
 
 
-def test_reading_dxf_needs_ezdxf(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Without the extra a DXF file is refused with what to install."""
-    monkeypatch.setitem(__import__("sys").modules, "ezdxf", None)
-    with pytest.raises(Refused, match=r"pip install 'graphplan\[dxf\]'"):
-        submission(tmp_path, "a.dxf", b"0\nSECTION\n")
+@pytest.mark.parametrize(("kind", "package"), [("dxf", "ezdxf"), ("svg", "svgelements")])
+def test_drawings_need_their_extra(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, kind: str, package: str) -> None:
+    """Without the package that reads it, a file is refused with what to install."""
+    monkeypatch.setitem(__import__("sys").modules, package, None)
+    with pytest.raises(Refused, match=rf"needs {package}; pip install 'graphplan\[{kind}\]'"):
+        submission(tmp_path, f"a.{kind}", FORMATS["plain.svg"])

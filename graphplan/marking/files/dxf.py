@@ -9,6 +9,11 @@ from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
+import ezdxf
+from ezdxf.filemanagement import dxf_stream_info
+from ezdxf.recover import read
+from ezdxf.units import MM, conversion_factor
+
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, curved, full, pieces, reach
@@ -44,12 +49,6 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
 
 def _document(path: Path) -> Any:
     """The file as ezdxf has it, repaired where it must be."""
-    try:
-        import ezdxf
-        from ezdxf.filemanagement import dxf_stream_info
-        from ezdxf.recover import read
-    except ModuleNotFoundError:
-        raise Refused(f"{path}", "reading DXF needs ezdxf", "pip install 'graphplan[dxf]'") from None
     data = _bounded(path, contents(path, LARGEST))
     try:
         coding = dxf_stream_info(io.StringIO(data.decode("latin-1"))).encoding
@@ -82,8 +81,6 @@ class _DxfReader:
     """Reads one document, block by block."""
 
     def __init__(self, path: Path, document: Any):
-        from ezdxf.units import MM, conversion_factor
-
         self.path, self.own = path, OWN in document.appids
         self.limits = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0

@@ -8,40 +8,47 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from pathlib import Path
+from pathlib import Path as File
+from typing import Any
 from xml.etree.ElementTree import Element
+
+from svgelements import Circle, Ellipse, Matrix, Path, Polygon, Polyline, Rect, SimpleLine
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.files.curves import DOT, curved, full, pieces
+from graphplan.marking.files.curves import DOT, curved, pieces
 from graphplan.marking.files.drawing import NO_DRAWING, drawing, same_paper
 from graphplan.marking.files.labels import Lettering
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
-from graphplan.marking.files.svg_looks import Look, Looks, inherited
-from graphplan.marking.files.svg_paths import chains
 from graphplan.marking.files.svg_space import (
-    MM,
-    NUMBERS,
-    Affine,
-    Window,
+    Look,
+    Looks,
+    Viewport,
+    chains,
     fitted,
+    inherited,
     paper,
-    paper_size,
+    path,
+    spot,
     transform,
     view_box,
-    window,
 )
 from graphplan.marking.files.svg_words import words
-from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Submission, Trace
 
 LARGEST = 16 * MB
 VISITS, LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
 GROUPS = {"svg", "g", "a", "switch"}
 READ = {*GROUPS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
 NOT_DRAWN = {f"layer-{name}" for name in NO_DRAWING}
+SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say where they lie
+    "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
+    "line": (SimpleLine, ("x1", "y1", "x2", "y2")), "rect": (Rect, ("x", "y", "width", "height")),
+}  # fmt: skip
+CHAINS: dict[str, Any] = {"polyline": Polyline, "polygon": Polygon}
 
 
-def read_svg(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
+def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in an SVG file; on graphplan's own sheet of this size plans lie where its frames say."""
     root = tree(path, contents(path, LARGEST))
     if root.tag != "svg":
@@ -55,8 +62,8 @@ def read_svg(path: Path, frames: Frames, size: tuple[float, float] | None = None
 class _Place:
     """Where an element stands: its map to paper, its view, how things look, how deep it is, whether it is drawn."""
 
-    onto: Affine
-    window: Window
+    onto: Matrix
+    view: Viewport
     look: Look
     depth: int = 0
     drawn: bool = True
@@ -65,7 +72,7 @@ class _Place:
 class _SvgReader:
     """Walks one document."""
 
-    def __init__(self, path: Path, root: Element):
+    def __init__(self, path: File, root: Element):
         self.path, self.root = path, root
         self.traces: list[Trace] = []
         self.words: list[Lettering] = []
@@ -79,9 +86,8 @@ class _SvgReader:
     def read(self) -> None:
         """Gather what is drawn and written."""
         try:
-            wide, high = paper_size(self.root.attrib)
-            self.size = wide * MM["px"], high * MM["px"]
-            place = _Place(paper(self.root.attrib), window(self.root.attrib), inherited(self.looks.of(self.root), {}))
+            onto, view, self.size = paper(self.root)
+            place = _Place(onto, view, inherited(self.looks.of(self.root), {}))
             for child in self.root:
                 self._element(child, place)
         except (ValueError, OverflowError) as error:
@@ -98,11 +104,11 @@ class _SvgReader:
             return
         if place.depth > DEEPEST:
             raise Refused(f"{self.path}", f"copies are nested more than {DEEPEST} deep", "ungroup the drawing")
-        onto = place.onto.after(transform(element.get("transform", "")))
-        if not on_paper(*map(abs, onto)):
+        onto = transform(element.get("transform")) * place.onto
+        if not on_paper(onto.a, onto.b, onto.c, onto.d, onto.e, onto.f):
             raise ValueError("a transform leads off the paper")
         drawn = place.drawn and element.get("class") not in NOT_DRAWN
-        here = _Place(onto, place.window, inherited(look, place.look), place.depth + 1, drawn)
+        here = _Place(onto, place.view, inherited(look, place.look), place.depth + 1, drawn)
         if element.tag in GROUPS:
             self._group(element, here)
         elif element.tag == "use":
@@ -115,18 +121,16 @@ class _SvgReader:
         if element.tag == "text":
             self.budget.spend(sum(1 for _ in element.iter()))
             self.letters.spend(sum(map(len, element.itertext())))
-            self.words += words(element, place.onto, place.window, place.look, self.looks)
+            self.words += words(element, place.onto, place.view, place.look, self.looks)
         elif place.drawn:
             self._shape(element, place)
 
     def _group(self, element: Element, place: _Place) -> None:
         if element.tag == "svg":
-            view = Window(*(place.window(element, key, place.window.part(key)) for key in ("width", "height")))
-            shift, box = _shift(element, place.window), view_box(element.attrib)
-            if box:
-                shift = shift.after(fitted(box, *view, element.get("preserveAspectRatio", "")))
-                view = Window(*box[2:])
-            place = replace(place, onto=place.onto.after(shift), window=view)
+            view = Viewport(*(place.view(element, key, place.view.part(key)) for key in ("width", "height")))
+            box = view_box(element)
+            onto = fitted(element, *view) * _shift(element, place.view) * place.onto
+            place = replace(place, onto=onto, view=Viewport(*box[2:]) if box else view)
         for child in element:
             self._element(child, place)
 
@@ -135,7 +139,7 @@ class _SvgReader:
         target = self.named.get(element.get("href", "").removeprefix("#"))
         if target is None:
             return
-        there = replace(place, onto=place.onto.after(_shift(element, place.window)))
+        there = replace(place, onto=_shift(element, place.view) * place.onto)
         if target.tag == "symbol":
             self._group(target, there)
         else:
@@ -144,55 +148,33 @@ class _SvgReader:
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot."""
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
-        for trace in _traces(element, place.onto, place.window):
+        for trace in _traces(element, place.onto, place.view):
             self.things.spend()
             if stroked or trace.kind == POINT:
                 self.traces.append(trace)
 
 
-def _shift(element: Element, window: Window) -> Affine:
+def _shift(element: Element, view: Viewport) -> Matrix:
     """By how much an element moves what is in it."""
-    return Affine(1.0, 0j, complex(window(element, "x"), window(element, "y")))
+    return Matrix(1, 0, 0, 1, view(element, "x"), view(element, "y"))
 
 
-def _traces(element: Element, onto: Affine, window: Window) -> Iterator[Trace]:
-    """What a shape shows on paper."""
-    match element.tag:
-        case "circle" | "ellipse":
-            yield from _round(element, onto, window)
-        case "line":
-            ends = [complex(window(element, f"x{i}"), window(element, f"y{i}")) for i in (1, 2)]
-            yield from pieces([onto(end) for end in ends])
-        case "polyline" | "polygon":
-            numbers = [float(number) for number in NUMBERS.findall(element.get("points", ""))]
-            spots = [onto(complex(x, y)) for x, y in zip(numbers[::2], numbers[1::2], strict=False)]
-            yield from pieces([*spots, spots[0]] if element.tag == "polygon" and spots else spots)
-        case "rect":
-            x, y, w, h = (window(element, key) for key in ("x", "y", "width", "height"))
-            corners = [onto(complex(*corner)) for corner in ((x, y), (x + w, y), (x + w, y + h), (x, y + h), (x, y))]
-            yield from pieces(corners)
-        case "path":
-            for chain in chains(element.get("d", "")):
-                chained = [onto(spot) for spot in chain.spots]
-                yield from pieces(chained) if not chain.smooth else [one] if (one := curved(chained)) else []
-
-
-def _round(element: Element, onto: Affine, window: Window) -> Iterator[Trace]:
-    """A circle, or an ellipse that is one on paper."""
-    both = window(element, "r")
-    centre = complex(window(element, "cx"), window(element, "cy"))
-    radii = [window(element, key, both) for key in ("rx", "ry")]
-    rx, ry = (radii[0] or radii[1], radii[1] or radii[0]) if element.tag == "ellipse" else (both, both)
-    if rx <= 0 or ry <= 0:
-        return
-    if onto.even and rx == ry:
-        yield full(onto(centre), rx * onto.size)
-    elif found := curved(_ellipse(centre, rx, ry, onto)):
-        yield found
-    elif max(rx, ry) * onto.size < DOT:
-        yield Trace(POINT, (onto(centre),))
-
-
-def _ellipse(centre: complex, rx: float, ry: float, onto: Affine) -> list[Spot]:
-    bows = f"M{centre.real - rx} {centre.imag}a{rx} {ry} 0 1 0 {2 * rx} 0a{rx} {ry} 0 1 0 {-2 * rx} 0"
-    return [onto(spot) for chain in chains(bows) for spot in chain.spots]
+def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
+    """What a shape shows on paper; one as small as a dot shows where it is."""
+    if element.tag == "path":
+        shape = path(element.get("d", ""))
+    elif element.tag in CHAINS:
+        shape = CHAINS[element.tag](points=element.get("points", ""))
+    else:
+        made, keys = SHAPES[element.tag]
+        sizes = {key: view(element, key) for key in keys}
+        radii = [sizes[key] for key in ("r", "rx", "ry") if key in sizes]
+        if radii and 0 < max(radii) * abs(onto.determinant) ** 0.5 < DOT:
+            yield Trace(POINT, (spot(onto, complex(sizes["cx"], sizes["cy"])),))
+            return
+        shape = made(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes else {}))
+    for smooth, spots in chains(Path(shape), onto):
+        if not smooth:
+            yield from pieces(spots)
+        elif one := curved(spots):
+            yield one

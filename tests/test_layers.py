@@ -44,6 +44,7 @@ OUTSIDE = {
     "numba": {"kernel/tape/compiled.py"},
     "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},
+    "shtab": {"commands/completion.py"},
 }
 # Where the kernel reckons beyond Python alone.
 NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),

@@ -12,43 +12,68 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator
-from typing import TYPE_CHECKING
 
 from graphplan.commands.output import write
 
-if TYPE_CHECKING:
-    from graphplan.commands.completion_scripts import Argument, Command
-
-PLACES = {"SCENE": "scene", "FOLDER": "folder", "DRAWING": "file"}  # what completes an argument, by its name
+SCENES = {  # what completes a scene, in each shell: a packaged one, a TOML file, or a folder on the way to one
+    "bash": """\
+_graphplan_scene_file() {{
+    compgen -W "{0}" -- "$1"
+    compgen -f -X '!*.toml' -- "$1"
+    compgen -d -- "$1"
+}}""",
+    "zsh": """\
+_graphplan_scene() {{
+    _alternative 'packaged:packaged scene:({0})' 'files:scene file:_files -g "*.toml"'
+}}""",
+    "fish": """\
+function __graphplan_scene
+    printf '%s\\n' {0}
+    __fish_complete_path (commandline -ct) | string match -r '.*(?:\\.toml|/)(?:\\t.*)?$'
+end""",
+}
+SCENE = {"bash": "_graphplan_scene_file", "zsh": "_graphplan_scene", "fish": "(__graphplan_scene)"}
+BASH = """
+# in --option=value bash takes the = for a word
+_graphplan() {
+    local word words=()
+    for word in "${COMP_WORDS[@]:0:COMP_CWORD}"; do [[ $word == "=" ]] || words+=("$word"); done
+    word=${COMP_WORDS[COMP_CWORD]}
+    COMP_WORDS=("${words[@]}" "${word#=}")
+    COMP_CWORD=${#words[@]}
+    _shtab_graphplan
+}
+complete -o filenames -F _graphplan graphplan
+"""
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("shell", metavar="SHELL", choices=("bash", "zsh", "fish"), help="bash, zsh or fish")
+    command.add_argument("shell", metavar="SHELL", choices=[*SCENES], help="bash, zsh or fish")
 
 
 def run(options: argparse.Namespace) -> int:
+    import shtab
+
     from graphplan.commands import SUBCOMMANDS, parser
-    from graphplan.commands.completion_scripts import SHELLS
     from graphplan.mechanism.scene import packaged
 
-    write(SHELLS[options.shell]([*_commands(parser(SUBCOMMANDS))], packaged()))
+    whole = parser(SUBCOMMANDS)
+    for action in _actions(whole):
+        takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())
+        places = {"SCENE": SCENE, "FOLDER": shtab.DIRECTORY, "DRAWING": shtab.FILE}
+        place = places.get(takes, shtab.FILE if "FILE" in takes or "." in takes else None)
+        if place:
+            action.complete = place  # type: ignore[attr-defined]
+    scenes = SCENES[options.shell].format(" ".join(packaged()))
+    write(shtab.complete(whole, options.shell, preamble=scenes) + (BASH if options.shell == "bash" else ""))
     return 0
 
 
-def _commands(parser: argparse.ArgumentParser) -> Iterator[Command]:
-    """The subcommands with all that may follow them."""
-    from graphplan.commands.completion_scripts import Command
-
+def _actions(parser: argparse.ArgumentParser) -> Iterator[argparse.Action]:
+    """The options and arguments of all subcommands."""
     for action in parser._actions:
         if isinstance(action, argparse._SubParsersAction):
-            for name, command in action.choices.items():
-                yield Command(name, command.description or "", tuple(map(_argument, command._actions)))
-
-
-def _argument(action: argparse.Action) -> Argument:
-    """An option or an argument, with what completes it: its own choices, or what its name says."""
-    from graphplan.commands.completion_scripts import Argument
-
-    takes = "" if action.nargs == 0 else str(action.metavar or action.dest.upper())
-    place = PLACES.get(takes, "file" if "FILE" in takes or "." in takes else "")
-    return Argument(tuple(action.option_strings), action.help or "", takes, place, tuple(action.choices or ()))
+            for command in action.choices.values():
+                yield from _actions(command)
+        else:
+            yield action

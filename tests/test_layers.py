@@ -34,7 +34,7 @@ FRONT = {"__init__", "__main__", "commands"}
 
 # Who may import what does not come with Python.
 OUTSIDE = {
-    "matplotlib": {"output"},
+    "matplotlib": {"output/pdf_png.py"},
     "svgwrite": {"output/svg.py", "output/stepper.py"},
     "shapely": {"sheet", "output", "marking"},
     "ezdxf": {"output", "marking"},

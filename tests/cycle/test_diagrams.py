@@ -225,7 +225,7 @@ def test_the_plot_is_the_same_text_whenever_written() -> None:
     words = re.sub(r"<[^>]*>|\s", "", re.sub(r"<defs>.*?</defs>", "", text, flags=re.DOTALL))
     for quantity, distance in drawn.scales.poles.items():
         assert f"{quantity}inmm/s" in words
-        assert f"OH={float(distance):g}mm" in words
+        assert f"O{quantity}H{quantity}={float(distance):g}mm" in words
     assert f"{100 * error(drawn, CHORDS).largest:.2g}" in re.findall(r">([\d.]+)<", text)
     assert "360°" in words
     assert "date" not in text

@@ -6,12 +6,13 @@ from dataclasses import dataclass
 
 Place = float | str  # a number on an axis, or the name of one of its rails
 Spot = tuple[Place, Place]
+Rails = tuple[tuple[str, str], ...]  # lines beside the numbers of an axis, by name, with their labels, possibly empty
 
 
 @dataclass(frozen=True)
 class Look:
-    """How marks and lines look: a marker of a size in mm, filled or hollow, and a line of a width in mm, dashed in mm,
-    perhaps in steps; an area is filled with the colour, or hatched with it."""
+    """How marks and lines look: a marker of a size in mm, filled or hollow, and a line of a width in mm, dashed in mm;
+    an area is a stretch of a rail, filled with the colour or hollow."""
 
     colour: str
     marker: str = ""
@@ -19,9 +20,7 @@ class Look:
     size: float = 1.6
     width: float = 0.0
     dash: tuple[float, ...] = ()
-    steps: bool = False
     area: bool = False
-    hatch: str = ""
 
 
 @dataclass(frozen=True)
@@ -34,24 +33,6 @@ class Series:
 
 
 @dataclass(frozen=True)
-class Band:
-    """A stretch of the first axis, on a rail of the second."""
-
-    look: Look
-    rail: str
-    start: float
-    end: float
-
-
-@dataclass(frozen=True)
-class Rail:
-    """A line beside the numbers of an axis, for what has no number there; its label, possibly empty."""
-
-    name: str
-    label: str
-
-
-@dataclass(frozen=True)
 class Axis:
     """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, the step from
     reading to reading (of 0 it is free), and its rails before and after the numbers, the outermost first."""
@@ -60,8 +41,8 @@ class Axis:
     log: bool = True
     falling: bool = False
     step: float = 0.0
-    before: tuple[Rail, ...] = ()
-    after: tuple[Rail, ...] = ()
+    before: Rails = ()
+    after: Rails = ()
 
 
 @dataclass(frozen=True)
@@ -71,15 +52,13 @@ class Panel:
     title: str
     x: Axis
     y: Axis
-    series: tuple[Series, ...] = ()
-    bands: tuple[Band, ...] = ()
+    series: tuple[Series, ...]
 
 
 @dataclass(frozen=True)
 class Chart:
     """Panels of one size in mm, in rows of so many, under a title and remarks; the key tells what each look means."""
 
-    name: str
     title: str
     remarks: str
     panels: tuple[Panel, ...]

@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from itertools import pairwise
 
 from graphplan.accuracy.survey.draughtsman import STRICT, Draft
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
-MARKERS = {"pose's own": "o", "every method": "P", "auxiliary": "s", "trial": "^", "poles": "D"}
+MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up",
+           "poles": "diamond"}
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
-FRONT = Look(INK, width=0.25, steps=True)
+FRONT = Look(INK, width=0.25)
 REMARKS = (
     "Each mark is one form of a scene's construction: the operations of drawing it, and the expected error of its "
     "worst result beside the largest of its kind, to first order, all on sheets of size {paper} with {pencil}. "
@@ -25,7 +27,7 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     scenes = list(dict.fromkeys(row.scene for row in rows))
     panels = tuple(_panel(scene, [row for row in rows if row.scene == scene]) for scene in scenes)
     remarks = REMARKS.format(paper=rows[0].paper if rows else "", pencil=pencil)
-    return Chart("draughtsman", "The draughtsman: operations against pencil error", remarks, panels,
+    return Chart("The draughtsman: operations against pencil error", remarks, panels,
                  min(6, len(panels) or 1), (44.0, 36.0), tuple(_key()))
 
 
@@ -38,8 +40,9 @@ def _panel(scene: str, rows: Sequence[Draft]) -> Panel:
     if best:
         most, worst = (max(ends) for ends in zip(*map(_spot, there), strict=True))
         best = [(best[0][0], worst), *best, (most, best[-1][1])]
+    stairs = [corner for (a, b), (c, d) in pairwise(best) for corner in ((a, b), (c, b), (c, d))]
     return Panel(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
-                 (Series(FRONT, tuple(best)), *marks))
+                 (Series(FRONT, tuple(dict.fromkeys(stairs))), *marks))
 
 
 def _spot(row: Draft) -> tuple[float, float]:
@@ -54,6 +57,6 @@ def look(row: Draft) -> Look:
 def _key() -> Iterable[tuple[str, Look]]:
     yield from ((name, Look(GREY, marker, size=2.0)) for name, marker in MARKERS.items())
     yield from ((f"{plan} plans", Look(colour, area=True)) for plan, colour in COLOURS.items())
-    yield "filled: with set squares", Look(GREY, "o", size=2.0)
-    yield "hollow: strictly, with compasses and straightedge", Look(GREY, "o", hollow=True, size=2.0)
+    yield "filled: with set squares", Look(GREY, "circle", size=2.0)
+    yield "hollow: strictly, with compasses and straightedge", Look(GREY, "circle", hollow=True, size=2.0)
     yield "front", FRONT

@@ -7,7 +7,7 @@ from itertools import groupby
 
 from graphplan.accuracy.survey.best_forms import EQUAL, PENCIL, ROUNDING, Sample
 from graphplan.accuracy.survey.draughtsman import PLANS
-from graphplan.accuracy.survey.picture import Axis, Band, Chart, Look, Panel, Rail
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
 from graphplan.methods.construct import METHODS
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, RED
 
@@ -15,13 +15,13 @@ ANY = "any method"
 _HUES = {"orthogonal": ("#7f7f7f", BLUE, RED, GREEN), "polar": ("#d4d4d4", "#8fb0e6", "#eaa0a4", "#93cfa9")}
 LOOKS = {f"{method}, {plan}": Look(colour, area=True) for plan in PLANS
          for method, colour in zip((ANY, *METHODS), _HUES[plan], strict=True)}
-NOWHERE = Look(GREY, area=True, hatch="/////")
+NOWHERE = Look(GREY, area=True, hollow=True)
 TRAVEL = Axis("travel of the drive from the given pose, degrees", log=False, step=60.0)
-MEASURES = Axis("", log=False, after=(Rail(ROUNDING, ROUNDING), Rail(PENCIL, PENCIL)))
+MEASURES = Axis("", log=False, after=((ROUNDING, ROUNDING), (PENCIL, PENCIL)))
 REMARKS = (
     "Which form is best where: above by how much rounding grows in it, below by the expected pencil error, in "
     f"each pose of the cycle. Forms within {100 * EQUAL - 100:.0f} % of the best count as equal, and of equals "
-    "orthogonal plans and the first method are shown; where every method is as good on a plan it is any. Hatched: "
+    "orthogonal plans and the first method are shown; where every method is as good on a plan it is any. Blank: "
     "the mechanism does not come there, or no form is drawn."
 )
 
@@ -29,13 +29,13 @@ REMARKS = (
 def picture(rows: Sequence[Sample]) -> Chart:
     """The chart of these samples."""
     scenes = list(dict.fromkeys(row.scene for row in rows))
-    panels = tuple(Panel(scene, TRAVEL, MEASURES, bands=tuple(_bands([row for row in rows if row.scene == scene])))
+    panels = tuple(Panel(scene, TRAVEL, MEASURES, tuple(_bands([row for row in rows if row.scene == scene])))
                    for scene in scenes)
     key = (*LOOKS.items(), ("no form there", NOWHERE))
-    return Chart("forms", "The best form over the cycle", REMARKS, panels, min(2, len(panels) or 1), (160.0, 12.0), key)
+    return Chart("The best form over the cycle", REMARKS, panels, min(2, len(panels) or 1), (160.0, 12.0), key)
 
 
-def _bands(rows: Sequence[Sample]) -> Iterator[Band]:
+def _bands(rows: Sequence[Sample]) -> Iterator[Series]:
     """Stretches of poses with one best form, for each measure."""
     travels = sorted({row.travel for row in rows})
     ends = dict(zip(travels, [*travels[1:], 2 * travels[-1] - travels[-2] if len(travels) > 1 else 360.0], strict=True))
@@ -46,7 +46,7 @@ def _bands(rows: Sequence[Sample]) -> Iterator[Band]:
                 best[row.travel].append(row.form)
         for name, part in groupby(travels, key=lambda travel: shown(best[travel])):
             stretch = list(part)
-            yield Band(LOOKS.get(name, NOWHERE), measure, stretch[0], ends[stretch[-1]])
+            yield Series(LOOKS.get(name, NOWHERE), ((stretch[0], measure), (ends[stretch[-1]], measure)))
 
 
 def shown(best: Sequence[str]) -> str:

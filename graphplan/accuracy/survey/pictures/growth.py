@@ -11,9 +11,9 @@ from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED
 
 LOOKS = {stage: Look(colour, marker, size=1.8, width=0.25, dash=dash) for stage, (colour, marker, dash) in zip(STAGES, (
-    (INK, "o", ()), (BLUE, "s", (2.4, 0.8)), (RED, "^", (0.6, 0.8)), (GREEN, "D", (2.4, 0.6, 0.4, 0.6)),
-    (BROWN, "v", (3.2, 1.2))), strict=True)}
-STEPS = Look(INK, "o", hollow=True, size=1.8, width=0.25)
+    (INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8)),
+    (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6)), (BROWN, "down", (3.2, 1.2))), strict=True)}
+STEPS = Look(INK, "circle", hollow=True, size=1.8, width=0.25)
 LINKS = Axis("links")
 REMARKS = (
     "A crank and a chain of dyads. Times are medians within one run, in the time that the analytic solver takes "
@@ -28,7 +28,7 @@ def picture(rows: Sequence[Stage]) -> Chart:
         _times(look, [row for row in rows if row.stage == stage]) for stage, look in LOOKS.items()))
     counts = sorted({(row.links, row.steps) for row in rows})
     steps = Panel("size of the program", LINKS, Axis("steps"), (Series(STEPS, tuple(counts)),))
-    return Chart("growth", "Growth with the number of links", REMARKS, (times, steps), 2, (120.0, 90.0),
+    return Chart("Growth with the number of links", REMARKS, (times, steps), 2, (120.0, 90.0),
                  (*((_told(rows, stage), look) for stage, look in LOOKS.items()), (_steps(counts), STEPS)))
 
 
@@ -41,7 +41,7 @@ def _told(rows: Sequence[Stage], stage: str) -> str:
     """A stage with its exponent, where there are chains enough for one."""
     if len({row.links for row in rows if row.links >= LONG}) < 2:
         return stage
-    return f"{stage}: $n^{{{exponent(rows, stage):.2f}}}$"
+    return f"{stage}: n^{exponent(rows, stage):.2f}"
 
 
 def _steps(counts: Sequence[tuple[int, int]]) -> str:

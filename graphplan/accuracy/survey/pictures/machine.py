@@ -5,16 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from graphplan.accuracy.survey.machine import ARITHMETICS, EXACT_SOLVER, LAPACK, SOLVER, Measure
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Rail, Series
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Series
 from graphplan.accuracy.survey.timing import spread
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
 SHOWN = ("alt-eight-link", "class-four", "shaper")  # by themselves, where they are among the scenes
 PROVEN = 1e-20  # errors below this are those of enclosures
-MARKERS = dict(zip((*ARITHMETICS, SOLVER, LAPACK, EXACT_SOLVER), "os^D*PXv<>", strict=True))
+MARKERS = dict(zip((*ARITHMETICS, SOLVER, LAPACK, EXACT_SOLVER), (
+    "circle", "square", "up", "diamond", "star", "plus", "cross", "down", "left", "right"), strict=True))
 COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
 TIME = Axis("time for a pose, in poses solved by LAPACK in batches")
-ERROR = Axis("largest error, relative", before=(Rail("exact", "exact"), Rail("proven", "proven")))
+ERROR = Axis("largest error, relative", before=(("exact", "exact"), ("proven", "proven")))
 REMARKS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, in the "
     "time that LAPACK takes for a pose of the same scene in batches. Errors are the largest of any velocity or "
@@ -30,7 +31,7 @@ def picture(rows: Sequence[Measure]) -> Chart:
     panels = [Panel(scene, TIME, ERROR, tuple(_alone(row for row in rows if row.scene == scene))) for scene in shown]
     if len(scenes) > 1:
         panels.append(Panel(f"median of {len(scenes)} scenes", TIME, ERROR, tuple(_median(rows))))
-    return Chart("machine", "The machine: time against error", REMARKS, tuple(panels), min(2, len(panels)),
+    return Chart("The machine: time against error", REMARKS, tuple(panels), min(2, len(panels)),
                  (140.0, 85.0), tuple(_key()))
 
 
@@ -71,4 +72,4 @@ def _key() -> Iterable[tuple[str, Look]]:
                 for name, marker in MARKERS.items())
     yield "form of the pose or of every method", Look(INK, area=True)
     yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
-    yield "hollow: polar plans", Look(INK, "o", hollow=True, size=2.2)
+    yield "hollow: polar plans", Look(INK, "circle", hollow=True, size=2.2)

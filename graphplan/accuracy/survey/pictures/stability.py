@@ -5,22 +5,23 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Rail, Series, Spot
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Series, Spot
 from graphplan.accuracy.survey.stability import EPSILON, METHODS, Sample
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, GREY, INK, RED, VIOLET
 
 MOST = 100  # roundings of the mechanism's own condition that the default may lose
 _STROKES = (
-    (INK, "o", (), False), (BLUE, "s", (1.6, 0.8), False), (RED, "^", (0.4, 0.7), False),
-    (GREEN, "D", (2.4, 0.6, 0.4, 0.6), False), (BROWN, "v", (3.0, 1.0), True), (VIOLET, "P", (0.8, 0.6), True),
+    (INK, "circle", (), False), (BLUE, "square", (1.6, 0.8), False), (RED, "up", (0.4, 0.7), False),
+    (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6), False), (BROWN, "down", (3.0, 1.0), True),
+    (VIOLET, "plus", (0.8, 0.6), True),
 )
 LOOKS = {name: Look(colour, marker, hollow, 1.1, 0.2, dash)
          for name, (colour, marker, dash, hollow) in zip(METHODS, _STROKES, strict=True)}
 CONDITION, LIMIT = Look("#a8a8a8", width=0.7), Look(GREY, width=0.25, dash=(2.0, 1.0))
-END = Rail("0", "0")
-RAILS = tuple(Rail(name, "no number" if k == len(METHODS) // 2 else "") for k, name in enumerate(METHODS))
-DISTANCE = Axis("distance d from the special pose", falling=True, after=(END,))
-ERROR = Axis("largest error, relative", before=(Rail("exact", "exact"),), after=RAILS)
+END = "0"
+RAILS = tuple((name, "no number" if k == len(METHODS) // 2 else "") for k, name in enumerate(METHODS))
+DISTANCE = Axis("distance d from the special pose", falling=True, after=((END, END),))
+ERROR = Axis("largest error, relative", before=(("exact", "exact"),), after=RAILS)
 REMARKS = (
     "Each picture goes one way to a special pose, to the right; at its end the pose is special. Grey is what the "
     "mechanism itself must cost, its condition in units of 2.2e-16, dashed 100 times that. Marks above the "
@@ -34,7 +35,7 @@ def picture(rows: Sequence[Sample]) -> Chart:
     about = {degeneracy.name: degeneracy.what for degeneracy in DEGENERACIES}
     names = list(dict.fromkeys(row.degeneracy for row in rows))
     panels = tuple(_panel(f"{name} – {about[name]}", [row for row in rows if row.degeneracy == name]) for name in names)
-    return Chart("stability", "Stability: error near the places where methods fail", REMARKS, panels,
+    return Chart("Stability: error near the places where methods fail", REMARKS, panels,
                  min(3, len(panels) or 1), (116.0, 70.0), tuple(_key()))
 
 
@@ -53,7 +54,7 @@ def _costs(rows: Sequence[Sample]) -> Iterator[Series]:
 
 def _spot(row: Sample) -> Spot:
     level: Place = row.method if row.error is None else row.error or "exact"
-    return row.distance or END.name, level
+    return row.distance or END, level
 
 
 def _key() -> Iterable[tuple[str, Look]]:

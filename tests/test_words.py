@@ -25,7 +25,7 @@ from graphplan.kernel.kinds import TABLE
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
-from graphplan.methods.construction import WEIGHED, Construction
+from graphplan.methods.construction import Construction
 from graphplan.methods.panels import JointForce, Lever
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
@@ -41,8 +41,9 @@ OTHERS = [code for code in LANGUAGES if code != "en"]
 def phrases() -> frozenset[str]:
     """Every phrase that a source says, and the forms of which the choice is told."""
     found = {text for path in PACKAGE.rglob("*.py") for text in _said(ast.parse(path.read_text()))}
-    weighed = {form for op in WEIGHED for form in TABLE[op].forms}
-    return frozenset(found | weighed | {form.partition(" on ")[0] for form in weighed})
+    weighed = {form for op in TABLE.values() if op.weighed for form in op.forms}
+    methods = {op.method for op in TABLE.values()} - {""}
+    return frozenset(found | weighed | methods | {form.partition(" on ")[0] for form in weighed})
 
 
 @cache

@@ -23,6 +23,7 @@ from typing import Any
 
 from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel import kinds
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
@@ -62,15 +63,15 @@ class Hand:
         """For each point of the pose the first one that lies where it does."""
         first: dict[Any, int] = {}
         return {step.index: first.setdefault(self.values[step.index], step.index)
-                for step in self.program.steps if step.op.name == "given"}
+                for step in self.program.steps[:self.program.givens]}
 
     def slipped(self, step: Step, exact: Any, errors: Sequence[Any]) -> Any:
         """What a step makes, off by its errors."""
         steady = self.values[step.index]
-        match step.op.gives, step.op.name:
-            case _, "begin":
+        match step.op.gives, step.op.movement:
+            case _, Movement.BEGUN:
                 return exact
-            case _, "pick":
+            case _, Movement.PICKED:
                 a, b = _unit(self.values[step.args[0]])
                 return exact[0] + a * errors[0], exact[1] + b * errors[0]
             case kinds.LINE, _:
@@ -106,10 +107,10 @@ def hand_at(drawing: Construction, unit: Callable[[str], float], pencil: Pencil)
 def _slips(drawing: Construction, step: Step, unit: float, pencil: Pencil) -> Slips:
     """The standard deviations of one step; `unit` is the plan's length of a millimetre."""
     point, edge = unit * pencil.point, unit * pencil.edge
-    match step.op.gives, step.op.name:
-        case _, "begin":
+    match step.op.gives, step.op.movement:
+        case _, Movement.BEGUN:
             return ()
-        case _, "pick":
+        case _, Movement.PICKED:
             return (point,)
         case kinds.LINE, _:
             laid_at_two = len(places(drawing.drawn, drawing.values, step)) > 1
@@ -122,7 +123,7 @@ def _slips(drawing: Construction, step: Step, unit: float, pencil: Pencil) -> Sl
 def places(program: Program, values: Sequence[Any], step: Step) -> list[Any]:
     """Where a line is laid: at the points that it is drawn through; at none, abreast of the middle of what it reads."""
     points = {arg for arg in step.args if program.steps[arg].op.gives == kinds.POINT}
-    on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
+    on = [step.args[place] for place in step.op.claimed("on")]
     through = [values[arg] for arg in on if arg in points]
     return through[:2] or [_abreast(values[step.index], [values[arg] for arg in sorted(points)])]
 

@@ -20,6 +20,7 @@ from graphplan.check.compared import compared, printed, rounded
 from graphplan.check.enclosed import enclosed
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError, Refused, SingularPose
+from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
@@ -201,8 +202,8 @@ class Bench:
 
     def _same(self, known: Scene, drawing: Construction) -> Construction | None:
         """The same construction of the scene in enclosures: by the same steps."""
-        def steps(one: Construction) -> list[tuple[str, tuple[int, ...]]]:
-            return [(step.op.name, step.args) for step in one.program.steps]
+        def steps(one: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
+            return [(step.op, step.args) for step in one.program.steps]
 
         every = islice(constructions(known, **self.how), WAYS)
         return next((one for one in every if steps(one) == steps(drawing)), None)
@@ -288,7 +289,7 @@ def miss(drawing: Construction, domain: Domain) -> str:
     except ConstructionError as error:
         return f"{error.drawing}: {error.why}"
     try:
-        flattest = min((step for step in drawing.program.steps if step.op.name == "meet"),
+        flattest = min((step for step in drawing.program.steps if step.op.movement is Movement.MET),
                        key=lambda step: _sine(drawing, step.args), default=None)
     except ConstructionError:
         return ""

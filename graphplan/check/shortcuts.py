@@ -12,6 +12,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Step
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import N_PLAN
@@ -40,7 +41,7 @@ class Shortcuts:
 
 def shortcuts(drawing: Construction) -> list[Shortcuts]:
     """The shortcuts wherever a drawing has a link with three loci on the N-plan, one of them of its middle."""
-    return [found for step in drawing.program.steps if step.op.name == "carry" and step.panel == N_PLAN
+    return [found for step in drawing.program.steps if step.op.claimed("locus") and step.panel == N_PLAN
             for found in _at(drawing, step)]
 
 
@@ -48,7 +49,7 @@ def _at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
     """The link whose loci this step carries together, if one of its three points halves the other two."""
     steps, values = drawing.program.steps, drawing.truth
     for step in steps:
-        if step.op.name == "meet" and carry.index in step.args:
+        if step.op.movement is Movement.MET and carry.index in step.args:
             A, alpha, B, beta, C = carry.args
             (gamma,) = (arg for arg in step.args if arg != carry.index)
             three = [(A, alpha), (B, beta), (C, gamma)]

@@ -1,9 +1,7 @@
 """From compounds to single movements: each compound is drawn in the form that suits the pose.
 
 A form is tried on the board itself, so that it may use what is drawn already; it counts only if it can be drawn and
-gives the value of the compound's rule from the marks that it reads. Crossings below one degree are for want of
-better; of the others, one on the sheet beats one off it, crossings above 15 degrees beat flatter ones, and then the
-fewest movements win. What no form can draw in this pose stays one step.
+gives the value of the compound's rule from the marks that it reads. What no form can draw in this pose stays one step.
 
 Compounds inside a form that is tried are tried in turn, but only their best form counts: there a form is left off as
 soon as it has taken as many movements as one that has nothing against it (branch and bound).
@@ -17,14 +15,12 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.choice import Choice, Trial
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step
-from graphplan.phrases import Said, joined, phrase, said
 
-SHARP = math.sin(math.radians(15))
-BLUNT = math.sin(math.radians(1))
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
 SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
 FLOATS = Floats()
@@ -44,36 +40,11 @@ class Window(NamedTuple):
         return math.dist(point, self.centre) <= self.radius
 
 
-RATHER = phrase("{0} rather than {1}")
 EVERYWHERE = Window((0.0, 0.0), math.inf)
 
 
 class Outdone(Exception):
     """Raised where a form that is tried can no longer be the best, however well it goes on."""
-
-
-@dataclass(frozen=True)
-class Trial:
-    """How well one form draws in this pose; of one that was left off, how well it could at best."""
-
-    form: str
-    movements: int
-    on_sheet: bool = True
-    sharpest: float = 1.0
-    undrawn: int = 0
-    left_off: bool = False
-
-    @property
-    def rank(self) -> tuple[int, bool, bool, bool, int]:
-        return self.undrawn, self.sharpest < BLUNT, not self.on_sheet, self.sharpest < SHARP, self.movements
-
-    @property
-    def told(self) -> Said:
-        """What speaks for it, in words."""
-        angle = math.degrees(math.asin(min(1.0, self.sharpest)))
-        place = said("on the sheet") if self.on_sheet else said("off the sheet")
-        return said("{0} ({1} steps, {2}, flattest crossing {3}°)", form_named(self.form), self.movements, place,
-                    f"{angle:.0f}")
 
 
 @dataclass
@@ -238,10 +209,7 @@ class Expander:
         if why:
             self.board.annotate(out.step.index, why=why)
         if len(op.forms) > 1:
-            best, *others = [trial.told for trial in ranked]
-            reason = RATHER(best, joined(others)) if others else said(
-                "{0}, the only form that can be drawn here", best)
-            self.board.annotate(before, form=f"{op.name}: {ranked[0].form}", reason=reason)
+            self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:])))
 
 
 class Pencil:
@@ -313,11 +281,6 @@ class Pencil:
         points = [mark for mark in points if mark.step.panel == P.step.panel] or points
         far = max(points, key=lambda X: self.distance(P, X), default=P)
         return None if self.one(P, far) else far
-
-
-def form_named(form: str) -> Said:
-    """A form of a compound by its name, in any tongue."""
-    return said(form)
 
 
 def _along(point: tuple[float, float], x: float, y: float) -> float:

@@ -12,6 +12,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn, Self
 
+from graphplan.kernel.choice import Choice
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Movement, Primitive
 from graphplan.phrases import Said, arranged, phrase, said, sentence
 
@@ -62,7 +63,8 @@ class Step:
     """One drawing step: what it makes (`name`), how (`op`), from which earlier steps (`args`, by index).
 
     `panel` is the plan it is drawn on, `why` the law or purpose, `links` the links of the mechanism it speaks of,
-    `names` the names of marks inside a compound. `name` is empty where the mark has no letter of its own.
+    `names` the names of marks inside a compound, `choice` the form that begins here and why it is drawn. `name` is
+    empty where the mark has no letter of its own.
     """
 
     index: int
@@ -74,8 +76,12 @@ class Step:
     why: str = ""
     links: tuple[str, ...] = ()
     names: dict[str, str] = field(default_factory=dict)
-    form: str = ""
-    reason: str = ""
+    choice: Choice | None = None
+
+    @property
+    def root(self) -> int | None:
+        """The step of the mark that a point is laid off from, if it is."""
+        return None if self.op.root is None else self.args[self.op.root]
 
     @property
     def key(self) -> tuple[Any, ...]:
@@ -156,8 +162,6 @@ class Board:
         name: str = "",
         why: str = "",
         names: dict[str, str] | None = None,
-        form: str = "",
-        reason: str = "",
         **params: Any,
     ) -> Mark:
         """Record one step; names that are taken get a prime, the first name of a mark stays."""
@@ -177,7 +181,7 @@ class Board:
             return same
         panel = read[op.where].panel if read else self._context["panel"]
         step = Step(len(self.steps), "", op, places, params,
-                    panel, why, self._context["links"], names or {}, form, reason)
+                    panel, why, self._context["links"], names or {})
         mark = Mark(self, step)
         self.steps.append(step)
         self.marks.append(mark)
@@ -199,9 +203,9 @@ class Board:
             self._rename(mark, name)
         return mark
 
-    def annotate(self, index: int, **notes: str) -> None:
-        """Add notes (why, form, reason) to a step that is drawn."""
-        self.steps[index] = self.marks[index].step = replace(self.steps[index], **notes)  # type: ignore[arg-type]
+    def annotate(self, index: int, **notes: Any) -> None:
+        """Add notes (why, choice) to a step that is drawn."""
+        self.steps[index] = self.marks[index].step = replace(self.steps[index], **notes)
 
     def rewind(self, length: int) -> None:
         """Take back all steps after the first `length`: a form was tried and is not used."""
@@ -253,6 +257,10 @@ class Program:
         if step.name or not step.op.described:
             return self.text(index)
         return step.op.described.format(*map(self.described, step.args))
+
+    def given_vector(self, step: Step) -> bool:
+        """Whether a point is the end of a given vector: lettered, and laid off by its size from where a plan begins."""
+        return bool(step.name) and step.op.scaled and step.root is not None and self.steps[step.root].op.free
 
     @cached_property
     def givens(self) -> int:

@@ -10,6 +10,7 @@ import numpy as np
 
 from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.evaluate import error_at
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene, Slide
@@ -204,4 +205,4 @@ def _guides(construction: Construction, slide: Slide) -> list[int]:
             raise Refused(f"guides {slide.name} and {other.name}", "they are drawn as one line, and turn apart",
                           "two points of its link for the direction of each")
     return [step.index for step in construction.program.steps
-            if step.op.name == "guide" and step.links == (slide.link, slide.along)]
+            if step.op.movement is Movement.GUIDED and step.links == (slide.link, slide.along)]

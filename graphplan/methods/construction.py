@@ -13,8 +13,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from graphplan.errors import ConstructionError
 from graphplan.kernel.broken import broken
 from graphplan.kernel.evaluate import evaluate
-from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, RATHER, STRICT, Expander, Window, form_named
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
@@ -139,8 +139,17 @@ class Construction:
     @property
     def forms(self) -> list[str]:
         """The forms chosen for this pose, each with the reason, by step number."""
-        chosen = [s for s in self.drawn.steps if s.form.partition(":")[0] in WEIGHED and _compared(s.reason)]
-        return self.notes + [said("step {0}: {1}", self.drawn.number(s.index), s.reason) for s in chosen]
+        return self._forms()
+
+    @property
+    def brief_forms(self) -> list[str]:
+        """The same, each form beside its nearest rival only."""
+        return self._forms(rivals=1)
+
+    def _forms(self, rivals: int | None = None) -> list[str]:
+        chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
+                  if step.choice and step.choice.others and step.choice.compound.weighed]
+        return self.notes + [said("step {0}: {1}", *told) for told in chosen]
 
     @cached_property
     def method(self) -> dict[str, list[str]]:
@@ -156,26 +165,28 @@ class Construction:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""
         letters = self._letters()
         for step in self.drawn.steps:
-            op, _, form = step.form.partition(": ")
-            if op == "carry" and (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == ACCELERATION):
+            if step.choice is None or not step.choice.compound.claimed("locus"):
+                continue
+            if (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == ACCELERATION):
+                form = step.choice.best.form
                 if form != "auxiliary point":
-                    yield form_named(form.partition(" on ")[0])
+                    yield said(form.partition(" on ")[0])
                 elif letters:
                     yield said("auxiliary points {0}", ", ".join(letters))
 
     def _force_method(self) -> dict[str, list[str]]:
         """How forces are found: by polygons, with what auxiliary points and false positions, and by the lever."""
         plans = {step.panel for step in self.drawn.steps if isinstance(step.panel, ForcePlan)}
-        steps = [step for step in self.program.steps if step.panel in plans or step.op.name == "towards"]
+        steps = [step for step in self.program.steps if step.panel in plans or step.op.gives == LINE]
+        used = {step.op.method for step in steps}
         names: list[str] = [said("force polygons")] if plans else []
-        names += [said("auxiliary points")] if any(step.op.name in ("towards", "weigh") for step in steps) else []
-        names += [said("false position")] if any(step.op.name == "false_position" for step in steps) else []
+        names += [said(name) for name in sorted(used) if name]
         names += [said("Zhukovsky's lever")] if any(isinstance(s.panel, Lever) for s in self.drawn.steps) else []
         return {"force": names} if names else {}
 
     def _letters(self) -> list[str]:
         """The letters of the auxiliary points."""
-        names = {step.names.get("Q", "") for step in self.program.steps if step.op.name == "carry"}
+        names = {step.names.get("Q", "") for step in self.program.steps if step.op.claimed("locus")}
         drawn = {step.name for step in self.drawn.steps}
         return sorted(name for name in names & drawn if name)
 
@@ -335,9 +346,3 @@ PLAIN = {
     (False, VELOCITY): said("polar velocity plan"),
     (False, ACCELERATION): said("polar acceleration plan"),
 }
-WEIGHED = ("carry", "coriolis")  # the compounds whose choice of form is told
-
-
-def _compared(reason: str) -> bool:
-    """Whether there was a choice of form."""
-    return isinstance(reason, Said) and reason.key == RATHER.english

@@ -29,7 +29,6 @@ from graphplan.sheet.plates.pens import PAPER
 from graphplan.sheet.words.texts import RESULTS
 
 PACKING = 9  # how hard gzip tries
-SPANNED = ("line", "opening")  # operations whose mark is between the two points that they read
 MECHANISM_LAYERS = ("plates", "ground", "links", "blocks", "drive", "pairs", "letters")
 WORDS = {  # what stands on the page
     "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
@@ -103,7 +102,7 @@ def _data(found: Round) -> dict[str, Any]:
     steps = [{
         "name": _set(found, drawn.text(step.index)), "told": _set(found, drawn.told(step.index)),
         "plan": panels.index(plans.plan_of_step[step.index]), "reads": list(step.args),
-        "span": list(step.args) if step.op.name in SPANNED else [],
+        "span": list(step.args) if step.op.spans else [],
     } for step in drawn.steps]  # fmt: skip
     return {
         "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},

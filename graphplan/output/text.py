@@ -76,8 +76,8 @@ def steps(drawing: Construction, structure: Iterable[str] = (), say: Tongue = EN
             "plan": step.panel,
             "sentence": say(drawn.told(step.index)),
             "why": say(step.why),
-            "form": step.form,
-            "reason": step.reason,
+            "form": str(step.choice or ""),
+            "reason": step.choice.reason() if step.choice else "",
             "links": list(step.links),
             "value": list(values[step.index]),
         })

@@ -13,7 +13,7 @@ from typing import Any
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.evaluate import evaluate
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
@@ -63,8 +63,8 @@ class Posed:
         return self.construction.method
 
     @property
-    def forms(self) -> list[str]:
-        return self.construction.forms
+    def brief_forms(self) -> list[str]:
+        return self.construction.brief_forms
 
     @property
     def strict(self) -> bool:
@@ -109,7 +109,7 @@ def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str,
     given: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
     for step in program.steps:
         name = " along ".join(step.links)
-        if step.op.name == "guide" and name in guides:
+        if step.op.movement is Movement.GUIDED and name in guides:
             given[step.index] = {"dx": guides[name].real, "dy": guides[name].imag}
     return given
 

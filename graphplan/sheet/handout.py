@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
+from graphplan.kernel.kinds import Movement
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
 from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
@@ -93,7 +94,7 @@ def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterato
     """
     plans, window = composition.plans, composition.views[panel]
     begins = [step for step in plans.drawing.drawn.steps
-              if step.op.name == "begin" and plans.plan_of_step[step.index] == panel]
+              if step.op.movement is Movement.BEGUN and plans.plan_of_step[step.index] == panel]
     spots = [window(plans.spot(step.index)) for step in begins]
     dots = [Circle(ORIGIN, "construction", step.index, spot, 0.5) for step, spot in zip(begins, spots, strict=True)]
     wishes = [Wish(listed([step.name]), (spot,), step=step.index, label=step.name)

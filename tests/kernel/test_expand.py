@@ -6,6 +6,7 @@ import pytest
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
+from graphplan.kernel.choice import Choice
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.numbers.floats import Floats
@@ -31,9 +32,14 @@ def expanded(program: Program, **choices: object) -> Program:
     return Expander(program, evaluate(program, Floats()), **choices).run()  # type: ignore[arg-type]
 
 
+def chosen(program: Program) -> Choice:
+    """The form of `carry` that was chosen, and why."""
+    return next(step.choice for step in program.steps if step.choice and step.choice.compound.name == "carry")
+
+
 def form(program: Program) -> str:
     """Which form of `carry` was chosen."""
-    return next(step.form for step in program.steps if step.form.startswith("carry")).removeprefix("carry: ")
+    return chosen(program).best.form
 
 
 def test_auxiliary_point_where_it_is_on_the_sheet() -> None:
@@ -68,7 +74,7 @@ def test_preferred_form_is_drawn() -> None:
 def test_reason_weighs_the_forms() -> None:
     """The first step of a form says what it cost, where it lies and how sharp it is, beside the others."""
     drawing = expanded(link(0.5), windows={"": Window((4.0, 4.0), 20.0)})
-    reason = next(step.reason for step in drawing.steps if step.form.startswith("carry"))
+    reason = chosen(drawing).reason()
     assert "steps, on the sheet, flattest crossing" in reason
     assert " rather than " in reason
     assert "auxiliary point (" in reason

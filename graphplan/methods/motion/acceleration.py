@@ -11,6 +11,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Iterable
 
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Slide, TurningDrive
 from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
@@ -171,7 +172,8 @@ class Normal(Plan):
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
             with self.board.on(self.panel):
-                begun = sum(step.op.name == "begin" and step.panel == self.panel for step in self.board.steps)
+                begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
+                begun = sum(step.panel == self.panel for step in begins)
                 name = self.figure_name(link, anchor.point)
                 return self.board.begin(plan=self.panel.words, number=begun + 1, name=name)
         if anchor.slide is None:

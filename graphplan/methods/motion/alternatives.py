@@ -16,6 +16,7 @@ from random import Random
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused, Undrawable
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
 from graphplan.methods.motion.network import Network
@@ -191,7 +192,7 @@ def _drawn(program: Program, hand: Random | None) -> list[Any] | None:
             value = step.op.rule(Floats(), *[values[arg] for arg in step.args], **step.params)
         except Undrawable:
             return None
-        if hand is not None and step.op.name != "given":
+        if hand is not None and step.op.movement is not Movement.GIVEN:
             value = tuple(number * (1 + SHAKE * hand.uniform(-1, 1)) for number in value)
         values.append(value)
     return [values[index] for index in program.wanted]

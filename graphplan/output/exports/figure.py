@@ -19,7 +19,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import sentence as spoken
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates import clip, laid_off, pens
+from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Arc, Polygon, Polyline, Rect, Spot
 from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
@@ -93,7 +93,7 @@ class Object:
     @property
     def root(self) -> Object | None:
         """The mark of its own plan that a point is laid off from, if it is: a stroke joins the two."""
-        place = laid_off.root(self.step)
+        place = self.step.root
         found = next((arg for arg in self.args if arg.index == place), None)
         return found if found is not None and found.plan is self.plan else None
 

@@ -12,14 +12,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import chain, pairwise
 
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.methods.panels import VELOCITY_PLAN
 from graphplan.output.exports.figure import SYMBOLS, Arrow, Figure, Link, Object, Plan
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Runs, listed, name_runs, width
 from graphplan.sheet.lettering.letters import ALONG, MIDDLE, NEAR
-from graphplan.sheet.plates import clip, laid_off, pens
+from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Arc, Item, Polyline, Spot, Text
 from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import Pen
@@ -169,13 +169,13 @@ class Traced:
             return None
         if any({a.start, a.end} == {root, point} for a in self.arrows) or point in self.given:
             return None
-        brought = point.step.op.name not in laid_off.MEASURED and point.args[0].plan is not self.plan
+        brought = point.step.op.movement is not Movement.MEASURED and point.args[0].plan is not self.plan
         return Stroke(point, root, point, 0.0, 1.0, pens.NORMAL if brought else pens.THIN)
 
     @cached_property
     def given(self) -> dict[Object, Object]:
         """The ends of given vectors, each with its beginning."""
-        roots = {point: _root(point) for point in self.objects if point.name and point.step.op.name in laid_off.GIVEN}
+        roots = {point: _root(point) for point in self.objects if point.name and point.step.op.scaled}
         return {point: root for point, root in roots.items() if root is not None and root.free}
 
     def _clipped(self, stroke: Stroke) -> Stroke | None:
@@ -312,7 +312,7 @@ class Traced:
 
 def _root(point: Object) -> Object | None:
     """The mark that a point is laid off from, if it is."""
-    return point.args[laid_off.ROOTS[point.step.op.name]] if point.step.op.name in laid_off.ROOTS else None
+    return None if point.step.op.root is None else point.args[point.step.op.root]
 
 
 def _sides(link: Link) -> list[tuple[Object, Object]]:

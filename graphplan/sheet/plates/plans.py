@@ -11,7 +11,7 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import Number, Scene, TurningDrive
@@ -55,7 +55,7 @@ class Drawing(Protocol):
     @property
     def method(self) -> dict[str, list[str]]: ...
     @property
-    def forms(self) -> list[str]: ...
+    def brief_forms(self) -> list[str]: ...
     @property
     def strict(self) -> bool: ...
     def sentences(self) -> list[str]: ...
@@ -64,12 +64,7 @@ class Drawing(Protocol):
 
 def corner(step: Step) -> bool:
     """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
-    return step.op.name != "given" and step.name.rstrip("'").isdigit()
-
-
-def given(steps: Sequence[Step], step: Step) -> bool:
-    """Whether a point is the end of a given vector: laid off by its size from where a plan begins, and lettered."""
-    return step.op.scaled and bool(step.name) and steps[step.args[step.op.root or 0]].op.free
+    return step.op.movement is not Movement.GIVEN and step.name.rstrip("'").isdigit()
 
 
 @dataclass(frozen=True)
@@ -172,7 +167,7 @@ class Plans:
     def diameter(self, step: Step) -> int | None:
         """One end of a half circle's diameter: of an arc struck about the middle of two points through one of them."""
         centre, opening = (self.drawing.drawn.steps[arg] for arg in step.args)
-        if centre.op.name == "midpoint" and opening.op.name == "opening" and centre.index in opening.args:
+        if centre.op.movement is Movement.HALVED and opening.op.spans and centre.index in opening.args:
             return next((arg for arg in opening.args if arg in centre.args), None)
         return None
 
@@ -197,15 +192,14 @@ class Plans:
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
-        steps, forces = self.drawing.drawn.steps, self.kinds(panel) & FORCES
+        drawn, forces = self.drawing.drawn, self.kinds(panel) & FORCES
         for vector in self.vectors(panel):
             yield from (vector.start, vector.end)
-        for index in self.points(panel):
-            start = steps[index].args[steps[index].op.root or 0] if given(steps, steps[index]) else None
-            if start is not None and self.plan_of_step[start] == panel:
-                yield from (start, index)
-            elif forces and panel != MECHANISM and steps[index].name:
-                yield index
+        for step in (drawn.steps[index] for index in self.points(panel)):
+            if step.root is not None and self.plan_of_step[step.root] == panel and drawn.given_vector(step):
+                yield from (step.root, step.index)
+            elif forces and panel != MECHANISM and step.name:
+                yield step.index
 
 
 def _apex(centre: Spot, end: Spot, crossing: Spot) -> Spot:

@@ -21,7 +21,7 @@ from graphplan.sheet.plates.display import Circle, Item, Spot
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Plans, corner, given
+from graphplan.sheet.plates.plans import Plans, corner
 from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View
 
@@ -175,7 +175,7 @@ class Plate:
     def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
         stroke, step = Stroke(drawn, root, drawn), drawn.step
-        if given(self.plans.drawing.drawn.steps, step) and stroke.length > SHORT:
+        if self.plans.drawing.drawn.given_vector(step) and stroke.length > SHORT:
             kind = "velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"
             yield replace(stroke, pen=pens.GIVEN[kind], head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
             return

@@ -7,11 +7,10 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.kernel.expand import RATHER
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.panels import slide_named
 from graphplan.methods.results import kind_named
-from graphplan.phrases import Said, arranged, joined, said, unit
+from graphplan.phrases import arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Drawing, Plans
@@ -135,16 +134,8 @@ class Words:
         yield self._heading(said("Method and forms"))
         for kind, ways in self.drawing.method.items():
             yield from self._said(arranged("{0:capital}: {1}.", kind_named(kind), joined(ways)), wide)
-        for form in self.drawing.forms:
-            yield from self._said(_shortened(form), wide)
-
-
-def _shortened(form: str) -> str:
-    """A form and its reason, beside its nearest rival only."""
-    match form:
-        case Said(put=[number, Said(key=RATHER.english, put=[best, Said(put=[nearest, *_])])]):
-            return said("step {0}: {1}", number, RATHER(best, nearest))
-    return form
+        for form in self.drawing.brief_forms:
+            yield from self._said(form, wide)
 
 
 def _within(gap: float) -> str:

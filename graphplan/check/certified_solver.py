@@ -14,10 +14,9 @@ from typing import TYPE_CHECKING, Any
 from graphplan.check.arithmetics import Arithmetic
 from graphplan.check.compared import KINDS
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.solver.elimination import transpose
-from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Along, Fact, facts, supports
-from graphplan.solver.plane import dot
+from graphplan.solver.equations import Equations, held, moved
 from graphplan.solver.rates import Rates, motion
 
 if TYPE_CHECKING:
@@ -26,23 +25,24 @@ if TYPE_CHECKING:
 
 def bounded_rates(scene: Scene, by: Arithmetic) -> Rates:
     """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
-    equations = Equations(scene, facts(scene, lambda slide: by.root(dot(slide.direction, slide.direction))))
+    equations = moved(scene, by.root)
     kept = _independent(equations)
     solve = by.solve([equations.rows[i] for i in kept], [1.0, 1.0, equations.reach] * len(equations.columns))
     return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))
 
 
-def bounded_reactions(scene: Scene, motion: Rates, by: Arithmetic, stated: Iterable[Fact] | None = None) -> Reactions:
+def bounded_reactions(scene: Scene, motion: Rates, by: Arithmetic,
+                      stated: Iterable[Statement] | None = None) -> Reactions:
     """The reactions and balances of a scene with loads, from its rates; of these facts, if not its own."""
     from graphplan.solver.loads import acting, resultants  # what forces need is imported where there are loads
     from graphplan.solver.statics import read as read_forces
     from graphplan.solver.statics import repeating, without
 
-    equations = Equations(scene, supports(scene) if stated is None else tuple(stated))
+    equations = held(scene) if stated is None else Equations(scene, tuple(stated))
     right = [-value for value in resultants(equations, acting(scene, motion))]
     kept = _independent(equations)
-    held = [equations.facts[i] for i in kept]
-    scales = [_length(fact.direction) if isinstance(fact, Along) else 1 / equations.reach for fact in held]
+    facts = [equations.facts[i] for i in kept]
+    scales = [_length(fact.direction) if isinstance(fact, Along) else 1 / equations.reach for fact in facts]
     solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
     values = dict(zip(kept, solve(right), strict=True))
     told = without([values.get(i, 0) for i in range(len(equations.facts))], repeating(equations))

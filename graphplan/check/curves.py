@@ -12,7 +12,7 @@ import numpy as np
 from graphplan.check.cycle import Cycle
 from graphplan.cycle.curves import Curve, followed
 from graphplan.errors import Refused
-from graphplan.mechanism.model import FRAME, Scene, Slide, SlidingDrive
+from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import Said, said
 
@@ -38,9 +38,7 @@ def quantities(scene: Scene, names: Sequence[str] = ()) -> tuple[Quantity, ...]:
     rate, so that nothing can be told over time.
     """
     drive = scene.drives[0] if scene.drives else None
-    rates = () if drive is None else (drive.speed, drive.acceleration) if isinstance(drive, SlidingDrive) else (
-        drive.omega, drive.alpha)
-    if not rates or not rates[0] or rates[1]:
+    if drive is None or not drive.rate or drive.change:
         raise Refused("diagrams", "the first drive has no constant rate: nothing can be told over time",
                       "a [[drive]] with a rate and without acceleration")
     names = names or _driven(scene)
@@ -64,17 +62,15 @@ def asking(scene: Scene, wanted: Sequence[Quantity]) -> Scene:
 def curves(found: Cycle, wanted: Sequence[Quantity]) -> list[Curve]:
     """The curves of these quantities over the cycle, which was asked for them."""
     drive = found.scene.drives[0]
-    sliding = isinstance(drive, SlidingDrive)
-    rate = float(drive.speed if isinstance(drive, SlidingDrive) else drive.omega)
     period = TURN if found.closed and not found.faults else None
-    unit = found.scene.units.length if sliding else "rad"
-    return [followed(quantity.label, quantity.unit, found.turn.travel, rate, *_ordinates(found, quantity),
+    unit = found.scene.units.length if drive.slides else "rad"
+    return [followed(quantity.label, quantity.unit, found.turn.travel, float(drive.rate), *_ordinates(found, quantity),
                      period=period, travel_unit=unit) for quantity in wanted]
 
 
 def _driven(scene: Scene) -> list[str]:
     """The slides on the frame, and the links that turn on it, that no drive moves."""
-    driven = {drive.link for drive in scene.drives}
+    driven = {drive.links[0] for drive in scene.drives}
     outputs = [s.name for s in scene.slides if FRAME in (s.along, s.link) and s.link not in driven]
     fixed = set(scene.links.get(FRAME, ()))
     outputs += [link for link in scene.moving if link not in driven and fixed & set(scene.links[link])]

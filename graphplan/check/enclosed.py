@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, fields, is_dataclass, replace
-from typing import Any, TypeVar
+from typing import Any
 
 from graphplan.check.arithmetics import Arithmetic
 from graphplan.errors import Refused
@@ -11,8 +11,6 @@ from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide, TurningDrive
 from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.placements import placed_by
-
-Directed = TypeVar("Directed", Slide, Balance)
 
 
 def enclosed(scene: Scene, by: Arithmetic) -> Scene:
@@ -33,17 +31,15 @@ class _Enclosing:
 
     def scene(self) -> Scene:
         """The same scene in these numbers."""
-        scene, loads = self.given, self.given.loads
+        scene = self.given
         try:
             points = self._points()
-            slides = tuple(self._directed(slide, points) for slide in scene.slides)
-            balances = tuple(self._directed(balance, points) for balance in loads.balances) if loads else ()
+            found = scene.posed(points, lambda one: self._direction(one, points))
         except Misfit as misfit:
             raise Refused(f"{scene.name}: points", misfit.what, misfit.instead) from None
-        if loads:
-            loads = replace(self._known(loads), balances=self._known(balances))
-        return replace(scene, points=self._known(points), slides=self._known(slides), loads=loads,
-                       drives=tuple(map(self._drive, scene.drives)), motions=self._known(scene.motions))
+        driven = found.with_drives(map(self._turning, found.drives))
+        return replace(driven, **{part: self._known(getattr(driven, part))
+                                  for part in ("points", "written", "loads", "motions")})
 
     def _points(self) -> dict[str, Pair]:
         """Every point where its placement puts it; coinciding ones are the very same."""
@@ -60,19 +56,17 @@ class _Enclosing:
             points[name] = other if same else here
         return points
 
-    def _directed(self, thing: Directed, points: dict[str, Pair]) -> Directed:
-        """A slide or balance along its direction as written."""
+    def _direction(self, thing: Slide | Balance, points: dict[str, Pair]) -> Any:
+        """The direction of a slide or balance as it is written."""
         if thing.written is None:
-            return thing
-        x, y, _ = vector(thing.written, points.__getitem__, self.by.reckoning)
-        return replace(thing, direction=(x, y))
+            return thing.direction
+        return vector(thing.written, points.__getitem__, self.by.reckoning)[:2]
 
-    def _drive(self, drive: Drive) -> Drive:
+    def _turning(self, drive: Drive) -> Drive:
+        """A drive whose turns a minute are written."""
         if isinstance(drive, TurningDrive) and drive.rpm:
-            omega: Any = self.by.pi() * drive.rpm / 30
-            return replace(drive, omega=omega, alpha=self._known(drive.alpha))
-        known: Drive = self._known(drive)
-        return known
+            return drive.driven_at(self.by.pi() * drive.rpm / 30, drive.alpha)
+        return drive
 
     def _known(self, thing: Any) -> Any:
         """The same with every float in it as the binary fraction that it is."""

@@ -25,7 +25,7 @@ from graphplan.check.compared import (
     weight,
 )
 from graphplan.errors import GraphplanError
-from graphplan.mechanism.model import Drive, Scene, TurningDrive
+from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.solver import poses, solve
 from graphplan.solver.bounded import Unproven
@@ -146,11 +146,9 @@ def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> b
 
 def _alone(scene: Scene) -> Scene:
     """A scene in one pose, its floats taken as they are."""
-    def drive(one: Drive) -> Drive:
-        return replace(one, rpm=None) if isinstance(one, TurningDrive) else one
-
-    slides = tuple(replace(slide, written=None) for slide in scene.slides)
-    return replace(scene, irrational=(), placements={}, slides=slides, drives=tuple(map(drive, scene.drives)))
+    slides = (replace(slide, written=None) for slide in scene.slides)
+    drives = (drive.driven_at(*drive.rates) for drive in scene.drives)
+    return replace(scene, irrational=(), placements={}, written=(*slides, *drives))
 
 
 def _plain(number: Any) -> Any:

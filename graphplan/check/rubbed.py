@@ -7,11 +7,12 @@ from typing import Any
 
 from graphplan.check.arithmetics import Arithmetic
 from graphplan.check.certified_solver import bounded_reactions
-from graphplan.mechanism.model import FRAME
-from graphplan.solver.facts import Along, Fact, Turning, X, Y, held
-from graphplan.solver.friction import Touching
+from graphplan.mechanism.model import FRAME, Number, Pair, Slide
+from graphplan.mechanism.pairs.pair import Statement
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.plane import dot
+from graphplan.solver.friction import leaning
 from graphplan.solver.loads import asked
-from graphplan.solver.plane import dot, plus, times, turned
 from graphplan.solver.statics import Reactions
 
 
@@ -23,25 +24,23 @@ def rubbed(smooth: Reactions, rounds: int, by: Arithmetic) -> Reactions:
     return last
 
 
-def _leaning(last: Reactions, by: Arithmetic) -> Iterator[Fact]:
+def _leaning(last: Reactions, by: Arithmetic) -> Iterator[Statement]:
     """What holds the links, each pair's force against its turning or sliding as its last force says."""
     scene, rates = last.equations.scene, last.rates
     omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
     journals = {f.at: f.radius * f.coefficient for f in asked(scene).frictions if f.at}
     guides = {f.slide: f.coefficient for f in asked(scene).frictions if f.slide}
-    for (point, link), force in last.joints.items():
-        pin, square = scene.links_of[point][0], by.lift(dot(force, force))
-        circle = journals.get(point, 0) * -_sense(omega[link] - omega[pin], by)
-        for axis in X, Y:
-            lever = circle * dot(axis, force) / square.root if circle and _sense(square, by) else 0
-            yield Touching(link, pin, point, axis, 0, 0, lever=lever)
-    for slide in scene.slides:
-        across, (force, _) = turned(slide.direction), last.slides[slide.name]
+
+    def arm(joint: Revolute, link: str, force: Pair) -> Any:
+        square = by.lift(dot(force, force))
+        circle = journals.get(joint.at, 0) * -_sense(omega[link] - omega[joint.links[0]], by)
+        return circle / square.root if circle and _sense(square, by) else 0
+
+    def lean(slide: Slide, pressure: Any) -> Number:
         slip = _sense(dot(rates.slide_velocity[slide.name], slide.direction), by)
-        lean = guides.get((slide.link, slide.along), 0) * -slip * _sense(dot(across, force), by)
-        yield Turning(slide.link, slide.along, 0, 0)
-        yield Along(slide.link, slide.along, slide.at, plus(across, times(lean, slide.direction)), 0, 0)
-    yield from map(held, asked(scene).balances)
+        return guides.get(slide.links, 0) * -slip * _sense(pressure, by)
+
+    return leaning(last, arm, lean)
 
 
 def _sense(number: Any, by: Arithmetic) -> int:

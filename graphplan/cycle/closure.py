@@ -12,7 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.linkage import Array, Gliding, Linkage, Turning
+from graphplan.cycle.linkage import Array, Linkage, direction
+from graphplan.mechanism.pairs.pair import Along, Turning
 
 
 class Correction(NamedTuple):
@@ -41,24 +42,25 @@ class Closure:
         ends = np.cumsum([0, *(3 * len(part) for part in parts)])
         self.blocks = [slice(start, end) for start, end in pairwise(ends)]
         bonds = [bond for link in links for bond in linkage.bonds[link]]
-        self.drive = np.array([bond.rate / (linkage.reach if isinstance(bond, Gliding) else 1) for bond in bonds])
+        self.drive = np.array([bond.rate / (linkage.reach if isinstance(bond, Along) else 1) for bond in bonds])
         freedom = np.full(len(linkage.links), 3 * len(links))  # the columns of known links fall off the end
         freedom[self.columns] = np.arange(0, 3 * len(links), 3)
-        self._gliding(linkage, freedom, {i: bond for i, bond in enumerate(bonds) if isinstance(bond, Gliding)})
+        self._gliding(linkage, freedom, {i: bond for i, bond in enumerate(bonds) if isinstance(bond, Along)})
         self._turning(linkage, freedom, {i: bond for i, bond in enumerate(bonds) if isinstance(bond, Turning)})
         self.rows = np.argsort([*self.glide, *self.swing])
         self.cells = np.concatenate([self.glide_cells, self.swing_cells])
 
-    def _gliding(self, linkage: Linkage, freedom: Array, bonds: dict[int, Gliding]) -> None:
+    def _gliding(self, linkage: Linkage, freedom: Array, bonds: dict[int, Along]) -> None:
         """A point of one link stays on another, or moves along a direction fixed to a third."""
         self.glide = np.array(list(bonds), dtype=int)
         link, on, to = (np.array([linkage.order[end] for end in ends], dtype=int) for ends in (
             [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()],
-            [bond.to for bond in bonds.values()]))
+            [bond.to or bond.on for bond in bonds.values()]))
         self.base_ends, self.turn_ends = np.stack([link, on]), len(linkage.links) + np.stack([link, on, to])
-        self.arms = np.array([[bond.place - linkage.origins[bond.link] for bond in bonds.values()],
-                              [bond.place - linkage.origins[bond.on] for bond in bonds.values()]]) / linkage.reach
-        self.direction = np.array([bond.direction for bond in bonds.values()], dtype=complex)
+        self.arms = np.array([[linkage.places[bond.at] - linkage.origins[end] for bond, end in zip(
+            bonds.values(), ends, strict=True)] for ends in (
+                [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()])]) / linkage.reach
+        self.direction = np.array([direction(bond) for bond in bonds.values()], dtype=complex)
         row = self.glide * (len(self.drive) + 3)
         self.glide_cells = np.concatenate([row + freedom[end] + k for end in (link, on) for k in range(3)])
         self.to_cells = row + freedom[to] + 2

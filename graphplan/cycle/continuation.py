@@ -22,7 +22,6 @@ from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.memory import afford
 from graphplan.cycle.newton import SETTLED, distance, settle
 from graphplan.cycle.travel import TURN, travel_unit
-from graphplan.mechanism.model import SlidingDrive
 
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""
@@ -131,7 +130,7 @@ class Continuation:
         self.linkage, self.closure, self.drawn = linkage, Closure(linkage, linkage.parts), drawn
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
         self.longest = _LONGEST * min(
-            (upper - lower if isinstance(drive, SlidingDrive) else TURN) / abs(pace)
+            (upper - lower if drive.slides else TURN) / abs(pace)
             for drive, pace in zip(linkage.scene.drives, linkage.paces, strict=True) if pace
         )
         self.finest = _FINEST * self.longest

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from graphplan.cycle.linkage import Linkage, direction
 from graphplan.kernel.evaluate import evaluate
@@ -53,18 +53,13 @@ class Figure:
         return replace(self, point=point, place=place)
 
 
-@dataclass(frozen=True)
-class Pair:
-    """One pair of a dyad: a revolute at a point; or a slide, with its other link, the carrier."""
+class Hinge(NamedTuple):
+    """One pair of a dyad: a revolute at a point; or a slide, with its other link, the carrier, and its direction."""
 
-    point: str = ""
-    slide: Slide | None = None
+    letter: str
+    point: str
     carrier: str = ""
-
-    @property
-    def letter(self) -> str:
-        """R or P."""
-        return "P" if self.slide else "R"
+    along: complex = 0j
 
 
 @dataclass(frozen=True)
@@ -118,28 +113,31 @@ def dyad(linkage: Linkage, part: tuple[str, ...]) -> Dyad | None:
         return None
     before = linkage.carriers(part)
     outer = [_pairs(linkage, link, before) for link in part]
-    joints = set(linkage.joints(part[0], before))
-    inner = [pair for pair in _pairs(linkage, part[0], part[1:]) if pair.point not in joints]
+    inner = [pair for pair in _pairs(linkage, part[0], part[1:]) if pair not in outer[0]]
     if [len(pairs) for pairs in (*outer, inner)] != [1, 1, 1]:
         return None
     (one,), (two,) = outer
+    if not {one.letter, two.letter, inner[0].letter} <= {"R", "P"}:
+        return None
     swapped = one.letter + two.letter == "PR"
     return _Sketch(linkage, part[::-1] if swapped else part, (two, one) if swapped else (one, two), inner[0]).dyad()
 
 
-def _pairs(linkage: Linkage, link: str, others: tuple[str, ...]) -> list[Pair]:
+def _pairs(linkage: Linkage, link: str, others: tuple[str, ...]) -> list[Hinge]:
     """The pairs of a link with some others."""
-    return [*(Pair(point) for point in linkage.joints(link, others)),
-            *(Pair(slide=slide, carrier=other) for slide, other in linkage.slides(link, others))]
+    return [Hinge(pair.letter, pair.at, next(other for other in pair.links if other != link), direction(pair))
+            if isinstance(pair, Slide) else Hinge(pair.letter, pair.at)
+            for pair in linkage.pairs(link, others)]
 
 
 class _Sketch:
     """The board on which one dyad is constructed."""
 
-    def __init__(self, linkage: Linkage, part: tuple[str, ...], outer: tuple[Pair, Pair], inner: Pair):
+    def __init__(self, linkage: Linkage, part: tuple[str, ...], outer: tuple[Hinge, Hinge], inner: Hinge):
         self.linkage, self.part, self.outer, self.inner = linkage, part, outer, inner
         self.board = Board()
-        self.points = {pair.point: self.given(pair.point, linkage.places[pair.point]) for pair in outer if pair.point}
+        pins = [pair.point for pair in outer if not pair.carrier]
+        self.points = {point: self.given(point, linkage.places[point]) for point in pins}
         self.carriers = {pair.carrier: self.carrier(pair.carrier) for pair in outer if pair.carrier}
 
     def given(self, name: str, place: complex) -> Mark:
@@ -165,16 +163,16 @@ class _Sketch:
         program = freeze(self.board, [*new.values(), *marks])
         return Dyad(program, known, carriers, self.linkage.reach, tuple(new), links, failure)
 
-    def place(self, pair: Pair) -> complex:
+    def place(self, pair: Hinge) -> complex:
         """Where the point of a pair was given."""
         return self.linkage.places[pair.point]
 
-    def arc(self, centre: Pair, about: complex) -> Mark:
+    def arc(self, centre: Hinge, about: complex) -> Mark:
         """The circle about an outer joint on which a point of its link lies."""
         radius = self.board.radius(length=abs(about - self.place(centre)))
         return self.board.circle(self.points[centre.point], radius)
 
-    def bar(self, pair: Pair, B: Mark, b: complex) -> Figure:
+    def bar(self, pair: Hinge, B: Mark, b: complex) -> Figure:
         """The link that joins an outer joint to B."""
         return Figure(self.board, B, b, self.points[pair.point], B, b - self.place(pair))
 
@@ -191,7 +189,7 @@ def _rrr(s: _Sketch) -> tuple[Figure, Figure, str]:
 def _rrp(s: _Sketch) -> tuple[Figure, Figure, str]:
     """B lies on a circle about A, and on a line of the guide's link along the guide."""
     A, guide = s.outer
-    a, b, along = s.place(A), s.place(s.inner), _along(guide)
+    a, b, along = s.place(A), s.place(s.inner), guide.along
     carrier = s.carriers[guide.carrier]
     path = carrier.line(b, along)
     B = s.board.line_meets_circle(path, s.arc(A, b), way=_way(along, b - a))
@@ -202,7 +200,7 @@ def _rrp(s: _Sketch) -> tuple[Figure, Figure, str]:
 def _rpr(s: _Sketch) -> tuple[Figure, Figure, str]:
     """The guide's line through A passes C at a given distance: its angle with AC has that sine."""
     A, C = (s.points[pair.point] for pair in s.outer)
-    (a, c), along = map(s.place, s.outer), _along(s.inner)
+    (a, c), along = map(s.place, s.outer), s.inner.along
     offset = (along.conjugate() * (c - a)).imag
     AC = s.board.line(A, C)
     H = s.board.lay_along(s.board.perpendicular(AC, A), A, length=-offset)
@@ -217,7 +215,7 @@ def _prp(s: _Sketch) -> tuple[Figure, Figure, str]:
     """B lies on a line along either guide."""
     one, two = (s.carriers[pair.carrier] for pair in s.outer)
     b = s.place(s.inner)
-    B = s.board.meet(*(s.carriers[pair.carrier].line(b, _along(pair)) for pair in s.outer))
+    B = s.board.meet(*(s.carriers[pair.carrier].line(b, pair.along) for pair in s.outer))
     return one.beside(B, b), two.beside(B, b), "the two guides are parallel"
 
 
@@ -226,19 +224,13 @@ def _rpp(s: _Sketch) -> tuple[Figure, Figure, str]:
     A, guide = s.outer
     a, carrier = s.place(A), s.carriers[guide.carrier]
     one = carrier.beside(s.points[A.point], a)
-    X = s.board.meet(one.line(a, _along(s.inner)), carrier.line(a, _along(guide)))
+    X = s.board.meet(one.line(a, s.inner.along), carrier.line(a, guide.along))
     return one, carrier.beside(X, a), "the two guides are parallel"
 
 
 _RULES: dict[str, Callable[[_Sketch], tuple[Figure, Figure, str]]] = {
     "RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp,
 }
-
-
-def _along(pair: Pair) -> complex:
-    """The direction of a pair's guide in the given pose."""
-    assert pair.slide is not None
-    return direction(pair.slide)
 
 
 def _way(along: complex, vector: complex) -> str:

@@ -22,7 +22,8 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.tape.blocks import BLOCK, Blocks
 from graphplan.kernel.tape.record import Symbols
-from graphplan.mechanism.model import FRAME, SlidingDrive
+from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.pairs.revolute import Revolute
 
 
 class Failure(NamedTuple):
@@ -170,16 +171,18 @@ class _Body:
 
 def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
     """A link driven alone: turned about a joint with what is placed, or shifted along a slide on it."""
-    link, before = part[0], linkage.carriers(part)
-    joints, slides, drives = linkage.joints(link, before), linkage.slides(link, before), linkage.drives(part)
-    if len(part) != 1 or len(drives) != 1 or len(joints) + len(slides) != 1:
+    link = part[0]
+    pairs, drives = linkage.pairs(link, linkage.carriers(part)), linkage.drives(part)
+    if len(part) != 1 or len(drives) != 1 or len(pairs) != 1:
         return None
-    ((drive, pace),) = drives
-    if isinstance(drive, SlidingDrive):
-        ((slide, carrier),) = slides
-        return _Shifted(linkage, link, carrier, direction(slide) * (pace if slide.link == link else -pace))
-    other = drive.relative_to if drive.link == link else drive.link
-    return _Turned(linkage, link, joints[0], other, pace if drive.link == link else -pace)
+    ((drive, pace),), (pair,) = drives, pairs
+    if isinstance(pair, Slide) and drive.slides:
+        (carrier,) = {*pair.links} - {link}
+        return _Shifted(linkage, link, carrier, direction(pair) * (pace if pair.link == link else -pace))
+    if isinstance(pair, Revolute) and not drive.slides:
+        (other,) = {*drive.links} - {link}
+        return _Turned(linkage, link, pair.at, other, pace if drive.links[0] == link else -pace)
+    return None
 
 
 class _Turned:

@@ -9,7 +9,7 @@ import numpy as np
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.memory import afford
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Drive, Scene, SlidingDrive
+from graphplan.mechanism.model import Scene
 from graphplan.phrases import said
 
 TURN = 2 * math.pi
@@ -28,7 +28,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
     if positions < 1:
         raise Refused("the cycle", f"{positions} positions are none", "at least 1")
     afford("the cycle", positions, "positions", POSE)
-    sliding = isinstance(scene.drives[0], SlidingDrive)
+    sliding = scene.drives[0].slides
     if span is None:
         if sliding:
             why = said("the first drive slides, and no turn closes its travel")
@@ -42,7 +42,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
 
 def paces(scene: Scene) -> tuple[float, ...]:
     """The travel of each drive for a unit of the first one's: its rate over the first one's."""
-    first, *others = (_rate(drive) for drive in scene.drives)
+    first, *others = (float(drive.rate) for drive in scene.drives)
     if first == 0 and any(others):
         raise Refused("the cycle", said("the first drive stands still while another moves"),
                       "a drive that moves as the first [[drive]]")
@@ -51,13 +51,13 @@ def paces(scene: Scene) -> tuple[float, ...]:
 
 def closes(scene: Scene, paces: tuple[float, ...]) -> bool:
     """Whether every drive is back where it was after one turn of the first: then going back is going round."""
-    return all(pace == 0 if isinstance(drive, SlidingDrive) else pace == round(pace)
+    return all(pace == 0 if drive.slides else pace == round(pace)
                for drive, pace in zip(scene.drives, paces, strict=True))
 
 
 def travel_unit(scene: Scene) -> tuple[float, str]:
     """The unit in which the first drive's travel is told, and its name: a degree, or the scene's length."""
-    if isinstance(scene.drives[0], SlidingDrive):
+    if scene.drives[0].slides:
         return 1.0, scene.units.length
     return math.radians(1.0), "degrees"
 
@@ -66,7 +66,3 @@ def told(scene: Scene, travel: float, digits: int = 6) -> str:
     """A travel in words: degrees, or the scene's lengths."""
     unit, name = travel_unit(scene)
     return f"{travel / unit:.{digits}g} {name}"
-
-
-def _rate(drive: Drive) -> float:
-    return float(drive.speed if isinstance(drive, SlidingDrive) else drive.omega)

@@ -51,10 +51,8 @@ def _coincide(a: Pair, b: Pair) -> bool:
 def check_connections(scene: Scene, faults: Faults) -> None:
     """Every link hangs together with the frame, or with a point whose motion is given."""
     near: dict[str, list[str]] = {link: [] for link in scene.links}
-    for links in scene.links_of.values():
-        _join(near, links)
-    for slide in scene.slides:
-        _join(near, (slide.link, slide.along))
+    for pair in scene.binding:
+        _join(near, pair.links)
     driven = [link for link, points in scene.links.items() if scene.motions.keys() & set(points)]
     held = _reached(near, [FRAME] * (FRAME in near) + driven)
     for link in scene.moving:

@@ -1,23 +1,29 @@
 """Equations: which freedoms of links and joints a mechanism has, and what binds them.
 
-Made from the graph alone. Each moving link has three freedoms (the velocity of its point at the origin, and its
+Made from what the pairs state. Each moving link has three freedoms (the velocity of its point at the origin, and its
 turning), each revolute joint of moving links two, so that a joint of many links favours none of them. Where a
 coefficient needs coordinates, chance gives them: what holds for points in general position is what the graph says.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from random import Random
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.model import FRAME, Condition, Drive, Scene, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import FRAME, Balance, Scene
+from graphplan.mechanism.pairs.drives import DrivenPoint
+from graphplan.mechanism.pairs.pair import Condition, KinematicPair, Statement
+from graphplan.mechanism.pairs.revolute import Revolute
 
 PRIME = 2**61 - 1
 """Coefficients are residues of this prime: exact, of one size, and a chance zero all but impossible."""
+
+PIN = ""
+"""The pin of a joint, apart from all its links."""
 
 Thing = tuple[str, str]
 """What moves: ("link", its name) or ("joint", its point)."""
@@ -25,39 +31,51 @@ Thing = tuple[str, str]
 Unknown = tuple[Thing, str]
 """A freedom of a thing: along x, along y, or its turning."""
 
-Terms = dict[Unknown, Any]
-"""Coefficients: whole numbers, that stand for residues, or decimals where the system is of a pose."""
+WAYS = ("x", "y", "turn")
 
 
 class Equation(NamedTuple):
-    """One condition on the freedoms: its terms, the links that it binds, and the drive that makes it, if one does."""
+    """One condition on the freedoms: its terms, whole numbers that stand for residues or decimals of a pose, and the
+    statement that it is."""
 
-    terms: Terms
-    links: tuple[str, ...]
-    condition: Condition
-    drive: Drive | None = None
+    terms: dict[Unknown, Any]
+    fact: Statement
 
+    @property
+    def condition(self) -> Condition:
+        """The condition by its name."""
+        return self.fact.condition
 
-class Pose(NamedTuple):
-    """Where the points are, in which direction each moving link's joints are held in the way x, and the directions of
-    the slides by their two links; in decimals."""
-
-    points: Mapping[str, tuple[Decimal, Decimal]]
-    axes: Mapping[str, tuple[Decimal, Decimal]]
-    guides: Mapping[tuple[str, str], tuple[Decimal, Decimal]]
+    @property
+    def links(self) -> tuple[str, ...]:
+        """The links that it binds."""
+        return tuple(link for link in (self.fact.link, self.fact.on) if link not in (FRAME, PIN))
 
 
 @dataclass(frozen=True)
 class System:
     """All freedoms of a scene's moving links and all equations, the scene's redundant conditions left out.
 
-    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work. Without a
-    `pose` points and guides are in general position; in a pose a bar's joints are held across it (x) and along it (y).
+    With `balanced`, each balance stands in the place of a drive: it holds the motion on which it does work. Without
+    `axes` points and guides are in general position; with them the scene is taken in its pose, and a link's joints are
+    held along the link's axis (x) and across it (y).
     """
 
     scene: Scene
     balanced: bool = False
-    pose: Pose | None = None
+    axes: Mapping[str, tuple[Decimal, Decimal]] | None = None
+
+    @cached_property
+    def posed(self) -> Scene:
+        """The scene in the numbers of the coefficients."""
+        if self.axes is not None:
+            return self.scene
+        chance = Random(1939)
+
+        def any_way(_: object = None) -> tuple[int, int]:
+            return chance.randrange(1, PRIME), chance.randrange(1, PRIME)
+
+        return self.scene.posed({point: any_way() for point in self.scene.points}, any_way)
 
     @cached_property
     def known(self) -> frozenset[str]:
@@ -67,114 +85,44 @@ class System:
     @cached_property
     def unknowns(self) -> tuple[Unknown, ...]:
         """All freedoms, in the scene's order."""
-        links = [(("link", k), way) for k in self.scene.moving for way in ("x", "y", "turn")]
+        links = [(("link", k), way) for k in self.scene.moving for way in WAYS]
         joints = [(("joint", p), way) for p in self.scene.joints if p not in self.known for way in ("x", "y")]
         return tuple(links + joints)
 
     @cached_property
     def equations(self) -> tuple[Equation, ...]:
-        """All equations: of the revolute joints, of the slides, of the drives or the balances."""
-        return (*self.pairs, *(self._balances() if self.balanced else self.drives))
+        """All equations: of the pairs, of the drives or the balances."""
+        loads, scene = self.posed.loads, self.posed
+        held = (loads.balances if loads else ()) if self.balanced else scene.drives
+        return (*self.pairs, *self._stated(held))
 
     @cached_property
     def pairs(self) -> tuple[Equation, ...]:
-        """The equations of the revolute joints and of the slides."""
-        dropped = frozenset(self.scene.redundant)
-        return tuple(e for e in (*self._pins(), *self._slides()) if e.condition not in dropped)
+        """The equations of the pairs that drive nothing, and of the points whose motion is given: link by link."""
+        scene, dropped = self.posed, frozenset(self.scene.redundant)
+        points = [pair for pair in scene.pairs if isinstance(pair, DrivenPoint) and pair.at not in scene.joints]
+        pins = self._stated([*map(self._pinned, scene.revolutes), *points])
+        others = self._stated(pair for pair in scene.binding if not isinstance(pair, Revolute))
+        place = {(link, point): i for i, (link, point) in enumerate(
+            (link, point) for link in scene.moving for point in scene.links[link])}
+        linked = sorted(pins, key=lambda equation: place[equation.fact.link, equation.fact.at])
+        return tuple(equation for equation in (*linked, *others) if equation.condition not in dropped)
 
-    @cached_property
-    def _places(self) -> Mapping[str, tuple[Any, Any]]:
-        if self.pose:
-            return self.pose.points
-        chance = Random(1939)
-        return {p: (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for p in self.scene.points}
+    def _pinned(self, joint: Revolute) -> Revolute:
+        """A joint with a pin of its own, or where its motion is given one of the frame."""
+        links = [link for link in joint.links if link != FRAME]
+        pin = FRAME if joint.at in self.known else PIN
+        return replace(joint, pinned=(pin, *links), axes=self.axes or {})
 
-    @cached_property
-    def _guides(self) -> Mapping[tuple[str, str], tuple[Any, Any]]:
-        if self.pose:
-            return self.pose.guides
-        chance = Random(1966)
-        return {(s.link, s.along): (chance.randrange(1, PRIME), chance.randrange(1, PRIME)) for s in self.scene.slides}
-
-    def _pins(self) -> Iterator[Equation]:
-        """Each link's point moves as its joint does; a known point's motion stands on the right-hand side."""
-        joints = set(self.scene.joints) - self.known
-        for link in self.scene.moving:
-            for point in self.scene.links[link]:
-                if point in joints or point in self.known:
-                    ways = self.velocity(link, point)
-                    if point in joints:
-                        ways = {way: terms | {(("joint", point), way): -1} for way, terms in ways.items()}
-                    for way, terms in self._held(link, ways).items():
-                        yield Equation(terms, (link,), Condition(link, point, way))
-
-    def _held(self, link: str, ways: dict[str, Terms]) -> dict[str, Terms]:
-        """The two equations of a joint along x and y, or in the link's own axes."""
-        if not self.pose:
-            return ways
-        ax, ay = self.pose.axes[link]
-        return {"x": _sum((ax, ways["x"]), (ay, ways["y"])), "y": _sum((-ay, ways["x"]), (ax, ways["y"]))}
-
-    def _slides(self) -> Iterator[Equation]:
-        """The two links turn alike, and the sliding point does not leave the guide line."""
-        for slide in self.scene.slides:
-            pair = tuple(link for link in (slide.link, slide.along) if link != FRAME)
-            x, y = self._guides[slide.link, slide.along]
-            turn, across = (Condition(slide.link, slide.along, way) for way in ("turn", "across"))
-            yield Equation(self._turning(slide.link, slide.along), pair, turn)
-            yield Equation(self._relative(slide.link, slide.along, slide.at, (-y, x)), pair, across)
-
-    @cached_property
-    def drives(self) -> tuple[Equation, ...]:
-        """Each drive prescribes a relative turning, or the sliding along a guide."""
-        return tuple(self._drives())
-
-    def _drives(self) -> Iterator[Equation]:
-        at = {(slide.link, slide.along): slide.at for slide in self.scene.slides}
-        for drive in self.scene.drives:
-            one, other = ends(drive)
-            pair = tuple(link for link in (one, other) if link != FRAME)
-            if isinstance(drive, SlidingDrive):
-                terms = self._relative(one, other, at[one, other], self._guides[one, other])
-                yield Equation(terms, pair, Condition(one, other, "along"), drive)
-            else:
-                yield Equation(self._turning(one, other), pair, Condition(one, other, "turn"), drive)
-
-    def _balances(self) -> Iterator[Equation]:
-        """A moment holds its link's turning, a force its point's motion along it."""
-        chance = Random(1952)
-        for balance in self.scene.loads.balances if self.scene.loads else ():
-            along = chance.randrange(1, PRIME), chance.randrange(1, PRIME)
-            held = self._relative(balance.link, FRAME, balance.at, along) if balance.at else {}
-            way = Condition(balance.link, FRAME, "along" if balance.at else "turn")
-            yield Equation(held or self._turning(balance.link, FRAME), (balance.link,), way)
-
-    def velocity(self, link: str, point: str) -> dict[str, Terms]:
-        """The velocity of a link's point, by components; the frame's has no terms."""
-        if link == FRAME:
-            return {"x": {}, "y": {}}
-        body, (x, y) = ("link", link), self._places[point]
-        return {"x": {(body, "x"): 1, (body, "turn"): -y}, "y": {(body, "y"): 1, (body, "turn"): x}}
-
-    def _turning(self, link: str, other: str) -> Terms:
-        signed = ((link, 1), (other, -1))
-        return {(("link", name), "turn"): sign for name, sign in signed if name != FRAME}
-
-    def _relative(self, link: str, other: str, point: str, along: tuple[Any, Any]) -> Terms:
-        """The velocity of a point of one link relative to the other, its component along a direction."""
-        return _sum(*((sign * factor, terms) for name, sign in ((link, 1), (other, -1))
-                      for factor, terms in zip(along, self.velocity(name, point).values(), strict=True)))
-
-
-def _sum(*parts: tuple[Any, Terms]) -> Terms:
-    """The sum of weighted terms."""
-    total: Terms = {}
-    for weight, terms in parts:
-        for unknown, coefficient in terms.items():
-            total[unknown] = total.get(unknown, 0) + weight * coefficient
-    return total
-
-
-def ends(drive: Drive) -> tuple[str, str]:
-    """The two links between which a drive works."""
-    return (drive.link, drive.relative_to) if isinstance(drive, TurningDrive) else (drive.link, drive.along)
+    def _stated(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[Equation]:
+        """What these pairs state, as equations."""
+        free = frozenset(self.unknowns)
+        for pair in pairs:
+            for fact in pair.states(self.posed):
+                terms: dict[Unknown, Any] = {}
+                weights = fact.weights(self.posed.points[fact.at] if fact.at else (0, 0))
+                for body, sign in ((fact.link, 1), (fact.on, -1)):
+                    thing = ("link", body) if body != PIN else ("joint", fact.at)
+                    terms |= {(thing, way): sign * weight for way, weight in zip(WAYS, weights, strict=True)
+                              if weight and (thing, way) in free}
+                yield Equation(terms, fact)

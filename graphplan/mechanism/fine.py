@@ -9,8 +9,7 @@ from functools import cache, partial
 from typing import Any
 
 from graphplan.mechanism.directions import Misfit, vector
-from graphplan.mechanism.equations import Pose
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.numerals import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.placements import placed_by
 
@@ -21,8 +20,9 @@ _ONE = 1 << _BITS
 Place = tuple[Decimal, Decimal]
 
 
-def fine_pose(scene: Scene) -> Pose:
-    """The pose of a scene as it is written: the points in reaches from the first one, the directions of length 1."""
+def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
+    """A scene in its pose as it is written, unbalanced: points in reaches from the first one, directions of length 1;
+    and in which direction each moving link's joints are held."""
     points = _points(scene)
     with localcontext(prec=DIGITS):
         first, *_ = points.values()
@@ -30,7 +30,7 @@ def fine_pose(scene: Scene) -> Pose:
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
         places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
         axes = {link: _unit(*map(Decimal, across(scene, link, places))) for link in scene.moving}
-        return Pose(places, axes, {(slide.link, slide.along): _guide(slide, points) for slide in scene.slides})
+        return scene.posed(places, lambda one: _guide(one, points)), False, axes
 
 
 def across(scene: Scene, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
@@ -51,8 +51,8 @@ def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
         return known
 
 
-def _guide(slide: Slide, points: dict[str, tuple[Fraction, Fraction]]) -> Place:
-    written = slide.direction if slide.written is None else vector(slide.written, points.__getitem__, FINELY)[:2]
+def _guide(slide: Slide | Balance, points: dict[str, tuple[Fraction, Fraction]]) -> Place:
+    written: Any = slide.direction if slide.written is None else vector(slide.written, points.__getitem__, FINELY)[:2]
     x, y = exactly(written)
     return _unit(_decimal(x), _decimal(y))
 

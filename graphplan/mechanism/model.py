@@ -8,16 +8,25 @@ angles in radians, counter-clockwise positive.
 from __future__ import annotations
 
 from collections import Counter
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any
 
-Number = Fraction | float
-Pair = tuple[Number, Number]
-Written = tuple[Fraction, Fraction] | Fraction | str | None
-
-FRAME = "frame"
+from graphplan.mechanism.pairs.drives import Drive as Drive
+from graphplan.mechanism.pairs.drives import DrivenPoint
+from graphplan.mechanism.pairs.drives import Motion as Motion
+from graphplan.mechanism.pairs.drives import SlidingDrive as SlidingDrive
+from graphplan.mechanism.pairs.drives import TurningDrive as TurningDrive
+from graphplan.mechanism.pairs.pair import FRAME as FRAME
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turning
+from graphplan.mechanism.pairs.pair import Condition as Condition
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.pairs.sliding import Slide as Slide
+from graphplan.mechanism.pairs.sliding import Written as Written
+from graphplan.mechanism.plane import Number as Number
+from graphplan.mechanism.plane import Pair as Pair
 
 
 @dataclass(frozen=True)
@@ -35,80 +44,6 @@ class Placement:
 
     how: str
     data: dict[str, object] = field(default_factory=dict)
-
-
-@dataclass(frozen=True)
-class Slide:
-    """A sliding pair: `link` slides along the guide fixed to `along`; `at` is a point of `link` on the guide line.
-
-    `direction` is the guide's direction in this pose, of any length. `through` names the two points that give it,
-    where the scene gives it so: then it turns with them in other poses. `written` is the direction as the scene
-    writes it: a vector, an angle in degrees, or two points.
-    """
-
-    link: str
-    along: str
-    at: str
-    direction: Pair
-    through: tuple[str, str] | None = None
-    written: Written = field(default=None, compare=False)
-
-    @property
-    def name(self) -> str:
-        """The pair's name in results, such as `3 along 2`."""
-        return f"{self.link} along {self.along}"
-
-
-@dataclass(frozen=True)
-class TurningDrive:
-    """A prescribed angular velocity (rad/s) and acceleration (rad/s^2) of `link` relative to `relative_to`.
-
-    `rpm` is the angular velocity in turns a minute, where the scene writes it so.
-    """
-
-    link: str
-    relative_to: str
-    omega: Number
-    alpha: Number
-    rpm: Number | None = field(default=None, compare=False)
-
-
-@dataclass(frozen=True)
-class SlidingDrive:
-    """A prescribed speed and acceleration of `link` along its guide on `along`, positive along the direction."""
-
-    link: str
-    along: str
-    speed: Number
-    acceleration: Number
-
-
-Drive = TurningDrive | SlidingDrive
-
-
-class Condition(NamedTuple):
-    """One condition of a kinematic pair: of `link` at the joint `on`, or of the slide of `link` along the link `on`.
-
-    A joint keeps its two links together in the `way` x and in the way y; a slide keeps the sliding link on the guide
-    (across) and from turning relative to it (turn).
-    """
-
-    link: str
-    on: str
-    way: str
-
-    @property
-    def pair(self) -> str:
-        """The pair's name in results, such as `3 at B` or `3 along 2`."""
-        return f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
-
-
-@dataclass(frozen=True)
-class Motion:
-    """The given motion of one point of an open chain."""
-
-    velocity: Pair
-    acceleration: Pair
 
 
 @dataclass(frozen=True)
@@ -172,6 +107,13 @@ class Balance:
             return self.link, self.link, self.link
         dx, dy = map(float, self.direction)
         return self.link, f"{self.link} at {self.at}", f"{self.link} at {self.at} along ({dx:g}, {dy:g})"
+
+    def states(self, scene: Scene) -> Iterator[Statement]:
+        """What would stand still if it were a support of the frame: a turning, or a motion along its direction."""
+        if self.direction is None:
+            yield Turning(self.link, FRAME)
+        else:
+            yield Along(self.link, FRAME, self.at, self.direction, "held")
 
 
 @dataclass(frozen=True)
@@ -250,6 +192,7 @@ class Scene:
     """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
 
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
+    `written` are the pairs that are written as such, drives among them: joints are points that links share.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
     where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written.
     `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
@@ -263,8 +206,7 @@ class Scene:
     points: dict[str, Pair]
     placements: dict[str, Placement]
     links: dict[str, tuple[str, ...]]
-    slides: tuple[Slide, ...]
-    drives: tuple[Drive, ...]
+    written: tuple[KinematicPair, ...]
     motions: dict[str, Motion]
     find: Find
     irrational: tuple[str, ...] = ()
@@ -291,8 +233,8 @@ class Scene:
         The frame has the opposite of all other links' forces.
         """
         found = {condition.pair for condition in self.repeating}
-        joints = (f"{link} at {p}" for p in self.joints for link in self.links_of[p][1:]
-                  if not found.isdisjoint(f"{k} at {p}" for k in (self.links_of[p] if link == FRAME else (link,))))
+        joints = (f"{link} at {joint.at}" for joint in self.revolutes for link in joint.links[1:]
+                  if not found.isdisjoint(f"{k} at {joint.at}" for k in (joint.links if link == FRAME else (link,))))
         return (*joints, *(slide.name for slide in self.slides if slide.name in found))
 
     @cached_property
@@ -305,6 +247,49 @@ class Scene:
         return {point: tuple(links) for point, links in found.items()}
 
     @cached_property
-    def joints(self) -> tuple[str, ...]:
+    def pairs(self) -> tuple[KinematicPair, ...]:
+        """Every kinematic pair: the joints, what is written, drives last, and the points whose motion is given."""
+        undriven = (pair for pair in self.written if not isinstance(pair, Drive))
+        points = (DrivenPoint(point, self.links_of[point][0], motion) for point, motion in self.motions.items())
+        return *self.revolutes, *undriven, *self.drives, *points
+
+    @property
+    def binding(self) -> Iterator[KinematicPair]:
+        """The pairs that drive nothing."""
+        return (pair for pair in self.pairs if not isinstance(pair, Drive | DrivenPoint))
+
+    @cached_property
+    def revolutes(self) -> tuple[Revolute, ...]:
         """The points that more than one link names, in the scene's order: the revolute pairs."""
-        return tuple(p for p, links in self.links_of.items() if len(links) > 1)
+        return tuple(Revolute(point, links) for point, links in self.links_of.items() if len(links) > 1)
+
+    @cached_property
+    def joints(self) -> tuple[str, ...]:
+        """The points of the revolute pairs."""
+        return tuple(pair.at for pair in self.revolutes)
+
+    @cached_property
+    def slides(self) -> tuple[Slide, ...]:
+        """The pairs with a guide."""
+        return tuple(pair for pair in self.written if isinstance(pair, Slide))
+
+    @cached_property
+    def drives(self) -> tuple[Drive, ...]:
+        """The drives."""
+        return tuple(pair for pair in self.written if isinstance(pair, Drive))
+
+    def with_drives(self, drives: Iterable[Drive]) -> Scene:
+        """The scene with other drives."""
+        return replace(self, written=(*(pair for pair in self.written if not isinstance(pair, Drive)), *drives))
+
+    def driven_slide(self, drive: Drive) -> Slide:
+        """The slide in which a sliding drive works."""
+        return next(slide for slide in self.slides if {*slide.links} == {*drive.links})
+
+    def posed(self, points: dict[str, Any], direction: Callable[[Any], Any]) -> Scene:
+        """The scene in another pose, or in other numbers: its points, and the direction of each guide and balance."""
+        def directed(one: Any) -> Any:
+            return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
+
+        loads = self.loads and replace(self.loads, balances=tuple(map(directed, self.loads.balances)))
+        return replace(self, points=points, written=tuple(map(directed, self.written)), loads=loads)

@@ -11,14 +11,14 @@ from functools import partial
 
 from graphplan.errors import Key as Key
 from graphplan.errors import by_name as by_name
-from graphplan.mechanism.model import FRAME, Drive, Force, Loads, Moment, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import FRAME, Drive, Force, Loads, Moment, Scene, Slide
 
 
 def ordered(scene: Scene) -> Scene:
     """The scene with its links, points, slides and loads in this order; its balances stay numbered as they are."""
-    links, slides = ordered_links(scene), ordered_slides(scene)
+    links = ordered_links(scene)
     return replace(scene, points={point: scene.points[point] for point in ordered_points(scene)}, links=links,
-                   slides=slides, loads=scene.loads and _ordered_loads(scene.loads))
+                   written=(*ordered_slides(scene), *scene.drives), loads=scene.loads and _ordered_loads(scene.loads))
 
 
 def _ordered_loads(loads: Loads) -> Loads:
@@ -55,18 +55,18 @@ def ordered_points(scene: Scene) -> tuple[str, ...]:
 
 def ordered_slides(scene: Scene) -> tuple[Slide, ...]:
     """The slides by their links."""
-    return tuple(sorted(scene.slides, key=lambda slide: (by_name(slide.link), by_name(slide.along))))
+    return tuple(sorted(scene.slides, key=_by_links))
 
 
 def ordered_drives(scene: Scene) -> tuple[Drive, ...]:
     """The drives by their links, those of turnings first."""
-    def key(drive: Drive) -> tuple[bool, Key, Key]:
-        other = drive.along if isinstance(drive, SlidingDrive) else drive.relative_to
-        return isinstance(drive, SlidingDrive), by_name(drive.link), by_name(other)
-
-    return tuple(sorted(scene.drives, key=key))
+    return tuple(sorted(scene.drives, key=lambda drive: (drive.slides, _by_links(drive))))
 
 
-def turning_drives(scene: Scene) -> tuple[TurningDrive, ...]:
+def turning_drives(scene: Scene) -> tuple[Drive, ...]:
     """The drives that prescribe a turning, by their links."""
-    return tuple(drive for drive in ordered_drives(scene) if isinstance(drive, TurningDrive))
+    return tuple(drive for drive in ordered_drives(scene) if not drive.slides)
+
+
+def _by_links(pair: Slide | Drive) -> tuple[Key, ...]:
+    return tuple(map(by_name, pair.links))

@@ -113,8 +113,7 @@ def _length_is_rational(direction: Pair) -> bool:
 
 def _driven(drive: Drive) -> tuple[frozenset[str], str]:
     """The two links that a drive is between."""
-    other = drive.along if isinstance(drive, SlidingDrive) else drive.relative_to
-    return frozenset((drive.link, other)), f"drive between links {drive.link} and {other}"
+    return frozenset(drive.links), "drive between links {} and {}".format(*drive.links)
 
 
 DRIVES = Rows(Either((Table("a turning drive", (

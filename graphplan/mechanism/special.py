@@ -8,6 +8,7 @@ higher derivatives: the motion is continued as a power series, until a condition
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
@@ -15,10 +16,11 @@ from random import Random
 from typing import NamedTuple
 
 from graphplan.mechanism.echelon import NOTHING, Echelon
-from graphplan.mechanism.equations import Equation, System, Unknown, ends
+from graphplan.mechanism.equations import PIN, Equation, System, Thing, Unknown
 from graphplan.mechanism.fine import DIGITS, fine_pose
 from graphplan.mechanism.model import FRAME, Condition, Scene
 from graphplan.mechanism.order import Key, by_name
+from graphplan.mechanism.pairs.pair import Attitude, Statement
 
 ORDER = 4
 """How far the motion is continued: velocities, accelerations, and twice more for links that can all but move."""
@@ -41,12 +43,12 @@ class Special(NamedTuple):
 def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=DIGITS):
-        system = System(replace(scene, motions={}, redundant=()), pose=fine_pose(scene))
+        system = System(*fine_pose(replace(scene, motions={}, redundant=())))
         pairs, found = sorted(system.pairs, key=_Order(scene)), Echelon[Unknown]()
         redundant = tuple(equation.condition for equation in pairs if not found.add(equation.terms))
         repeating = tuple(pairs[i].condition for i in sorted(found.repeated()))
         freedoms = len(system.unknowns) - found.rank
-        course = _Course(system)
+        course = _Course(system.posed)
         moves = _continues(course, found, pairs, system.unknowns)
         links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
         return Special(freedoms, links, moves, redundant, repeating)
@@ -60,12 +62,9 @@ class _Order:
     """
 
     def __init__(self, scene: Scene):
-        self._driven = {link for drive in scene.drives for link in ends(drive)} - {FRAME}
+        self._driven = {link for drive in scene.drives for link in drive.links} - {FRAME}
         self._fixed = {FRAME, *scene.links.get(FRAME, ())}
-        self._pairs = {link: sum(point in scene.joints for point in points) for link, points in scene.links.items()}
-        for slide in scene.slides:
-            for link in (slide.link, slide.along):
-                self._pairs[link] += 1
+        self._pairs = Counter(link for pair in scene.binding for link in pair.links)
 
     def __call__(self, equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
         link, on, way = equation.condition
@@ -80,76 +79,68 @@ def _continues(course: _Course, found: Echelon[Unknown], pairs: Sequence[Equatio
     for _ in range(ORDER):
         course.lengthen()
         any_way = {unknown: Decimal(chance.randrange(-999, 999)) / 1000 for unknown in unknowns}
-        values = found.solve([-course.excess(equation.condition) for equation in pairs], any_way)
+        values = found.solve([-course.excess(equation.fact) for equation in pairs], any_way)
         if values is None:
             return False
         course.settle(values)
     return True
 
 
-class _Course:
-    """How the links move from the pose, as power series in time: their points at the origin, and the sines and cosines
-    of their turns. The coefficients of the order that is sought are zero until they are settled."""
+class _Series:
+    """A power series in time, up to the order that is sought: its coefficient there is zero until it is settled."""
 
-    def __init__(self, system: System):
-        names = (*system.scene.moving, FRAME)
-        self._pose, self._at = system.pose, {(s.link, s.along): s.at for s in system.scene.slides}
-        self._series = {(link, way): [Decimal(0)] for link in names for way in ("x", "y", "turn")}
-        self._cosines = {link: [Decimal(1)] for link in names}
+    def __init__(self, *coefficients: Decimal):
+        self.terms = list(coefficients)
+
+    def __add__(self, other: _Series) -> _Series:
+        return _Series(*(a + b for a, b in zip(self.terms, other.terms, strict=True)))
+
+    def __sub__(self, other: _Series) -> _Series:
+        return _Series(*(a - b for a, b in zip(self.terms, other.terms, strict=True)))
+
+    def __mul__(self, other: _Series | Decimal | int) -> _Series:
+        if not isinstance(other, _Series):
+            return _Series(*(a * other for a in self.terms))
+        last = len(self.terms)
+        return _Series(*(sum((self.terms[k] * other.terms[n - k] for k in range(n + 1)), Decimal(0))
+                         for n in range(last)))
+
+    __rmul__ = __mul__
+
+
+class _Course:
+    """How the links and pins move from the pose, as power series in time."""
+
+    def __init__(self, scene: Scene):
+        self._scene = scene
+        bodies: list[Thing] = [("link", link) for link in (*scene.moving, FRAME)]
+        bodies += [("joint", point) for point in scene.joints]
+        one, nothing = Decimal(1), Decimal(0)
+        self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, one, nothing))) for body in bodies}
 
     def lengthen(self) -> None:
         """Go on to the next order; a cosine follows from the sine of lower orders."""
-        for link, cosine in self._cosines.items():
-            sine = self._series[link, "turn"]
-            squares = sum((a * b for s in (cosine, sine) for a, b in zip(s[1:], s[:0:-1], strict=True)), Decimal(0))
-            cosine.append(-squares / 2)
-        for series in self._series.values():
-            series.append(Decimal(0))
+        for x, y, cosine, sine in self._attitudes.values():
+            squares = sum((a * b for s in (cosine.terms, sine.terms)
+                           for a, b in zip(s[1:], s[:0:-1], strict=True)), Decimal(0))
+            cosine.terms.append(-squares / 2)
+            for series in (x, y, sine):
+                series.terms.append(Decimal(0))
 
     def settle(self, values: dict[Unknown, Decimal]) -> None:
         """Enter the coefficients of this order."""
-        for ((sort, name), way), value in values.items():
-            if sort == "link":
-                self._series[name, way][-1] = value
+        for (body, way), value in values.items():
+            getattr(self._attitudes[body], "sin" if way == "turn" else way).terms[-1] = value
 
     def starts(self, link: str) -> bool:
         """Whether a link has a velocity."""
-        return any(abs(self._series[link, way][1]) > NOTHING for way in ("x", "y", "turn"))
+        x, y, _, sine = self._attitudes["link", link]
+        return any(abs(series.terms[1]) > NOTHING for series in (x, y, sine))
 
-    def excess(self, condition: Condition) -> Decimal:
-        """What the lower orders leave over in a condition at this order."""
-        link, on, way = condition
-        if way == "turn":
-            return _product(self._series[link, way], self._cosines[on]) - _product(
-                self._cosines[link], self._series[on, way])
-        if way in ("across", "along"):
-            return self._slip(link, on, way)
-        assert self._pose
-        (x, y), (ax, ay) = self._pose.points[on], self._pose.axes[link]
-        return self._cosines[link][-1] * (ax * x + ay * y if way == "x" else ax * y - ay * x)
-
-    def _slip(self, link: str, on: str, way: str) -> Decimal:
-        """The sliding point on one link relative to the other, its component along or across the guide."""
-        assert self._pose
-        gx, gy = self._pose.guides[link, on]
-        gx, gy = (gx, gy) if way == "along" else (-gy, gx)
-        apart = [[a - b for a, b in zip(one, other, strict=True)]
-                 for one, other in zip(self._place(link, on, link), self._place(link, on, on), strict=True)]
-        cosine, sine = self._cosines[on], self._series[on, "turn"]
-        ray = ([c * gx - s * gy for c, s in zip(cosine, sine, strict=True)],
-               [s * gx + c * gy for c, s in zip(cosine, sine, strict=True)])
-        return _product(ray[0], apart[0]) + _product(ray[1], apart[1])
-
-    def _place(self, link: str, on: str, carrier: str) -> tuple[list[Decimal], list[Decimal]]:
-        """Where a link carries the point of a slide."""
-        assert self._pose
-        px, py = self._pose.points[self._at[link, on]]
-        x, y, sine = (self._series[carrier, way] for way in ("x", "y", "turn"))
-        turn = list(zip(self._cosines[carrier], sine, strict=True))
-        return ([a + c * px - s * py for a, (c, s) in zip(x, turn, strict=True)],
-                [b + s * px + c * py for b, (c, s) in zip(y, turn, strict=True)])
-
-
-def _product(one: Sequence[Decimal], other: Sequence[Decimal]) -> Decimal:
-    """The coefficient of the highest order in the product of two series."""
-    return sum((a * b for a, b in zip(one, reversed(other), strict=True)), Decimal(0))
+    def excess(self, fact: Statement) -> Decimal:
+        """What the lower orders leave over in a statement at this order."""
+        pose = {body: self._attitudes[("link", body) if body != PIN else ("joint", fact.at)]
+                for body in (fact.link, fact.on, FRAME)}
+        place = self._scene.points[fact.at] if fact.at else None
+        left: Decimal = fact.residual(pose, (place, place)).terms[-1]
+        return left

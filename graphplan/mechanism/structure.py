@@ -19,9 +19,11 @@ from typing import NamedTuple
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.contours import loop_lengths
-from graphplan.mechanism.equations import System, ends
-from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
+from graphplan.mechanism.equations import System
+from graphplan.mechanism.model import FRAME, Drive, Scene
 from graphplan.mechanism.order import ordered_links
+from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.transfer import stages
 from graphplan.phrases import Said, phrase, said
 
@@ -82,16 +84,19 @@ class Structure(NamedTuple):
 
 
 class _Bond(NamedTuple):
-    """A pair of a group: its kind (R, P, or T for a prescribed turning) and its bodies; an outer pair has but one."""
+    """A pair of a group: its kind (R, P, or T for a prescribed turning) and its bodies; an outer pair has but one.
+
+    One that binds a single freedom acts as a `fictitious` link.
+    """
 
     kind: str
     bodies: tuple[str, ...]
+    fictitious: bool = False
 
 
 def mobility(scene: Scene) -> int:
-    """Chebyshev's count: 3 for each moving link, less 2 for each pair; a joint of k links is k - 1 pairs."""
-    pins = sum(len(links) - 1 for links in scene.links_of.values() if links)
-    return 3 * len(scene.moving) - 2 * pins - 2 * len(scene.slides)
+    """Chebyshev's count: 3 for each moving link, less what each pair binds; a joint of k links is k - 1 pairs."""
+    return 3 * len(scene.moving) - sum(pair.binds * (len(pair.links) - 1) for pair in scene.binding)
 
 
 def structure(scene: Scene) -> Structure:
@@ -121,7 +126,7 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     if len(bodies) == 2 and form in _MODIFICATIONS:
         return Group(links, 2, 2, f"dyad {form} (modification {_MODIFICATIONS.index(form) + 1})")
     sides = _sides(bonds)
-    real = len(bodies) + sum(bond.kind == "T" for bond in bonds)
+    real = len(bodies) + sum(bond.fictitious for bond in bonds)
     triad = (real, sides, len(outer)) == (4, 3, 3)
     return Group(links, sides, len(outer), "triad" if triad else f"class {roman(sides)} group")
 
@@ -144,7 +149,7 @@ def _sides(bonds: tuple[_Bond, ...]) -> int:
         for body in bond.bodies:
             pairs[body] += 1
             path: list[tuple[str, ...]] = [("body", body), ("pair", str(i))]
-            if bond.kind == "T":  # the fictitious link has a pair with each of the two
+            if bond.fictitious:  # the link has a pair with each of the two
                 path = [("body", body), ("pair", str(i), body), ("fictitious", str(i))]
             for one, other in pairwise(path):
                 graph[one].add(other)
@@ -167,34 +172,35 @@ class _Surroundings:
 
     def __init__(self, scene: Scene, known: frozenset[str], stage: Mapping[str, int]):
         self.scene, self.known, self.stage = scene, known, stage
-        self.slides, self.drives = defaultdict(list), defaultdict(list)
-        for slide in scene.slides:
-            for link in (slide.link, slide.along):
-                self.slides[link].append(slide)
-        for drive in scene.drives:
-            for link in ends(drive):
-                self.drives[link].append(drive)
-        dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
-        self.lost = {pair for pair, conditions in dropped.items() if conditions > 1}
+        self.pairs: dict[str, list[KinematicPair]] = defaultdict(list)
+        for pair in scene.written:
+            for link in pair.links:
+                self.pairs[link].append(pair)
+        self.dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
         self.first = {
-            point: min((stage[link] for link in links if link != FRAME and (link, point) not in self.lost), default=-1)
+            point: min((stage[link] for link in links if link != FRAME and self._held(link, point)), default=-1)
             for point, links in scene.links_of.items()
         }
 
+    def _held(self, link: str, point: str) -> bool:
+        """Whether a joint holds a link, at least in one way."""
+        return self.dropped[link, point] < Revolute.binds
+
+    def _drives(self, links: tuple[str, ...]) -> list[Drive]:
+        """The drives of these links."""
+        return list(dict.fromkeys(pair for link in links for pair in self.pairs[link] if isinstance(pair, Drive)))
+
     def driven(self, links: tuple[str, ...]) -> bool:
         """Whether a drive prescribes how these links move, or a given motion."""
-        drives = (drive for link in links for drive in self.drives[link])
         led = any(point in self.scene.motions for link in links for point in self.scene.links[link])
-        return led or any(end == FRAME or self.stage[end] <= self.stage[links[0]] for drive in drives
-                          for end in set(ends(drive)) - set(links))
+        return led or any(end == FRAME or self.stage[end] <= self.stage[links[0]] for drive in self._drives(links)
+                          for end in set(drive.links) - set(links))
 
     def welds(self, links: tuple[str, ...]) -> Iterator[tuple[str, str]]:
         """The links of a group that a drive at their common pair makes one body."""
-        for drive in dict.fromkeys(drive for link in links for drive in self.drives[link]):
-            one, other = ends(drive)
-            joined = isinstance(drive, SlidingDrive) or set(self.scene.links.get(one, ())) & set(
-                self.scene.links.get(other, ())
-            )
+        for drive in self._drives(links):
+            one, other = drive.links
+            joined = drive.slides or set(self.scene.links.get(one, ())) & set(self.scene.links.get(other, ()))
             if joined and one in links and other in links:
                 yield one, other
 
@@ -202,27 +208,20 @@ class _Surroundings:
         """The pairs of a group: its inner ones, and the outer ones with what moves already."""
         now = self.stage[links[0]]
         for point in dict.fromkeys(point for link in links for point in self.scene.links[link]):
-            kept = [link for link in self.scene.links_of[point] if link in body and (link, point) not in self.lost]
-            bodies = tuple(dict.fromkeys(body[link] for link in kept))
+            held = [link for link in self.scene.links_of[point] if link in body and self._held(link, point)]
+            bodies = tuple(dict.fromkeys(body[link] for link in held))
             if point in self.known or self.first[point] < now:
                 yield from (_Bond("R", (one,)) for one in bodies)
             elif len(bodies) > 1:
                 yield _Bond("R", bodies)
-        slides = dict.fromkeys(slide for link in links for slide in self.slides[link])
-        guided = [(slide.link, slide.along) for slide in slides]
-        yield from self._between("P", [pair for pair in guided if pair not in self.lost], body, now)
-        turned = dict.fromkeys(drive for link in links for drive in self.drives[link])
-        free = [ends(drive) for drive in turned if not isinstance(drive, SlidingDrive)]
-        yield from self._between("T", free, body, now)
-
-    def _between(
-        self, kind: str, pairs: Iterable[tuple[str, str]], body: Mapping[str, str], now: int
-    ) -> Iterator[_Bond]:
-        for pair in pairs:
-            bodies = tuple(dict.fromkeys(body[link] for link in pair if link in body))
-            within_one_body = len(bodies) == 1 and all(link in body for link in pair)
-            if not within_one_body and all(link == FRAME or self.stage[link] <= now for link in pair):
-                yield _Bond(kind, bodies)
+        near = dict.fromkeys(pair for link in links for pair in self.pairs[link])
+        for pair in sorted(near, key=lambda pair: pair.binds, reverse=True):
+            bodies = tuple(dict.fromkeys(body[link] for link in pair.links if link in body))
+            within_one_body = len(bodies) == 1 and all(link in body for link in pair.links)
+            before = all(link == FRAME or self.stage[link] <= now for link in pair.links)
+            kept = isinstance(pair, Drive) or self.dropped[pair.links[0], pair.links[1]] < pair.binds
+            if pair.letter and kept and before and not within_one_body:
+                yield _Bond(pair.letter, bodies, pair.binds == 1)
 
 
 def roman(number: int) -> str:

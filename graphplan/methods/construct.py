@@ -9,7 +9,7 @@ from itertools import combinations
 from graphplan.errors import Refused
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene, SlidingDrive
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
@@ -150,16 +150,15 @@ class Draughtsman:
     def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
         """The sliding of each pair that is asked for, by its name or by its point."""
         names = self.scene.find.slides
-        drives = [drive for drive in self.scene.drives if isinstance(drive, SlidingDrive)]
-        rates = {SLIDE_VELOCITY: {(drive.link, drive.along): drive.speed for drive in drives},
-                 SLIDE_ACCELERATION: {(drive.link, drive.along): drive.acceleration for drive in drives}}
+        prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
         for slide in self.net.all_slides:
             if slide.at in asked if names is None else slide.name in names:
                 begin = plan.end_in(slide.along, slide.at)
                 end = plan.end_in(slide.link, slide.at)
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)
                 vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
-                given = rates[kind].get((slide.link, slide.along))
+                drive = prescribed.get(slide.links)
+                given = None if drive is None else drive.rate if kind == SLIDE_VELOCITY else drive.change
                 guide = [self.pose.guide(slide, run=True)] if given else []
                 self.read(kind, slide.name, *guide, *vector, given=given)
 

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import Scene, SlidingDrive, Units
+from graphplan.mechanism.model import Scene, Units
 
 # What the readings of each kind are called in a column, and in which unit they stand.
 HEADINGS = {
@@ -66,7 +66,7 @@ def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resul
 
 def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
-    sliding = isinstance(scene.drives[0], SlidingDrive)
+    sliding = scene.drives[0].slides
     yield ("travel " + _unit("{length}" if sliding else "deg", scene.units)), travel if sliding else np.degrees(travel)
     for name, z in points.items():
         yield from _parts(f"{name}.", z, _unit("{length}", scene.units))

@@ -117,14 +117,15 @@ def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str,
 def _scene(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Scene:
     """The scene in another pose."""
 
-    def direction(slide: Slide) -> Pair:
-        if slide.through:
+    def direction(slide: Any) -> Pair:
+        z: complex | None = None
+        if isinstance(slide, Slide) and slide.through:
             z = points[slide.through[1]] - points[slide.through[0]]
-            return z.real, z.imag
-        return (guides[slide.name].real, guides[slide.name].imag) if slide.name in guides else slide.direction
+        elif isinstance(slide, Slide):
+            z = guides.get(slide.name)
+        return slide.direction if z is None else (z.real, z.imag)
 
-    slides = tuple(replace(slide, direction=direction(slide)) for slide in scene.slides)
-    return replace(scene, points={name: (points[name].real, points[name].imag) for name in scene.points}, slides=slides)
+    return scene.posed({name: (points[name].real, points[name].imag) for name in scene.points}, direction)
 
 
 @dataclass(frozen=True)

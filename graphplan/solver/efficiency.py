@@ -6,9 +6,9 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import Number
+from graphplan.mechanism.plane import dot
 from graphplan.mechanism.units import metre
 from graphplan.solver.loads import asked
-from graphplan.solver.plane import dot
 from graphplan.solver.statics import Reactions
 
 IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding

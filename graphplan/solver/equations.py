@@ -2,30 +2,47 @@
 
 Three unknowns a link: the velocity (x, y) of its base, a point of it, and its angular velocity. Coordinates enter as
 differences only, so the rows do not depend on where the origin is. Velocities and accelerations share the rows and
-differ in the right-hand side. Transposed, with the forces that hold the facts as unknowns, they are the equilibrium
-of every link. Nothing is solved here, and nothing tests a number: the same rows can be filled with arrays of poses.
+differ in the right-hand side. Transposed, with the forces that hold the pairs as unknowns, they are the equilibrium
+of every link. What the rows state comes from the scene's pairs, whichever they are. Nothing is solved here, and nothing
+tests a number: the same rows can be filled with arrays of poses.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
+from itertools import chain
+from typing import Any
 
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numerals import is_exact
-from graphplan.solver.facts import Fact, Rate, Side
-from graphplan.solver.plane import less
+from graphplan.mechanism.pairs.pair import Along, Rate, Side, Statement
+from graphplan.mechanism.plane import dot, less, times
 
 Row = dict[int, Number]
 
 
+def reach(square: Any) -> Number:
+    """The root of the square of a direction's length: a fraction where it has a rational one, else a float."""
+    if isinstance(square, float):
+        return math.sqrt(square)
+    root = Fraction(math.isqrt(square.numerator), math.isqrt(square.denominator))
+    return root if root * root == square else math.sqrt(square)
+
+
 @dataclass(frozen=True)
 class Equations:
-    """What each row states: `rows` times the unknowns equal `velocities`, and `accelerations(...)`."""
+    """What each row states: `rows` times the unknowns equal `velocities`, and `accelerations(...)`.
+
+    `root` gives the root of a squared length in other numbers than fractions and floats.
+    """
 
     scene: Scene
-    facts: tuple[Fact, ...]
+    facts: tuple[Statement, ...]
+    root: Callable[[Any], Any] = reach
 
     @cached_property
     def columns(self) -> dict[str, int]:
@@ -39,10 +56,10 @@ class Equations:
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
-        """The coefficients of each fact by column; the frame has none."""
+        """The coefficients of each statement by column; the frame has none."""
         return tuple(self._row(fact) for fact in self.facts)
 
-    def _row(self, fact: Fact) -> Row:
+    def _row(self, fact: Statement) -> Row:
         row: Row = {}
         for link, sign in (fact.link, 1), (fact.on, -1):
             if link != FRAME:
@@ -50,9 +67,9 @@ class Equations:
                 row |= {self.columns[link] + k: sign * weight for k, weight in enumerate(weights)}
         return row
 
-    def arm(self, link: str, point: str | None) -> Pair:
+    def arm(self, link: str, point: str) -> Pair:
         """The vector from the link's base to `point`; nothing for the frame, which does not move."""
-        if point is None or link == FRAME:
+        if not point or link == FRAME:
             return 0, 0
         return less(self.scene.points[point], self.scene.points[self.bases[link]])
 
@@ -63,27 +80,39 @@ class Equations:
         return {link: next((p for p in self.scene.links[link] if is_exact(places[p])), self.scene.links[link][0])
                 for link in self.scene.moving}
 
+    @property
+    def arms(self) -> Iterable[Pair]:
+        """Every arm that a statement has."""
+        return (self.arm(link, fact.at) for fact in self.facts for link in (fact.link, fact.on))
+
     @cached_property
     def reach(self) -> float:
         """The characteristic length: the longest coordinate of an arm, or 1 where every arm vanishes."""
-        arms = (self.arm(link, fact.at) for fact in self.facts for link in (fact.link, fact.on))
-        return max((abs(float(part)) for arm in arms for part in arm), default=0.0) or 1.0
+        return max((abs(float(part)) for arm in self.arms for part in arm), default=0.0) or 1.0
+
+    @cached_property
+    def prescribed(self) -> list[Pair]:
+        """The velocity and the acceleration that each statement prescribes, times the length of its guide's direction.
+        """
+        return [times(self.root(dot(fact.direction, fact.direction)), (fact.rate, fact.change))
+                if isinstance(fact, Along) and fact.way == "along" else (fact.rate, fact.change) for fact in self.facts]
 
     @property
     def velocities(self) -> list[Number]:
         """The right-hand side for the velocities."""
-        return [fact.rate for fact in self.facts]
+        return [rate for rate, _ in self.prescribed]
 
     def accelerations(self, rates: dict[str, Rate]) -> list[Number]:
         """The right-hand side for the accelerations, from the velocities of every link."""
-        return [fact.change + fact.left_over(*self.sides(fact, rates)) for fact in self.facts]
+        return [change + fact.left_over(*self.sides(fact, rates))
+                for fact, (_, change) in zip(self.facts, self.prescribed, strict=True)]
 
-    def sides(self, of: Fact | Slide, rates: dict[str, Rate]) -> tuple[Side, Side]:
-        """The two links of a fact or of a slide at its point, with these rates."""
+    def sides(self, of: Statement | Slide, rates: dict[str, Rate]) -> tuple[Side, Side]:
+        """The two links of a statement or of a slide at its point, with these rates."""
         on = of.along if isinstance(of, Slide) else of.on
         return self.side(of.link, of.at, rates), self.side(on, of.at, rates)
 
-    def side(self, link: str, point: str | None, rates: dict[str, Rate]) -> Side:
+    def side(self, link: str, point: str, rates: dict[str, Rate]) -> Side:
         """One link at one point, with these rates."""
         return Side(self.arm(link, point), rates[link])
 
@@ -91,3 +120,20 @@ class Equations:
         """The solved unknowns link by link, the resting frame among them."""
         moving = {link: Rate(*values[k : k + 3]) for link, k in self.columns.items()}
         return moving | {FRAME: Rate(zero, zero, zero)}
+
+
+def moved(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:
+    """The equations of the motion: what all pairs state, drives and given motions among them."""
+    return Equations(scene, tuple(fact for pair in scene.pairs for fact in pair.states(scene)), root)
+
+
+def held(scene: Scene) -> Equations:
+    """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
+    balances = scene.loads.balances if scene.loads else ()
+    stated = chain(*(pair.states(scene) for pair in scene.binding), *(one.states(scene) for one in balances))
+    return Equations(scene, tuple(stated))
+
+
+def bound(scene: Scene) -> int:
+    """How many statements the pairs make without their drives: the first ones of either system."""
+    return sum(1 for pair in scene.binding for _ in pair.states(scene))

@@ -9,18 +9,19 @@ the rounds may miss the equilibrium. The size of a journal's force is a root: fr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
 from fractions import Fraction
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Number, Pair, Scene, Slide
+from graphplan.mechanism.pairs.pair import Along, Statement
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.plane import dot, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.efficiency import delivered, efficiency
 from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Along, Fact, Rate, Turning, X, Y, held
 from graphplan.solver.loads import asked
-from graphplan.solver.plane import dot, plus, times, turned
 from graphplan.solver.rubbing import Rubbing, rubbing, sign
 from graphplan.solver.statics import Reactions, equilibrium, reactions
 
@@ -42,18 +43,6 @@ class Frictional(Reactions):
     couples: dict[tuple[str, str], Number]
     drags: dict[str, Pair]
     efficiency: Number | None
-
-
-@dataclass(frozen=True)
-class Touching(Along):
-    """A component of a journal's force: its line of action touches the friction circle, at an arm of `lever`."""
-
-    lever: Number = 0
-
-    def weights(self, arm: Pair) -> Rate:
-        """How much the force counts in the equilibrium of a link."""
-        x, y, turn = super().weights(arm)
-        return Rate(x, y, turn + self.lever)
 
 
 def with_friction(scene: Scene, rounds: int = 0, exact: bool = False) -> Frictional:
@@ -88,27 +77,47 @@ def further(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     """The reactions that lean as the last ones say."""
     scene = last.equations.scene
     try:
-        return equilibrium(Equations(scene, tuple(leaning(last, against))), last.rates, exact)
+        return equilibrium(Equations(scene, tuple(_leant(last, against))), last.rates, exact)
     except SingularPose:
         raise locked(scene) from None
 
 
-def leaning(last: Reactions, against: Rubbing) -> Iterator[Fact]:
+def _leant(last: Reactions, against: Rubbing) -> Iterator[Statement]:
     """The supports of the scene, each pair's turned aside by friction as its last force says; none by no force."""
-    scene, least = last.equations.scene, NOTHING * last.condition * largest(last)
-    for (point, link), force in last.joints.items():
-        pin, circle = scene.links_of[point][0], against.journals[point, link]
+    least = NOTHING * last.condition * largest(last)
+
+    def arm(joint: Revolute, link: str, force: Pair) -> Number:
+        circle = against.journals[joint.at, link]
         size = math.hypot(*force) if circle else 0
-        for axis in X, Y:
-            lever = circle * dot(axis, force) / size if size > least else 0
-            yield Touching(link, pin, point, axis, 0, 0, lever=lever)
+        return circle / size if size > least else 0
+
+    def lean(slide: Slide, pressure: Number) -> Number:
+        return against.guides[slide.name] * sign(float(pressure), least * math.hypot(*slide.direction))
+
+    return leaning(last, arm, lean)
+
+
+def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
+            lean: Callable[[Slide, Number], Number]) -> Iterator[Statement]:
+    """The supports of the scene, with friction.
+
+    A journal's line of action touches the friction circle: `arm` is its radius by the last force on a link. A slide's
+    force leans by so much, from its last component across the guide.
+    """
+    scene = last.equations.scene
+    for joint in scene.revolutes:
+        for part in joint.states(scene):
+            force = last.joints[joint.at, part.link]
+            yield replace(part, lever=arm(joint, part.link, force) * dot(part.direction, force))
     for slide in scene.slides:
-        across, (force, _) = turned(slide.direction), last.slides[slide.name]
-        side = sign(float(dot(across, force)), least * math.hypot(*across))
-        lean = against.guides[slide.name] * side
-        yield Turning(slide.link, slide.along, 0, 0)
-        yield Along(slide.link, slide.along, slide.at, plus(across, times(lean, slide.direction)), 0, 0)
-    yield from map(held, asked(scene).balances)
+        for fact in slide.states(scene):
+            if isinstance(fact, Along):
+                by = lean(slide, dot(fact.direction, last.slides[slide.name][0]))
+                yield replace(fact, direction=plus(fact.direction, times(by, slide.direction)))
+            else:
+                yield fact
+    for balance in asked(scene).balances:
+        yield from balance.states(scene)
 
 
 def largest(found: Reactions) -> float:

@@ -55,7 +55,7 @@ def condition(equations: Equations) -> float:
 
 def numbers(equations: Equations) -> Iterable[Number]:
     """Every number in the rows and on the right-hand side of the velocities and of the accelerations at rest."""
-    return chain(*(row.values() for row in equations.rows), *((fact.rate, fact.change) for fact in equations.facts))
+    return chain(*(row.values() for row in equations.rows), *equations.prescribed)
 
 
 def require_fractions(scene: Scene, used: Iterable[Number]) -> None:

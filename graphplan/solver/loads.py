@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Force, Loads, Mass, Moment, Number, Scene
+from graphplan.mechanism.plane import dot, less, times, turned
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations
-from graphplan.solver.plane import dot, less, times, turned
 from graphplan.solver.rates import Rates
 
 Load = Force | Moment

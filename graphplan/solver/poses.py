@@ -7,18 +7,16 @@ makes conditions redundant they are solved by singular values.
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import Drive, Scene, Slide, SlidingDrive
+from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.elimination import transpose
-from graphplan.solver.equations import Equations, Row
-from graphplan.solver.facts import Along, facts, supports
+from graphplan.solver.equations import Equations, Row, held, moved
 from graphplan.solver.loads import acting, resultants
-from graphplan.solver.plane import dot
 from graphplan.solver.sized import Sized, sized
 
 _ROUNDING = 2.0**-44
@@ -40,15 +38,9 @@ def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) ->
             return bx - ax, by - ay
         return _pair(guides[slide.name]) if slide.name in guides else tuple(map(float, slide.direction))
 
-    slides = tuple(replace(slide, direction=direction(slide)) for slide in scene.slides)
-    drives = tuple(_in_floats(drive) for drive in scene.drives)
-    return replace(scene, points={name: where(name) for name in scene.points}, slides=slides, drives=drives)
-
-
-def _in_floats(drive: Drive) -> Drive:
-    if isinstance(drive, SlidingDrive):
-        return replace(drive, speed=float(drive.speed), acceleration=float(drive.acceleration))
-    return replace(drive, omega=float(drive.omega), alpha=float(drive.alpha))
+    driven = scene.with_drives(drive.driven_at(*map(float, drive.rates)) for drive in scene.drives)
+    return driven.posed({name: where(name) for name in scene.points},
+                        lambda one: direction(one) if isinstance(one, Slide) else one.direction)
 
 
 def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
@@ -56,7 +48,7 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
 
     With `sizes` they are arrays that know the size of what cancels in them.
     """
-    equations = Equations(scene, facts(scene, _length))
+    equations = moved(scene, np.sqrt)
     zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
     scales = [1.0, 1.0, _reach(equations)] * len(equations.columns)
     return rates.motion(equations, lambda right: _solved(equations.rows, right, n, scales, sizes), zero)
@@ -64,7 +56,7 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
     """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
-    equations = Equations(scene, supports(scene))
+    equations = held(scene)
     right = [-value for value in resultants(equations, acting(scene, motion))]
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
     values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes)
@@ -73,14 +65,8 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
 
 def _reach(equations: Equations) -> float:
     """The longest coordinate of an arm in any pose, or 1 where every arm vanishes."""
-    arms = (equations.arm(link, fact.at) for fact in equations.facts for link in (fact.link, fact.on))
-    return max((float(np.max(np.abs(np.asarray(part, float)))) for arm in arms for part in arm), default=0.0) or 1.0
-
-
-def _length(slide: Slide) -> Any:
-    """The length of a direction in all poses."""
-    square: Any = dot(slide.direction, slide.direction)
-    return np.sqrt(square)
+    parts = (np.max(np.abs(np.asarray(part, float))) for arm in equations.arms for part in arm)
+    return max(map(float, parts), default=0.0) or 1.0
 
 
 def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool) -> Sequence[Any]:

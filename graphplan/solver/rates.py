@@ -9,10 +9,10 @@ from functools import cached_property, partial
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Rate, centripetal, facts, slip, surplus
+from graphplan.mechanism.pairs.pair import Rate, centripetal, slip, surplus
+from graphplan.mechanism.plane import dot, less, times
+from graphplan.solver.equations import Equations, moved
 from graphplan.solver.linear import Linear, condition, for_rates
-from graphplan.solver.plane import dot, less, times
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def solve(scene: Scene, exact: bool = False) -> Rates:
     Fails with `Refused` where fractions are asked of an irrational scene, and with `SingularPose`, which names the
     links, where the motion is not determined or is impossible.
     """
-    equations = Equations(scene, facts(scene))
+    equations = moved(scene)
     linear = for_rates(equations, exact)
     return motion(equations, partial(solved, equations, linear), Fraction(0) if exact else 0.0)
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.mechanism.model import FRAME, Number, Scene, Slide
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.plane import dot
 from graphplan.solver.loads import asked
-from graphplan.solver.plane import dot
 from graphplan.solver.rates import Rates
 
 ROUNDING = 8 * 2.0**-52  # times the condition of the rates: what moves more slowly beside the rest stands still
@@ -33,7 +34,8 @@ class Rubbing:
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
     """The frictions of the scene, with the senses of these rates; nothing where a pair does not move."""
     return Rubbing(
-        {(p, k): -circle(scene, p) * turning(scene, p, k, rates) for p in scene.joints for k in scene.links_of[p][1:]},
+        {(joint.at, k): -circle(scene, joint.at) * turning(joint, k, rates)
+         for joint in scene.revolutes for k in joint.links[1:]},
         {slide.name: -coefficient(scene, slide) * slipping(slide, rates) for slide in scene.slides},
     )
 
@@ -45,14 +47,14 @@ def circle(scene: Scene, point: str) -> Number:
 
 def coefficient(scene: Scene, slide: Slide) -> Number:
     """The coefficient of friction of a slide."""
-    found = (f.coefficient for f in asked(scene).frictions if f.slide == (slide.link, slide.along))
+    found = (f.coefficient for f in asked(scene).frictions if f.slide == slide.links)
     return sum(found, Fraction(0))
 
 
-def turning(scene: Scene, point: str, link: str, rates: Rates) -> int:
+def turning(joint: Revolute, link: str, rates: Rates) -> int:
     """The sense in which a link turns on the one that carries the pin: 1, -1, or 0 where it does not."""
     omega = {**rates.omega, FRAME: 0}
-    return sense(float(omega[link] - omega[scene.links_of[point][0]]) * rates.equations.reach, rates)
+    return sense(float(omega[link] - omega[joint.links[0]]) * rates.equations.reach, rates)
 
 
 def slipping(slide: Slide, rates: Rates) -> int:

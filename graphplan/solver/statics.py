@@ -9,15 +9,15 @@ from __future__ import annotations
 from collections.abc import Container, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from typing import Any
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import Balance, Number, Pair, Scene, Slide
+from graphplan.mechanism.plane import times, turned
 from graphplan.mechanism.units import metre
-from graphplan.solver.equations import Equations
-from graphplan.solver.facts import pairs, supports
+from graphplan.solver.equations import Equations, bound, held
 from graphplan.solver.linear import condition, for_forces, for_rates, require_fractions
 from graphplan.solver.loads import acting, asked, resultants
-from graphplan.solver.plane import times, turned
 from graphplan.solver.rates import Rates, bound_by, moved_by, solve
 
 
@@ -49,7 +49,7 @@ def reactions(scene: Scene, exact: bool = False) -> Reactions:
     Fails with `Refused` where the scene has no loads or fractions are asked of an irrational one, and with
     `SingularPose`, which names the links, where its motion or its forces are not determined.
     """
-    return equilibrium(Equations(scene, supports(scene)), solve(scene, exact), exact)
+    return equilibrium(held(scene), solve(scene, exact), exact)
 
 
 def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
@@ -71,14 +71,13 @@ def without(values: Iterable[Number], free: Container[int]) -> list[Number | Non
 
 def repeating(equations: Equations) -> frozenset[int]:
     """The unknowns of the pairs that the scene knows to be statically indeterminate."""
-    names, facts = set(equations.scene.indeterminate_pairs), pairs(equations.scene)
-    return frozenset(i for i, fact in enumerate(facts)
-                     if not names.isdisjoint((f"{fact.link} at {fact.at}", f"{fact.link} along {fact.on}")))
+    names, count = set(equations.scene.indeterminate_pairs), bound(equations.scene)
+    return frozenset(i for i, fact in enumerate(equations.facts[:count]) if fact.condition.pair in names)
 
 
 def balanced(equations: Equations) -> frozenset[int]:
     """The unknowns that are balances."""
-    return frozenset(range(len(pairs(equations.scene)), len(equations.facts)))
+    return frozenset(range(bound(equations.scene), len(equations.facts)))
 
 
 def not_held(equations: Equations, exact: bool) -> SingularPose:
@@ -87,7 +86,7 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     if not play:
         twice = bound_by(equations, for_forces(equations, exact).free)
         return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
-    one = len(equations.facts) - len(pairs(equations.scene)) == 1
+    one = len(balanced(equations)) == 1
     balance, does = ("the balance", "it does") if one else ("the balances", "they do")
     why = f"{balance} cannot hold the motion in this pose: these links can move while {does} no work"
     return SingularPose(why, moved_by(equations, play))
@@ -99,22 +98,22 @@ def read(equations: Equations, values: Sequence[Number | None], rates: Rates) ->
     A pair with an unknown that equilibrium cannot tell, None, is left out.
     """
     scene, unknown = equations.scene, iter(values)
-    joints = {(p, k): (next(unknown), next(unknown)) for p in scene.joints for k in scene.links_of[p][1:]}
-    slides = [(s, next(unknown), next(unknown)) for s in scene.slides]
+    joints = {(joint.at, k): (next(unknown), next(unknown)) for joint in scene.revolutes for k in joint.links[1:]}
+    slides = [(s, {fact.way: next(unknown) for fact in s.states(scene)}) for s in scene.slides]
     balances = zip(asked(scene).balances, unknown, strict=True)
     return Reactions(
         joints={name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None},
-        slides={s.name: sliding(scene, s, turn, across) for s, turn, across in slides
-                if turn is not None and across is not None},
+        slides={s.name: sliding(scene, s, found) for s, found in slides
+                if all(value is not None for value in found.values())},
         balances=tuple(balancing(scene, balance, value) for balance, value in balances if value is not None),
         rates=rates,
         equations=equations,
     )
 
 
-def sliding(scene: Scene, slide: Slide, turn: Number, across: Number) -> tuple[Pair, Number]:
+def sliding(scene: Scene, slide: Slide, found: dict[str, Any]) -> tuple[Pair, Number]:
     """A slide's force, across its guide, and its moment."""
-    return times(across, turned(slide.direction)), turn / metre(scene.units)
+    return times(found["across"], turned(slide.direction)), found.get("turn", 0) / metre(scene.units)
 
 
 def balancing(scene: Scene, balance: Balance, value: Number) -> Pair | Number:

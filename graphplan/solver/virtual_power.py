@@ -10,13 +10,13 @@ from collections.abc import Iterable, Iterator
 from fractions import Fraction
 
 from graphplan.mechanism.model import Balance, Force, Moment, Number, Pair, Scene
+from graphplan.mechanism.pairs.pair import Rate
+from graphplan.mechanism.plane import dot, times
 from graphplan.mechanism.units import metre
 from graphplan.solver.elimination import Elimination
-from graphplan.solver.equations import Equations
-from graphplan.solver.facts import Rate, pairs, supports
+from graphplan.solver.equations import bound, held
 from graphplan.solver.linear import for_rates, require_fractions
 from graphplan.solver.loads import Load, acting, asked
-from graphplan.solver.plane import dot, times
 from graphplan.solver.rates import Rates, solve, solved
 from graphplan.solver.statics import not_held
 
@@ -32,9 +32,9 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
     right = [-sum(powers(rates, loads, motion)) for motion in motions]
     if exact:
         require_fractions(scene, right)
-    held, values = Equations(scene, supports(scene)), system.solve(right)
-    if values is None or system.free or for_rates(held, exact).free:
-        raise not_held(held, exact)
+    rows, values = held(scene), system.solve(right)
+    if values is None or system.free or for_rates(rows, exact).free:
+        raise not_held(rows, exact)
     found: Iterable[Number] = values if exact else map(float, values)
     return tuple(times(v, one.value) if isinstance(one, Force) else v for v, one in zip(found, units, strict=True))
 
@@ -42,7 +42,7 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
 def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
     """For each drive the velocities of every link while this drive alone moves, at a unit rate."""
     equations, zero = rates.equations, Fraction(0) if exact else 0.0
-    linear, first = for_rates(equations, exact), len(pairs(equations.scene))
+    linear, first = for_rates(equations, exact), bound(equations.scene)
     for drive in range(first, first + len(equations.scene.drives)):
         right = [Fraction(i == drive) for i in range(len(equations.facts))]
         yield equations.rates(solved(equations, linear, right), zero)

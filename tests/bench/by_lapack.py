@@ -13,8 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.mechanism.model import Scene
-from graphplan.solver.equations import Equations
-from graphplan.solver.facts import facts
+from graphplan.solver.equations import moved
 from graphplan.solver.rates import Rates, read
 
 BLOCK = 2000  # poses, whose matrices take 7 MB
@@ -40,7 +39,7 @@ def block(scene: Scene, points: Points) -> Rates:
     n = len(next(iter(points.values())))
     standing: dict[str, Any] = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
     moving = {name: (z.real, z.imag) for name, z in points.items()}
-    equations = Equations(replace(scene, points=standing | moving), facts(scene))
+    equations = moved(replace(scene, points=standing | moving))
     matrices = np.zeros((n, len(equations.facts), equations.width))
     for i, row in enumerate(equations.rows):
         for j, value in row.items():

@@ -210,12 +210,10 @@ def larger(scene: Scene, factor: Fraction) -> Scene:
         return pair[0] * factor, pair[1] * factor
 
     def drive(one: Drive) -> Drive:
-        if isinstance(one, TurningDrive):
-            return one
-        return replace(one, speed=one.speed * factor, acceleration=one.acceleration * factor)
+        return one.driven_at(one.rate * factor, one.change * factor) if one.slides else one
 
-    return replace(scene, points={name: vector(at) for name, at in scene.points.items()}, placements={},
-                   drives=tuple(map(drive, scene.drives)),
+    return replace(scene.with_drives(map(drive, scene.drives)), placements={},
+                   points={name: vector(at) for name, at in scene.points.items()},
                    motions={name: replace(motion, velocity=vector(motion.velocity),
                                           acceleration=vector(motion.acceleration))
                             for name, motion in scene.motions.items()})
@@ -224,14 +222,12 @@ def larger(scene: Scene, factor: Fraction) -> Scene:
 def faster(scene: Scene, factor: Fraction) -> Scene:
     """All rates so many times as fast."""
     def drive(one: Drive) -> Drive:
-        if isinstance(one, TurningDrive):
-            return replace(one, omega=one.omega * factor, alpha=one.alpha * factor**2)
-        return replace(one, speed=one.speed * factor, acceleration=one.acceleration * factor**2)
+        return one.driven_at(one.rate * factor, one.change * factor**2)
 
     def times(pair: Any, by: Fraction) -> Any:
         return pair[0] * by, pair[1] * by
 
-    return replace(scene, drives=tuple(map(drive, scene.drives)),
+    return replace(scene.with_drives(map(drive, scene.drives)),
                    motions={name: replace(motion, velocity=times(motion.velocity, factor),
                                           acceleration=times(motion.acceleration, factor**2))
                             for name, motion in scene.motions.items()})

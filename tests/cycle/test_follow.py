@@ -380,8 +380,8 @@ def test_a_first_drive_that_stands_still_leads_nothing() -> None:
     scene = gp.load("five-bar")
     first, second = (drive for drive in scene.drives if not isinstance(drive, SlidingDrive))
     with pytest.raises(Refused, match="stands still"):
-        follow(replace(scene, drives=(replace(first, omega=0), second)), 12)
-    turn = follow(replace(scene, drives=(replace(first, omega=0), replace(second, omega=0))), 12, (0, 11))
+        follow(scene.with_drives([replace(first, omega=0), second]), 12)
+    turn = follow(scene.with_drives([replace(first, omega=0), replace(second, omega=0)]), 12, (0, 11))
     assert np.all(turn.points["B"] == place(scene, "B"))
     assert np.allclose(turn.points["A"] - place(scene, "O"),
                        (place(scene, "A") - place(scene, "O")) * np.exp(1j * turn.travel))

@@ -31,8 +31,8 @@ def chain(links: str, slides: str = "", drives: str = "1", motions: str = "") ->
         points=dict.fromkeys(points, (rest, rest)),
         placements={},
         links=named,
-        slides=tuple(Slide(link, along, at, (Fraction(1), rest)) for link, along, at in pairs),
-        drives=tuple(drive(text) for text in drives.split()),
+        written=(*(Slide(link, along, at, (Fraction(1), rest)) for link, along, at in pairs),
+                 *(drive(text) for text in drives.split())),
         motions={p: Motion((rest, rest), (rest, rest)) for p in motions},
         find=Find((), ()),
     )

@@ -62,7 +62,7 @@ class Builder:
         drive = TurningDrive(self.crank, FRAME, Fraction(self.random.choice([1, 2, -3])),
                              Fraction(self.random.randint(-2, 2)))
         links = {name: tuple(names) for name, names in self.links.items()}
-        return Scene("random", "", "random", Units(), self.points, {}, links, tuple(self.slides), (drive,), {},
+        return Scene("random", "", "random", Units(), self.points, {}, links, (*self.slides, drive), {},
                      Find(points, points))
 
 

@@ -163,7 +163,7 @@ def hinged(dx: Fraction) -> Scene:
                   (Force("5", "H", (Fraction(5), Fraction(-7))), Force("3", "F", (Fraction(1), Fraction(2)))),
                   (Moment("4", Fraction(1)),), (Balance("1"),))
     drive = TurningDrive("1", FRAME, Fraction(1), Fraction(0))
-    return Scene("triad", "", "triad", Units(), places, {}, links, (), (drive,), {}, Find((), ()), loads=loads)
+    return Scene("triad", "", "triad", Units(), places, {}, links, (drive,), {}, Find((), ()), loads=loads)
 
 
 @pytest.mark.parametrize("dx", [Fraction(5), *(Fraction(1, 10**k) for k in (1, 3, 6, 9, 12, 15)), Fraction(0)])
@@ -183,8 +183,8 @@ def press(weight: Fraction, couple: Fraction) -> Scene:
     slides = (Slide("3", FRAME, "B", (Fraction(1), Fraction(0))),)
     loads = Loads((Fraction(0), Fraction(0)), {}, (Force("3", "B", (Fraction(-12), weight)),), (Moment("3", couple),),
                   (Balance("1"),))
-    return Scene("press", "", "press", Units("m"), places, {}, links, slides,
-                 (TurningDrive("1", FRAME, Fraction(1), Fraction(0)),), {}, Find((), ()), loads=loads)
+    return Scene("press", "", "press", Units("m"), places, {}, links,
+                 (*slides, TurningDrive("1", FRAME, Fraction(1), Fraction(0))), {}, Find((), ()), loads=loads)
 
 
 def test_small_slide_reaction_is_told() -> None:

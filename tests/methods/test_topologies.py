@@ -49,7 +49,7 @@ def thrown(seed: int, moving: int, sliding: float) -> Scene | None:
     asked = tuple(p for p in points if p not in links[FRAME])
     drive = TurningDrive("1", FRAME, Fraction(1), Fraction(1))
     whole = {name: tuple(own) for name, own in links.items()}
-    return Scene("thrown", "", "thrown", Units(), points, {}, whole, tuple(slides), (drive,), {}, Find(asked, asked))
+    return Scene("thrown", "", "thrown", Units(), points, {}, whole, (*slides, drive), {}, Find(asked, asked))
 
 
 @pytest.mark.parametrize(("moving", "sliding"), [(5, 0.0), (5, 0.4), (7, 0.0), (7, 0.3), (9, 0.1)])

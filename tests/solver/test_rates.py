@@ -293,7 +293,7 @@ def test_irrational_scene_is_refused_exactly() -> None:
 def test_actuator_of_irrational_length_is_refused_exactly() -> None:
     """An actuator along a direction of irrational length cannot be solved in fractions."""
     with pytest.raises(Refused):
-        solve(replace(ACTUATOR, slides=(slide("3", "2", "B", (-1, 2)),)), exact=True)
+        solve(replace(ACTUATOR, written=(slide("3", "2", "B", (-1, 2)), *ACTUATOR.drives)), exact=True)
 
 
 def test_lengths_far_apart() -> None:

@@ -13,7 +13,7 @@ from importlib.util import find_spec
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Drive, Find, Motion, Pair, Scene, Slide, TurningDrive
+from graphplan.mechanism.model import Find, Motion, Pair, Scene, Slide
 from graphplan.solver import Rates, solve
 
 BITS = 256  # of enclosures that stand for the truth: some 70 digits
@@ -22,7 +22,8 @@ BITS = 256  # of enclosures that stand for the truth: some 70 digits
 def binary(scene: Scene) -> Scene:
     """The motion of a scene in binary fractions: velocities and accelerations of the points asked for, or of all."""
     joints = scene.find.velocity or scene.joints
-    found = replace(scene, irrational=(), placements={}, loads=None, drives=tuple(map(_drive, scene.drives)),
+    driven = scene.with_drives(drive.driven_at(*_pair(drive.rates)) for drive in scene.drives)
+    found = replace(driven, irrational=(), placements={}, loads=None,
                     find=Find(joints, scene.find.acceleration or joints),
                     motions={name: Motion(_pair(m.velocity), _pair(m.acceleration))
                              for name, m in scene.motions.items()})
@@ -33,7 +34,8 @@ def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
     """A binary scene with some points elsewhere; guides through two points turn with them."""
     points: dict[str, Pair] = {name: _pair(at) for name, at in scene.points.items()}
     points |= {name: (Fraction(z.real), Fraction(z.imag)) for name, z in places.items()}
-    return replace(scene, points=points, slides=tuple(_slide(slide, points) for slide in scene.slides))
+    slides = (_slide(slide, points) for slide in scene.slides)
+    return replace(scene, points=points, written=(*slides, *scene.drives))
 
 
 def truth(scene: Scene) -> Rates:
@@ -63,12 +65,6 @@ def _middles(vectors: dict[str, Any]) -> dict[str, Pair]:
 def _pair(pair: Pair) -> tuple[Fraction, Fraction]:
     x, y = (Fraction(float(number)) for number in pair)
     return x, y
-
-
-def _drive(drive: Drive) -> Drive:
-    names = ("omega", "alpha") if isinstance(drive, TurningDrive) else ("speed", "acceleration")
-    rates: dict[str, Any] = {name: Fraction(float(getattr(drive, name))) for name in names}
-    return replace(drive, **rates)
 
 
 def _slide(slide: Slide, points: Mapping[str, Pair]) -> Slide:

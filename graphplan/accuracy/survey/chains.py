@@ -28,6 +28,6 @@ def chain(dyads: int) -> Scene:
     joints = tuple(f"P{k}" for k in range(dyads + 1))
     return Scene(
         title=f"Chain of {2 * dyads + 2} links", source="", name=f"chain of {2 * dyads + 2} links", units=Units(),
-        points=points, placements={}, links=links, slides=(), motions={}, find=Find(joints, joints),
-        drives=(TurningDrive("1", FRAME, Fraction(1), Fraction(0)),),
+        points=points, placements={}, links=links, motions={}, find=Find(joints, joints),
+        written=(TurningDrive("1", FRAME, Fraction(1), Fraction(0)),),
     )

@@ -37,8 +37,7 @@ class Assumed:
 
 def moving(scene: Scene) -> bool:
     """Whether the scene's own velocities serve: one drive, and it moves."""
-    rates = [d.omega if isinstance(d, TurningDrive) else d.speed for d in scene.drives]
-    return len(rates) == 1 and bool(rates[0])
+    return len(scene.drives) == 1 and bool(scene.drives[0].rate)
 
 
 def velocities(assumed: Assumed, pose: Pose, planner: Planner) -> Velocity:
@@ -64,19 +63,17 @@ def working(scene: Scene, mode: int) -> Assumed:
     """The motion in which only the balance of this number does work; a single drive stands for its balance."""
     assert scene.loads is not None
     held = [balance for nth, balance in enumerate(scene.loads.balances) if nth != mode]
-    balance, apart = scene.loads.balances[mode], replace(scene, drives=())
+    balance, apart = scene.loads.balances[mode], scene.with_drives(())
     own: list[Drive] = [_unit(drive, scene) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
         own = [TurningDrive(balance.link, FRAME, Fraction(1), Fraction(0))]
-    found = [_held(replace(apart, drives=(drive,)), held) for drive in own]
+    found = [_held(apart.with_drives((drive,)), held) for drive in own]
     return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
 
 
 def _unit(drive: Drive, scene: Scene) -> Drive:
     """The drive at a rate of one."""
-    if isinstance(drive, TurningDrive):
-        return replace(drive, omega=Fraction(1), alpha=Fraction(0))
-    return replace(drive, speed=round_number(extent(scene) / 4), acceleration=Fraction(0))
+    return drive.driven_at(round_number(extent(scene) / 4) if drive.slides else Fraction(1), Fraction(0))
 
 
 def _held(scene: Scene, balances: list[Balance]) -> Scene:
@@ -84,11 +81,11 @@ def _held(scene: Scene, balances: list[Balance]) -> Scene:
     for nth, balance in enumerate(balances):
         if balance.direction is None:
             still = TurningDrive(balance.link, FRAME, Fraction(0), Fraction(0))
-            scene = replace(scene, drives=(*scene.drives, still))
+            scene = scene.with_drives((*scene.drives, still))
         else:
             (dx, dy), block = balance.direction, f"support {nth + 1} of {balance.link}"
             across = Slide(block, FRAME, balance.at, (-dy, dx))
-            scene = replace(scene, links=scene.links | {block: (balance.at,)}, slides=(*scene.slides, across))
+            scene = replace(scene, links=scene.links | {block: (balance.at,)}, written=(*scene.written, across))
     return scene
 
 
@@ -102,7 +99,7 @@ def freed_joint(scene: Scene, point: str, link: str, pin: str, axis: Pair) -> As
              for name, points in scene.links.items()}
     slides = [replace(s, at=new) if (s.link, s.at) == (link, point) else s for s in scene.slides]
     changed = replace(scene, points=scene.points | {new: scene.points[point]}, links=links | {block: (new,)},
-                      slides=(*slides, Slide(block, pin, new, axis)), drives=(_sliding(scene, block, pin),))
+                      written=(*slides, Slide(block, pin, new, axis), _sliding(scene, block, pin)))
     return Assumed(_all_held(changed, {(link, point): new}), {(link, point): new})
 
 
@@ -113,8 +110,7 @@ def freed_slide(scene: Scene, slide: Slide) -> Assumed:
     axis = AXES[abs(float(dx)) >= abs(float(dy))]
     slides = [replace(s, along=block) if s == slide else s for s in scene.slides]
     changed = replace(scene, points=scene.points | {new: scene.points[slide.at]}, links=scene.links | {block: (new,)},
-                      slides=(*slides, Slide(block, slide.along, new, axis)),
-                      drives=(_sliding(scene, block, slide.along),))
+                      written=(*slides, Slide(block, slide.along, new, axis), _sliding(scene, block, slide.along)))
     return Assumed(_all_held(changed, {}), {(block, slide.at): new})
 
 
@@ -122,8 +118,8 @@ def freed_turning(scene: Scene, slide: Slide) -> Assumed:
     """The motion of a sliding link that turns on its guide, about the slide's point, in a block there."""
     block = f"block {slide.name}"
     slides = [replace(s, link=block) if s == slide else s for s in scene.slides]
-    changed = replace(scene, links=scene.links | {block: (slide.at,)}, slides=tuple(slides),
-                      drives=(TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0)),))
+    changed = replace(scene, links=scene.links | {block: (slide.at,)},
+                      written=(*slides, TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0))))
     return Assumed(_all_held(changed, {}), {})
 
 

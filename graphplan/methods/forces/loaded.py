@@ -16,7 +16,7 @@ from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Mark
-from graphplan.mechanism.model import Find, Loads, Scene, TurningDrive
+from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construct import Draughtsman
 from graphplan.methods.construction import Construction
@@ -151,7 +151,7 @@ class Loaded(Draughtsman):
     @property
     def _in_motion(self) -> bool:
         """Whether any drive moves: at rest friction has no sense."""
-        return any(d.omega if isinstance(d, TurningDrive) else d.speed for d in self.scene.drives)
+        return any(drive.rate for drive in self.scene.drives)
 
     def _note(self, found: Iterable[Result], shown: Iterable[Shown]) -> None:
         """Keep results, and the arrows that show them."""

@@ -196,7 +196,7 @@ class Loading:
         net = self.net
         if not net.ground or net.classes[net.body[link]] != net.classes[net.ground]:
             return True
-        return bool(sum(sign * drive.alpha for sign, drive in net.excess(link, net.ground)))
+        return bool(sum(sign * drive.change for sign, drive in net.excess(link, net.ground)))
 
     def arm_points(self, link: str) -> tuple[str, str]:
         """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""

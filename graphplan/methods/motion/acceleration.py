@@ -13,7 +13,7 @@ from collections.abc import Iterable
 
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Slide, TurningDrive
+from graphplan.mechanism.model import FRAME, Slide
 from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
 from graphplan.methods.motion.network import Network, Place, Weld
 from graphplan.methods.motion.plan import Plan, Vector
@@ -148,7 +148,7 @@ class Normal(Plan):
         weld = chain[0]
         joint = weld.slide.at if weld.slide else weld.at
         base = self.pose.points[joint] if weld.to == FRAME else self._driven_seat(weld, joint)
-        omega = sum(w.sign * self.tempo.turning(w.drive.omega) for w in chain if isinstance(w.drive, TurningDrive))
+        omega = sum(w.sign * self.tempo.turning(w.drive.rate) for w in chain if not w.drive.slides)
         A, X = self.pose.points[joint], self.pose.points[point]
         if self.net.spot(point) == self.net.spot(joint) or not omega:
             return base
@@ -186,7 +186,7 @@ class Normal(Plan):
         body = net.body[link]
         if not net.ground or net.classes[body] != net.classes[net.ground] or link in net.welds:
             return False
-        return not sum(sign * drive.omega for sign, drive in net.excess(body, net.ground))
+        return not sum(sign * drive.rate for sign, drive in net.excess(body, net.ground))
 
     def _scaled(self, link: str, K: str, X: str) -> Mark:
         """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
@@ -212,12 +212,12 @@ class Normal(Plan):
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
         X, (one, two) = self.pose.points[point], self._gap(weld)
         mark = self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one)
-        if isinstance(weld.drive, TurningDrive):
-            ratio = sign * weld.sign * self.tempo.turning_rate(weld.drive.alpha)
+        if not weld.drive.slides:
+            ratio = sign * weld.sign * self.tempo.turning_rate(weld.drive.change)
             A = self.pose.points[weld.at]
             return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
         assert weld.slide is not None
-        length = sign * weld.sign * self.tempo.acceleration(weld.drive.acceleration)
+        length = sign * weld.sign * self.tempo.acceleration(weld.drive.change)
         return self.board.lay_along(self.pose.guide(weld.slide, run=True), mark, length=length) if length else mark
 
     def _gap(self, weld: Weld) -> Vector:
@@ -233,7 +233,7 @@ class Normal(Plan):
         return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
-        ratio = sum(sign * self.tempo.turning_rate(drive.alpha) for sign, drive in self.net.excess(body, like))
+        ratio = sum(sign * self.tempo.turning_rate(drive.change) for sign, drive in self.net.excess(body, like))
         return self.board.step_across(*base, at, ratio=ratio) if ratio else at
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:

@@ -14,8 +14,7 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
-from graphplan.mechanism.equations import ends
-from graphplan.mechanism.model import FRAME, Drive, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 
 Place = tuple[str, str]
@@ -44,7 +43,7 @@ class Network:
     welds: dict[str, Weld] = field(default_factory=dict)
     members: dict[str, list[str]] = field(default_factory=dict)
     slides: list[Slide] = field(default_factory=list)
-    turning: list[TurningDrive] = field(default_factory=list)
+    turning: list[Drive] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         scene = self.scene
@@ -53,7 +52,7 @@ class Network:
         self._spots = {point: first.setdefault(scene.points[point], point) for point in ordered_points(scene)}
         self.names = self._names(own)
         self.links = {link: tuple(dict.fromkeys(map(self.name, points))) for link, points in own.items()}
-        if any(isinstance(d, TurningDrive) and d.relative_to == FRAME for d in scene.drives):
+        if any(not drive.slides and drive.links[1] == FRAME for drive in scene.drives):
             self.links.setdefault(FRAME, ())  # an open chain may still be driven against the ground
         self.links_of: dict[str, tuple[str, ...]] = {}
         for link, points in self.links.items():
@@ -61,9 +60,9 @@ class Network:
                 self.links_of[point] = (*self.links_of.get(point, ()), link)
         self.body = {link: link for link in self.links}
         self.members = {link: [link] for link in self.links}
-        driven = {frozenset((d.link, d.along)) for d in scene.drives if isinstance(d, SlidingDrive)}
+        driven = {frozenset(drive.links) for drive in scene.drives if drive.slides}
         self.all_slides = ordered_slides(scene)
-        self.slides = [s for s in self.all_slides if frozenset((s.link, s.along)) not in driven]
+        self.slides = [s for s in self.all_slides if frozenset(s.links) not in driven]
         self.coincident = self._coincident_points()
         for drive in ordered_drives(scene):
             self._weld(drive)
@@ -71,7 +70,7 @@ class Network:
         self.classes = self._turning_classes()
         self.slides_of: dict[str, list[Slide]] = {}
         for slide in self.slides:
-            for link in (slide.link, slide.along):
+            for link in slide.links:
                 self.slides_of.setdefault(self.body[link], []).append(slide)
 
     def _names(self, links: dict[str, tuple[str, ...]]) -> dict[str, str]:
@@ -122,13 +121,13 @@ class Network:
 
     def _weld(self, drive: Drive) -> None:
         """Join the two links of a drive into one body, if they share the pair that it drives."""
-        if isinstance(drive, SlidingDrive):
-            slide = next(s for s in self.all_slides if {s.link, s.along} == {drive.link, drive.along})
-            self._join(drive.link, drive.along, drive, "", slide)
+        link, other = drive.links
+        if drive.slides:
+            self._join(link, other, drive, "", self.scene.driven_slide(drive))
             return
-        common = [p for p in self.links[drive.link] if p in self.links.get(drive.relative_to, ())]
+        common = [p for p in self.links[link] if p in self.links.get(other, ())]
         if common:
-            self._join(drive.link, drive.relative_to, drive, common[0], None)
+            self._join(link, other, drive, common[0], None)
         else:
             self.turning.append(drive)
 
@@ -164,7 +163,7 @@ class Network:
                 body = top[body]
             return body
 
-        for one, two in [(s.link, s.along) for s in self.slides] + [(d.link, d.relative_to) for d in self.turning]:
+        for one, two in [*(s.links for s in self.slides if s.turns_alike), *(drive.links for drive in self.turning)]:
             a, b = find(self.body[one]), find(self.body[two])
             if a != b:
                 top[max(a, b)] = min(a, b)
@@ -207,12 +206,11 @@ class Network:
     def passive(self) -> frozenset[str]:
         """The links that pass nothing on: their pairs and drives, but for what is redundant, only say how they move."""
         redundant = [(c.link,) if c.way in ("x", "y") else (c.link, c.on) for c in self.scene.redundant]
-        slides, drives = [(s.link, s.along) for s in self.scene.slides], [ends(drive) for drive in self.scene.drives]
 
         def stated(link: str) -> int:
             joints = sum(len(self.scene.links_of[p]) > 1 or p in self.scene.motions for p in self.links[link])
-            return 2 * joints + sum(n * (link in pair) for n, pairs in ((2, slides), (1, drives), (-1, redundant))
-                                    for pair in pairs)
+            others = sum(pair.binds for pair in self.scene.written if link in pair.links)
+            return 2 * joints + others - sum(link in pair for pair in redundant)
 
         touched = {link for pair in redundant for link in pair} - {FRAME}
         return frozenset(link for link in touched if stated(link) <= 3)
@@ -230,9 +228,9 @@ class Network:
             link = welds[-1].to
         return welds
 
-    def excess(self, body: str, like: str) -> list[tuple[int, TurningDrive]]:
+    def excess(self, body: str, like: str) -> list[tuple[int, Drive]]:
         """The drives by which the turning of one body's top link exceeds another's, each with its sign."""
-        seen: dict[str, list[tuple[int, TurningDrive]]] = {like: []}
+        seen: dict[str, list[tuple[int, Drive]]] = {like: []}
         waiting = [like]
         while waiting:
             link = waiting.pop(0)
@@ -243,7 +241,7 @@ class Network:
                         waiting.append(other)
         return seen[body]
 
-    def _turning_pairs(self) -> list[tuple[str, str, list[TurningDrive]]]:
+    def _turning_pairs(self) -> list[tuple[str, str, list[Drive]]]:
         """Pairs of links (a, b) with the drives that make a turn more than b."""
-        slides: list[tuple[str, str, list[TurningDrive]]] = [(s.link, s.along, []) for s in self.all_slides]
-        return slides + [(d.link, d.relative_to, [d]) for d in turning_drives(self.scene)]
+        slides: list[tuple[str, str, list[Drive]]] = [(*s.links, []) for s in self.all_slides if s.turns_alike]
+        return slides + [(*drive.links, [drive]) for drive in turning_drives(self.scene)]

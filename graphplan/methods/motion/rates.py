@@ -31,9 +31,10 @@ class Turnings:
         self._beside: dict[str, list[tuple[str, Rates]]] = {}
         self._found: dict[str, dict[str, Rates]] = {}
         for slide in ordered_slides(scene):
-            self._join(slide.link, slide.along, Rates(0, 0))
+            if slide.turns_alike:
+                self._join(*slide.links, Rates(0, 0))
         for drive in turning_drives(scene):
-            self._join(drive.link, drive.relative_to, Rates(drive.omega, drive.alpha))
+            self._join(*drive.links, Rates(*drive.rates))
 
     def _join(self, link: str, other: str, more: Rates) -> None:
         self._beside.setdefault(link, []).append((other, more))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from fractions import Fraction
 from typing import NamedTuple
 
-from graphplan.mechanism.model import Number, Scene, SlidingDrive
+from graphplan.mechanism.model import Number, Scene
 from graphplan.mechanism.order import turning_drives
 
 
@@ -46,9 +46,9 @@ def tempo(scene: Scene) -> Tempo:
     if scene.sheet.kappa:
         return Tempo(1 / scene.sheet.kappa)
     for drive in turning_drives(scene):
-        if drive.omega:
-            return Tempo(drive.omega if drive.omega > 0 else -drive.omega)
-    speeds = [drive.speed for drive in scene.drives if isinstance(drive, SlidingDrive)]
+        if drive.rate:
+            return Tempo(drive.rate if drive.rate > 0 else -drive.rate)
+    speeds = [drive.rate for drive in scene.drives if drive.slides]
     speeds += [v for motion in scene.motions.values() for v in motion.velocity]
     fastest = max((abs(float(speed)) for speed in speeds), default=0.0)
     return Tempo(round_number(5 * fastest / extent(scene)) if fastest else Fraction(1))

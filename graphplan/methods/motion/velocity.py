@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Slide, TurningDrive
+from graphplan.mechanism.model import Slide
 from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Settle, Slip, Swing
 from graphplan.methods.motion.network import Network, Place, Weld
 from graphplan.methods.motion.plan import Plan, Vector
@@ -67,21 +67,21 @@ class Orthogonal(Velocity):
 
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
         X = self.pose.points[point]
-        if isinstance(weld.drive, TurningDrive):
-            A, ratio = self.pose.points[weld.at], -sign * weld.sign * self.tempo.turning(weld.drive.omega)
+        if not weld.drive.slides:
+            A, ratio = self.pose.points[weld.at], -sign * weld.sign * self.tempo.turning(weld.drive.rate)
             if A is X or not ratio:
                 return mark
             return A if ratio == -1 and mark is X else self.board.step_off(A, X, mark, ratio=ratio)
         assert weld.slide is not None
         across = self.board.perpendicular(self.pose.guide(weld.slide, run=True), X)
-        return _along(self.board, across, mark, sign * weld.sign * self.tempo.velocity(weld.drive.speed))
+        return _along(self.board, across, mark, sign * weld.sign * self.tempo.velocity(weld.drive.rate))
 
     def seeded(self, place: Place) -> Mark:
         vx, vy = self.pose.scene.motions[place[0]].velocity
         return _laid(self.board, self.point(place), -self.tempo.velocity(vy), self.tempo.velocity(vx))
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
-        ratio = -sum(sign * self.tempo.turning(drive.omega) for sign, drive in self.net.excess(body, like))
+        ratio = -sum(sign * self.tempo.turning(drive.rate) for sign, drive in self.net.excess(body, like))
         return self.board.step_off(*base, at, ratio=ratio) if ratio else at
 
     def end_name(self, place: Place) -> str:
@@ -123,19 +123,19 @@ class Polar(Velocity):
 
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
         X = self.pose.points[point]
-        if isinstance(weld.drive, TurningDrive):
-            A, ratio = self.pose.points[weld.at], sign * weld.sign * self.tempo.turning(weld.drive.omega)
+        if not weld.drive.slides:
+            A, ratio = self.pose.points[weld.at], sign * weld.sign * self.tempo.turning(weld.drive.rate)
             return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
         assert weld.slide is not None
         guide = self.pose.guide(weld.slide, run=True)
-        return _along(self.board, guide, mark, sign * weld.sign * self.tempo.velocity(weld.drive.speed))
+        return _along(self.board, guide, mark, sign * weld.sign * self.tempo.velocity(weld.drive.rate))
 
     def seeded(self, place: Place) -> Mark:
         vx, vy = self.pose.scene.motions[place[0]].velocity
         return _laid(self.board, self.pole, self.tempo.velocity(vx), self.tempo.velocity(vy))
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
-        ratio = sum(sign * self.tempo.turning(drive.omega) for sign, drive in self.net.excess(body, like))
+        ratio = sum(sign * self.tempo.turning(drive.rate) for sign, drive in self.net.excess(body, like))
         return self.board.step_across(*base, at, ratio=ratio) if ratio else at
 
     def end_name(self, place: Place) -> str:

@@ -41,7 +41,7 @@ class Linkage:
         for slide in self.scene.slides:
             yield symbols.block(self._seat(slide), self._along(slide))
         for drive in self.scene.drives:
-            if isinstance(drive, TurningDrive) and drive.omega:
+            if isinstance(drive, TurningDrive) and drive.rate:
                 yield from self._driven(drive)
         yield from self._pairs()
 

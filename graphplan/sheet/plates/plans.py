@@ -14,7 +14,7 @@ from typing import Any, Protocol
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Panel, Program, Step
-from graphplan.mechanism.model import Number, Scene, TurningDrive
+from graphplan.mechanism.model import Number, Scene
 from graphplan.methods.panels import MECHANISM, Lever
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
@@ -161,8 +161,8 @@ class Plans:
     @property
     def _moves(self) -> bool:
         """Whether the scene has one drive, and it moves: else a lever has assumed velocities."""
-        rates = [d.omega if isinstance(d, TurningDrive) else d.speed for d in self.drawing.scene.drives]
-        return len(rates) == 1 and bool(rates[0])
+        drives = self.drawing.scene.drives
+        return len(drives) == 1 and bool(drives[0].rate)
 
     def diameter(self, step: Step) -> int | None:
         """One end of a half circle's diameter: of an arc struck about the middle of two points through one of them."""

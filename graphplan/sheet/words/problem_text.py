@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from graphplan.mechanism.model import Balance, Loads, Pair, Scene, TurningDrive
+from graphplan.mechanism.model import Balance, Loads, Pair, Scene
 from graphplan.methods.panels import link_named, listed, slide_named
-from graphplan.phrases import Said, joined, said, unit
+from graphplan.phrases import Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 
 FIGURES = 6  # of what is given
@@ -31,14 +31,10 @@ def _motion(scene: Scene) -> Iterator[Said]:
     """The drives and the given motions of points."""
     length = scene.units.length
     for drive in scene.drives:
-        if isinstance(drive, TurningDrive):
-            rates = _with_unit("omega", drive.omega, "1/s"), _with_unit("alpha", drive.alpha, "1/s²")
-            yield said("{0:capital} turns against {1}: {2}.", link_named(drive.link), link_named(drive.relative_to),
-                       joined(rates))
-        else:
-            rates = _with_unit("v", drive.speed, f"{length}/s"), _with_unit("a", drive.acceleration, f"{length}/s²")
-            yield said("{0:capital} slides along {1}: {2}.", link_named(drive.link), link_named(drive.along),
-                       joined(rates))
+        names, of = (("v", "a"), length) if drive.slides else (("omega", "alpha"), "1")
+        rates = map(_with_unit, names, drive.rates, (f"{of}/s", f"{of}/s²"))
+        does = phrase("{0:capital} slides along {1}: {2}." if drive.slides else "{0:capital} turns against {1}: {2}.")
+        yield does(*map(link_named, drive.links), joined(tuple(rates)))
     for name, motion in scene.motions.items():
         velocity = joined((f"v = {_pair(motion.velocity)}", unit(f"{length}/s")), " ")
         acceleration = joined((f"a = {_pair(motion.acceleration)}", unit(f"{length}/s²")), " ")

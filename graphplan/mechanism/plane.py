@@ -1,8 +1,14 @@
-"""Vectors of the plane over any numbers that know + - * : floats, fractions, arrays of poses."""
+"""Vectors of the plane over any numbers that know + - * : floats, fractions, residues, power series, arrays."""
 
 from __future__ import annotations
 
-from graphplan.mechanism.model import Number, Pair
+from fractions import Fraction
+
+Number = Fraction | float
+Pair = tuple[Number, Number]
+
+X: Pair = (1, 0)
+Y: Pair = (0, 1)
 
 
 def plus(a: Pair, b: Pair) -> Pair:

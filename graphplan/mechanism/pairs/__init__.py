@@ -1,0 +1,1 @@
+"""Kinematic pairs: one file a kind, each with all that is said of it."""

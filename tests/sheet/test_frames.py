@@ -205,6 +205,25 @@ def test_long_titles_wrap_and_shrink(frame: str) -> None:
         list(block.items(Rect(0.0, 0.0, wide, block.height(wide)), Page(SOLUTION, "A3", "1 : 1")))
 
 
+@pytest.mark.parametrize("field", ["drawn_by", "approved_by", "date", "number", "owner"])
+def test_what_is_too_long_for_form_1_is_named(field: str) -> None:
+    """What has no room in its cell of the block after GOST is refused by the name of its field, and by no other."""
+    scene = wishing(gp.load("four-bar"), frame="gost", **{field: "Rosenauer, Nikolai " * 20})
+    with pytest.raises(Refused, match=rf"^sheet\.{field}: it is too long .*; fewer words"):
+        layout(replace(drawing_of("four-bar"), scene=scene), "A3")
+
+
+def test_form_1_has_names_beside_their_roles() -> None:
+    """Who drew the sheet stands in the first row of those who sign, who approved it in the last, the date in the first.
+    """
+    signed = {"drawn_by": "N. R.", "approved_by": "A. W.", "date": "1939"}
+    sheet = sheet_with("four-bar", "A3", frame="gost", **signed)
+    found = {plain(item.runs): item.at[1] for item in sheet.items if isinstance(item, Text)}
+    rows = {word: int((at - 5.0) // 5) for word, at in found.items()}
+    assert rows["N. R."] == rows["1939"] == rows["Drawn"] == 5
+    assert rows["A. W."] == rows["Approved"] == 0
+
+
 def pages() -> Iterator[tuple[list[Sheet], str]]:
     """Documents of several pages, with what they are called."""
     drawing = drawing_of("alt-eight-link")

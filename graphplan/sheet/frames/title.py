@@ -7,10 +7,12 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs, wrap
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
-from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
+from graphplan.sheet.plates.pens import BORDER, FRAME, LETTERS
+from graphplan.words.tongue import Tongue
 
 CONSTRUCTION, SOLUTION, STRIP = said("Construction sheet"), said("Solution"), said("Film strip")
 TASK, GUIDED = said("Task"), said("Guided construction")
@@ -29,15 +31,30 @@ class Page:
     number: int = 1
     of: int = 1
 
-    @property
-    def numbered(self) -> str:
-        """Such as 2/3."""
-        return f"{self.number}/{self.of}"
 
-    @property
-    def size(self) -> str:
-        """The paper without the way in which it lies."""
-        return self.paper.partition(" ")[0]
+@dataclass(frozen=True)
+class TitleCell:
+    """A cell of a title block: words of its own, and the value of a field of the scene or the page (see
+    :func:`values`); where it lies is said in mm from the lower left corner of the block, if it lies anywhere by itself.
+    """
+
+    words: Said | str
+    field: str = ""
+    place: tuple[float, float, float, float] = (0.0, 0.0, 0.0, 0.0)
+    sizes: tuple[float, ...] = (SIZE,)
+    bold: bool = False
+    middle: bool = False
+
+
+def values(scene: Scene, tongue: Tongue, page: Page) -> dict[str, str]:
+    """What can be said of a page, by the name of the field that it comes from."""
+    sheet = scene.sheet
+    return {
+        "title": scene.title, "source": scene.source, "language": tongue.code, "document": tongue(page.document),
+        "sheet.k_s": tongue(page.scale), "format": page.paper.partition(" ")[0], "page": f"{page.number}/{page.of}",
+        "number": str(page.number), "of": str(page.of),
+        **{f"sheet.{name}": getattr(sheet, name) for name in ("owner", "number", "date", "drawn_by", "approved_by")},
+    }  # fmt: skip
 
 
 class TitleBlock(Protocol):
@@ -53,24 +70,19 @@ def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
     return Polyline(FRAME if wide else BORDER, "paper", None, (start, end))
 
 
-def heading(at: Spot, text: str, size: float = HEADING) -> Text:
-    """What a cell tells, in small letters."""
-    return Text(FAINT, "text", None, at, sentence_runs(text), size)
-
-
-def filled(cell: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
+def filled(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str, bold: bool = False,
            middle: bool = True) -> Iterator[Text]:
-    """Lettering that fills a cell, half-way up, in the first of some sizes in which all its lines have room.
+    """Lettering that fills a rectangle, half-way up, in the first of some sizes in which all its lines have room.
 
     Fails with `Refused` where they have not.
     """
     for size in sizes:
-        lines = wrap(sentence_runs(text), size, cell.width - 2 * SIDE, bold)
-        if len(lines) == 1 or LEADING * size * len(lines) <= cell.height:
+        lines = wrap(sentence_runs(text), size, rect.width - 2 * SIDE, bold)
+        if len(lines) == 1 or LEADING * size * len(lines) <= rect.height:
             break
     else:
         raise Refused(what, "it is too long for its place in the title block", "fewer words")
-    x, anchor = (cell.centre[0], "middle") if middle else (cell.left + SIDE, "start")
-    top = cell.centre[1] + (len(lines) - 1) * LEADING * size / 2 - CAPS * size / 2
+    x, anchor = (rect.centre[0], "middle") if middle else (rect.left + SIDE, "start")
+    top = rect.centre[1] + (len(lines) - 1) * LEADING * size / 2 - CAPS * size / 2
     for i, runs in enumerate(lines):
         yield Text(LETTERS, "text", None, (x, top - i * LEADING * size), runs, size, anchor, bold)

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import joined, said, unit
-from graphplan.sheet.frames.title import DOCUMENTS, HEADING, TITLE, Page, heading, stroke
+from graphplan.sheet.frames.title import CONSTRUCTION, DOCUMENTS, HEADING, TITLE, Page, TitleCell, stroke, values
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Item, Rect, Text
-from graphplan.sheet.plates.pens import LETTERS
+from graphplan.sheet.plates.pens import FAINT, LETTERS
 from graphplan.words.tongue import Tongue
 
 WIDEST, LEADING = 180.0, 1.45
@@ -23,16 +24,25 @@ PAD, CELL = 2.0, 1.2  # mm beside the title, and beside the lettering of a cell
 HIGH = 9.0  # mm: of a cell with one line
 FOOT, HEAD = 1.9, 2.8  # mm: the lowest base line of a cell above its edge, that of its heading below
 MOST = 3  # lines of a title in large letters; twice as many in small ones
-RATIO, PER_LENGTH, PAPER, NUMBERED = "1 : 0000", "mu_s = 0.000", "A0", "00/00"  # the longest, as a rule
+RATIO, PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
+ANY_PAGE = Page(CONSTRUCTION, "A0", RATIO)
+OPTIONAL = (  # which stand where the scene says them
+    TitleCell(said("Legal owner"), "sheet.owner"), TitleCell(said("Number"), "sheet.number"),
+    TitleCell(said("Date of issue"), "sheet.date"), TitleCell(said("Approved by"), "sheet.approved_by"),
+)  # fmt: skip
+ALWAYS = (
+    TitleCell(said("Document"), "document"), TitleCell(said("Drawn by"), "sheet.drawn_by"),
+    TitleCell(said("Scale"), "sheet.k_s"), TitleCell(said("Format"), "format"), TitleCell(said("Sheet"), "page"),
+    TitleCell(said("Language"), "language"),
+)  # fmt: skip
 
 
-@dataclass(frozen=True)
-class Cell:
+class _Filled(NamedTuple):
     """What a cell tells. It is as wide as its text or, where that differs from page to page, as the `longest` is."""
 
     heading: str
     text: str
-    longest: str = ""
+    longest: str
 
     @property
     def natural(self) -> float:
@@ -65,7 +75,7 @@ class IsoBlock:
     def height(self, wide: float) -> float:
         """The same for every page."""
         if wide not in self._heights:
-            rows = sum(_high(row, wide) for row in self._rows(wide, None))
+            rows = sum(_high(row, wide) for row in self._rows(wide))
             self._heights[wide] = rows + 2 * PAD + sum(LEADING * size for _, size, _ in self._title(wide))
         return self._heights[wide]
 
@@ -97,41 +107,27 @@ class IsoBlock:
 
     # ---- cells -----------------------------------------------------------------------------------------------------
 
-    def _rows(self, wide: float, page: Page | None) -> Iterator[list[Cell]]:
+    def _rows(self, wide: float, page: Page = ANY_PAGE) -> Iterator[list[_Filled]]:
         """The cells in rows: first those that a scene fills or not, then those of every sheet."""
-        for cells in (self._optional(), self._always(page)):
-            row: list[Cell] = []
+        found, longest = values(self.scene, self.tongue, page), self._longest()
+        for cells in ([cell for cell in OPTIONAL if found[cell.field]], ALWAYS):
+            row: list[_Filled] = []
             for cell in cells:
-                if row and sum(other.natural for other in (*row, cell)) > wide:
+                made = _Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+                if row and sum(other.natural for other in (*row, made)) > wide:
                     yield row
                     row = []
-                row.append(cell)
+                row.append(made)
             if row:
                 yield row
 
-    def _optional(self) -> Iterator[Cell]:
-        sheet = self.scene.sheet
-        fields = ((said("Legal owner"), sheet.owner), (said("Number"), sheet.number),
-                  (said("Date of issue"), sheet.date), (said("Approved by"), sheet.approved_by))  # fmt: skip
-        yield from (Cell(self.tongue(told), text) for told, text in fields if text)
-
-    def _always(self, page: Page | None) -> Iterator[Cell]:
-        say = self.tongue
-        kinds = [say(document) for document in DOCUMENTS]
-        yield Cell(say(said("Document")), say(page.document) if page else "", max(kinds, key=_long))
-        yield Cell(say(said("Drawn by")), self.scene.sheet.drawn_by)
-        yield Cell(say(said("Scale")), say(page.scale) if page else "", self._ratio)
-        yield Cell(say(said("Format")), page.size if page else "", PAPER)
-        yield Cell(say(said("Sheet")), page.numbered if page else "", NUMBERED)
-        yield Cell(say(said("Language")), say.code)
-
-
-    @property
-    def _ratio(self) -> str:
-        """The longest scale, as a rule."""
-        if self.scene.sheet.convention != "drawn":
-            return RATIO
-        return self.tongue(joined((RATIO, joined((PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")), "; "))
+    def _longest(self) -> dict[str, str]:
+        """The longest that fields have, as a rule, where they are not the same on every page."""
+        ratio, per_length = RATIO, joined((PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
+        if self.scene.sheet.convention == "drawn":
+            ratio = self.tongue(joined((RATIO, per_length), "; "))
+        document = max(map(self.tongue, DOCUMENTS), key=_long)
+        return {"document": document, "sheet.k_s": ratio, "format": "A0", "page": "00/00"}
 
 
 def _long(text: str, size: float = SIZE) -> float:
@@ -139,19 +135,19 @@ def _long(text: str, size: float = SIZE) -> float:
     return width(sentence_runs(text), size)
 
 
-def _high(row: list[Cell], wide: float) -> float:
+def _high(row: list[_Filled], wide: float) -> float:
     """The height of a row: cells that stand alone may have more than one line."""
     return HIGH + LEADING * SIZE * (max(len(cell.lines(wide)) for cell in row) - 1)
 
 
-def _cells(row: list[Cell], rect: Rect) -> Iterator[Item]:
+def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
     """A row of cells, which share the width that they do not need."""
     spare = max(rect.width - sum(cell.natural for cell in row), 0.0) / len(row)
     x = rect.left
     for i, cell in enumerate(row):
         if i:
             yield stroke((x, rect.bottom), (x, rect.top))
-        yield heading((x + CELL, rect.top - HEAD), cell.heading)
+        yield Text(FAINT, "text", None, (x + CELL, rect.top - HEAD), sentence_runs(cell.heading), HEADING)
         lines = cell.lines(rect.width)
         for k, runs in enumerate(reversed(lines)):
             at = x + CELL, rect.bottom + FOOT + k * LEADING * SIZE

@@ -152,6 +152,11 @@ def named(name: str) -> Primitive:
     return TABLE[name]
 
 
+def made_by(movement: Movement) -> Primitive:
+    """The operation of a movement, the plainest where there are several."""
+    return next(op for op in TABLE.values() if op.movement is movement)
+
+
 FAILURES: dict[str, tuple[Said, str]] = {
     "points-coincide": (said("two points that should give a direction coincide"), "move one of them, or ask for less"),
     "lines-parallel": (said("two lines that should meet are parallel"), "--method trial, or let the form be chosen"),

@@ -75,7 +75,7 @@ def test_every_mistake_is_held_against_its_own_step(kind: str) -> None:
         drawing, sheet = composed(name)
         ways = frames(drawing, sheet)
         clean = draw(drawing, ways, PENCIL, 5)
-        steps = [step for step in drawing.drawn.steps if step.op.name in MISTAKES[kind].ops]
+        steps = [step for step in drawing.drawn.steps if MISTAKES[kind].at(step.op)]
         for index in rng.permutation(len(steps))[:6]:
             step = steps[index]
             slips = [mistake for mistake in slipped(drawing, step.index) if mistake.kind == kind]

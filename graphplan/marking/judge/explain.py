@@ -69,8 +69,7 @@ def _unseen(matching: Matching, step: Step) -> list[Step]:
     found, front = {step.index}, [step.index]
     while front:
         for arg in matching.steps[front.pop()].args:
-            if arg not in found and matching.matches[arg].place is None and matching.steps[arg].op.name not in (
-                    "given", "begin"):
+            if arg not in found and matching.matches[arg].place is None and not matching.steps[arg].op.free:
                 found.add(arg)
                 front.append(arg)
     return [matching.steps[index] for index in sorted(found, reverse=True)]

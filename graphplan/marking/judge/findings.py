@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.judge.verdict import MISSING, NOT_NEEDED, STATES, WRONG, Judgement, NumberVerdict, Verdict
 from graphplan.methods.results import KINDS, kind_named
@@ -21,13 +22,14 @@ def judged(judgement: Judgement) -> Iterator[Verdict]:
     """The verdicts that count: what is given counts only where it is wrong, and a plan may begin anywhere."""
     steps = judgement.drawing.drawn.steps
     for verdict in judgement.verdicts:
-        if verdict.state == WRONG or steps[verdict.step].op.name not in ("given", "begin"):
+        if verdict.state == WRONG or not steps[verdict.step].op.free:
             yield verdict
 
 
 def measured(judgement: Judgement, verdict: Verdict) -> bool:
     """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
-    return verdict.trace is not None and judgement.drawing.drawn.steps[verdict.step].op.name != "begin"
+    step = judgement.drawing.drawn.steps[verdict.step]
+    return verdict.trace is not None and step.op.movement is not Movement.BEGUN
 
 
 def counts(judgement: Judgement) -> dict[str, int]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.spelling import spelled
 from graphplan.marking.traces import Trace
@@ -54,7 +54,7 @@ def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str
                 found.setdefault((kind, panel, letter), step.index)
                 for less in (letter.replace("_", ""), letter.replace("_", "").casefold()):
                     loosely.setdefault((kind, panel, less), set()).add(step.index)
-            for called in (number, f"#{number}", f"{kind}{number}") if step.op.name != "given" else ():
+            for called in (number, f"#{number}", f"{kind}{number}") if step.op.movement is not Movement.GIVEN else ():
                 loosely.setdefault((kind, panel, called), set()).add(step.index)
     for spelling, steps in loosely.items():
         if len(steps) == 1:  # what may be said of two is said of neither

@@ -16,7 +16,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, OPENING, POINT
+from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.evidence import ASSUMED, FAINT, FILED, GONE, SHARED, THERE, weighed
 from graphplan.marking.judge.image_search import ImageSearch, KnownMarks
@@ -135,7 +135,7 @@ class Matching:
         lettered = self.labels.get(step.index)
         if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
             return lettered
-        if step.op.name == "begin" and self.image:
+        if step.op.movement is Movement.BEGUN and self.image:
             return None  # it is printed
         for expected, drawn in self._asked(step):
             best = self._drawn(step, expected, drawn)
@@ -165,7 +165,7 @@ class Matching:
 
     def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any], image: ImageSearch) -> int | None:
         """What a picture shows about an expected value, if it fits it."""
-        if step.op.name == "given" or step.op.gives == OPENING:
+        if step.op.movement is Movement.GIVEN or step.op.gives == OPENING:
             return None
         trace = image.trace(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
         if trace is None or not self.sheet.residual(
@@ -224,11 +224,11 @@ class Matching:
         asked = list(self._asked(step)) or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)]
         own, mended = asked[0][0], asked[-1][0]
         if place is None:
-            shown = step.op.gives in self.rules.shows and step.op.name not in ("given", "begin")
+            shown = step.op.gives in self.rules.shows and not step.op.free
             return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
         spots = self.sheet.spots(step.index, self.traces[place])
         found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]
-        fits = [step.op.name == "begin" or residual.fits(self.rules.chance) for residual in found]
+        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.rules.chance) for residual in found]
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen = self.sheet.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
@@ -282,7 +282,7 @@ class Matching:
         if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
-        if step.op.name == "given" or step.op.gives == OPENING or (step.op.name == "begin" and self.image):
+        if step.op.gives == OPENING or (step.op.free and (self.image or step.op.movement is Movement.GIVEN)):
             return 0.0
         if self.image:
             if self.image.beyond(step, expected):

@@ -16,7 +16,7 @@ import numpy as np
 
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge.fits import SIGMAS, Fit, Pair, best
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.student_sheet import plain
@@ -24,7 +24,6 @@ from graphplan.marking.traces import PlanFrame, Spot, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.laid_off import root
 from graphplan.sheet.plates.plans import Plans
 
 SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
@@ -62,10 +61,10 @@ class Register:
         if MECHANISM in self.submission.frames:
             return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
-        given = [pair for index, pair in self._pairs(MECHANISM) if steps[index].op.name == "given"]
+        given = [pair for index, pair in self._pairs(MECHANISM) if index < self.drawing.drawn.givens]
         found = best(given, self.pencil.point) or best([pair for _, pair in self._pairs(MECHANISM)], self.pencil.point)
         found = found or self._sought([complex(*self.drawing.values[step.index]) for step in steps[:len(
-            self.drawing.scene.points)] if step.op.name == "given"])
+            self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if found is None:
             names = ", ".join(list(self.drawing.scene.points)[:4])
             raise Refused(f"{self.submission.name}: mechanism", "not two of its points are there, so it lies nowhere",
@@ -84,7 +83,7 @@ class Register:
             return [Fit(self.submission.frames[panel])]
         unit = mechanism.frame.unit * float(self.scales.multiples.get(panel, 1))
         pairs = self._pairs(panel)
-        begins = [pair for index, pair in pairs if self.drawing.drawn.steps[index].op.name == "begin"]
+        begins = [pair for index, pair in pairs if self.drawing.drawn.steps[index].op.movement is Movement.BEGUN]
         if pairs:
             plan, sheet = begins[0] if begins else pairs[0][1]
             return [self._tied(sheet - unit * plan, unit)]
@@ -97,7 +96,8 @@ class Register:
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
         expected = matching.sheet.fits[panel]
-        begin = next((pair for index, pair in self._pairs(panel) if matching.steps[index].op.name == "begin"), None)
+        begin = next((pair for index, pair in self._pairs(panel)
+                      if matching.steps[index].op.movement is Movement.BEGUN), None)
         units = list(self._carried(panel, matching))
         plan, sheet = begin or (self._pairs(panel)[0][1] if units else (0j, 0j))
         for unit, sigma in _agreed(units):
@@ -108,7 +108,7 @@ class Register:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
         spots = dict(self._pairs(panel))
         for index, (_, end) in spots.items():
-            start = root(matching.steps[index])
+            start = matching.steps[index].root
             if start in spots:
                 vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
                 if vector is not None and vector[0]:
@@ -181,7 +181,7 @@ class Register:
         unlabelled = np.array(self._crossings())
         if not len(unlabelled):
             return [0j]
-        begin = next((step for step in steps if step.op.name == "begin"), None)
+        begin = next((step for step in steps if step.op.movement is Movement.BEGUN), None)
         marks = [np.array([complex(*values[step.index][:2]) for step in steps]) for values in self.values]
         if begin is None or not self._points():
             return self._heaped((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
@@ -209,7 +209,7 @@ class Register:
         points = [(place, complex(*trace.spots[0])) for place, trace in enumerate(self.submission.traces)
                   if trace.kind == POINT and place not in self.labels.values()]
         for step in self.drawing.drawn.steps:
-            if step.op.name == "begin" and step.index not in self.labels and points:
+            if step.op.movement is Movement.BEGUN and step.index not in self.labels and points:
                 here = fits[self.plan_of_step[step.index]].frame.onto(complex(*self.drawing.values[step.index][:2]))
                 place, spot = min(points, key=lambda point: abs(point[1] - here))
                 if abs(spot - here) < VOTES * self.pencil.point:

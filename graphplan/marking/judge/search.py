@@ -120,7 +120,7 @@ class Search:
             if match.place is not None and (match.step.index in lost or uses[match.place] > 1):
                 yield from self._others(matching, match)
             right = clear(match) and uses[match.place] == 1
-            if not right and match.step.index not in matching.labels and match.step.op.name not in ("given", "begin"):
+            if not right and match.step.index not in matching.labels and not match.step.op.free:
                 yield from self._slips(matching, quick, match)
 
     def _others(self, matching: Matching, match: Match) -> Iterator[Guess]:

@@ -19,7 +19,7 @@ import numpy as np
 from graphplan.accuracy.hand import Hand, hand_at
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.fits import Fit
@@ -175,7 +175,7 @@ class StudentSheet:
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what a step should make."""
         domain, kind = self.domain, step.op.gives
-        if step.op.name == "pick":  # any point of the line will do
+        if step.op.movement is Movement.PICKED:  # any point of the line will do
             line = drawn[step.args[0]]
             parts = [_off_line(domain, line, spots[0]) - _off_line(domain, line, expected)]
         elif kind == POINT:

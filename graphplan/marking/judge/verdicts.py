@@ -7,7 +7,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import POINT, Movement
 from graphplan.marking.judge.explain import explained
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import bound, plain
@@ -74,7 +74,8 @@ def _astray(matching: Matching, match: Match) -> float:
 def _ellipse(matching: Matching, match: Match) -> Ellipse | None:
     """The tolerance of a point, if it has any two ways."""
     residual = match.residual
-    if residual is None or match.step.op.gives != POINT or len(residual.off) < 2 or match.step.op.name == "begin":
+    op = match.step.op
+    if residual is None or op.gives != POINT or len(residual.off) < 2 or op.movement is Movement.BEGUN:
         return None
     variances, axes = np.linalg.eigh(residual.covariance)
     most = bound(2, matching.rules.chance)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from shapely import LineString
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.student_sheet import StudentSheet, sampled
@@ -69,14 +70,5 @@ class Unlabelled:
 
 def _same(one: Trace, other: Trace) -> bool:
     """Whether a line, or a rim, lies upon another of its kind, and beside no more than half of it."""
-    apart = np.abs(_chain(one)[:, None] - _chain(other)[None, :])
-    return bool(np.mean(apart.min(axis=0) < TWIN) > 0.5)
-
-
-def _chain(trace: Trace) -> Any:
-    """Spots of a trace, half a millimetre apart if it is a line."""
-    spots = np.array([complex(*spot) for spot in trace.spots])
-    if trace.kind != LINE:
-        return spots
-    count = max(1, int(abs(spots[1] - spots[0]) / TWIN))
-    return spots[0] + (spots[1] - spots[0]) * np.arange(count + 1) / count
+    whole = LineString(other.spots)
+    return bool(whole.intersection(LineString(one.spots).buffer(TWIN)).length > whole.length / 2)

@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LineString, STRtree, points
 
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.scans.pencil_pixels import Ink
-from graphplan.marking.scans.warp import Spots
 from graphplan.marking.traces import Spot, Trace
 
 WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
@@ -43,25 +43,15 @@ def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
     return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
 
 
-def marked(found: Iterable[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
+def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
            ) -> Iterator[Trace]:
     """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
     than along a line, and `least` how much it must be for how many strokes."""
-    chains = [np.array(trace.spots) for trace in drawn]
-    ends = np.concatenate([np.stack([chain[:-1], chain[1:]], axis=1) for chain in chains] or [np.zeros((0, 2, 2))])
-    owners = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain in chains])
-    for dot in found:
-        near = _distances(np.array(dot.spots[0]), ends) < CROSSED
-        strokes = len(np.unique(owners[near]))
-        if darkness(dot.spots[0]) > least[min(strokes, len(least) - 1)]:
+    strokes, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
+    crossed = np.bincount(strokes.query(at, "dwithin", CROSSED)[0], minlength=len(found))
+    for dot, count in zip(found, crossed, strict=True):
+        if darkness(dot.spots[0]) > least[min(count, len(least) - 1)]:
             yield dot
-
-
-def _distances(spot: Spots, ends: NDArray[np.float64]) -> NDArray[np.float64]:
-    """How far a spot is from each of some straight pieces with ends."""
-    way = ends[:, 1] - ends[:, 0]
-    part = ((spot - ends[:, 0]) * way).sum(axis=1) / np.maximum((way**2).sum(axis=1), 1e-12)
-    return np.asarray(np.hypot(*(spot - ends[:, 0] - np.clip(part, 0, 1)[:, None] * way).T))
 
 
 def _weighed(ink: Ink, row: int, column: int) -> Trace:

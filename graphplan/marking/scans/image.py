@@ -24,6 +24,7 @@ BLANK = 30  # shades of grey between paper and print, at least
 DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
 SIZED = re.compile(rb"[\xc0-\xc3\xc5-\xc7\xc9-\xcb\xcd-\xcf]")  # the segments of a JPEG that say its size
+NORMAL = 0.6745  # the median of what is off, in standard deviations
 DO = "hand in a scan of 200 dpi or a sharp photo of the whole sheet, as PNG, JPEG or PDF"
 
 
@@ -129,6 +130,12 @@ def contrast(image: Grey, name: str) -> None:
     dark, light = np.percentile(image[::4, ::4], [0.2, 90])
     if light - dark < BLANK:
         raise Refused(name, "the picture is blank", DO)
+
+
+def deviation(off: NDArray[np.floating]) -> float:
+    """How far off things are, most of them by mere noise, as a standard deviation: by the median, which strays do not
+    move."""
+    return float(np.median(np.abs(off))) / NORMAL
 
 
 def smaller(image: Grey, pixels: float) -> Grey:

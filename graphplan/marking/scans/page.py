@@ -16,12 +16,20 @@ from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.scans.dots import DARK, MAYBE, SURE, dots, marked, smoothed
-from graphplan.marking.scans.lines import FEW, CrestRow, line
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.ridges import CLEAR, Ridges, clear
-from graphplan.marking.scans.rims import Rim, grown
-from graphplan.marking.scans.runs import Stretch, stretches
-from graphplan.marking.scans.strokes import StrokeSearch
+from graphplan.marking.scans.strokes import (
+    FEW,
+    CrestRow,
+    Rim,
+    Stretch,
+    StrokeSearch,
+    grown,
+    line,
+    on_rim,
+    stretches,
+    turned,
+)
 from graphplan.marking.traces import Spot, Trace
 
 Values = NDArray[np.float64]
@@ -90,7 +98,7 @@ class PencilPage:
         aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
         out = self.found.spots - middle
         far = np.maximum(np.hypot(out[:, 0], out[:, 1]), 1e-9)
-        along, reach = (_turns(out, aim) * radius, np.abs(_turns(at - middle, aim)).max() * radius + BEYOND)
+        along, reach = (turned(out, aim) * radius, np.abs(turned(at - middle, aim)).max() * radius + BEYOND)
         square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far
         near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
         steep = within / max(reach, within)
@@ -211,11 +219,6 @@ def _whole(crests: CrestRow, ink: Ink, half: float) -> Stretch | None:
     return replace(whole, seen=sum(stretch.long * stretch.seen for stretch in drawn) / whole.long)
 
 
-def _turns(out: Values, aim: float) -> Values:
-    """Angles of spots about a centre, from the side at which it is looked."""
-    return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - aim + math.pi) % (2 * math.pi) - math.pi)
-
-
 def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
            level: float) -> Rim | None:
     """A short arc: it is as far off the expected one, and as askew, as its crests are."""
@@ -224,11 +227,8 @@ def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: V
     across = np.array([-side[1], side[0]])
     moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
 
-    def hidden(at: Values) -> NDArray[np.bool_]:
-        turns = aim + at / radius
-        return page.ink.crossed(centre + (radius + level) * np.column_stack([np.cos(turns), np.sin(turns)]))
-
-    drawn = [stretch for stretch in stretches(along, hidden) if stretch.seen >= SEEN]
+    seen = stretches(along, lambda at: page.ink.crossed(on_rim(centre, radius + level, aim, at)))
+    drawn = [stretch for stretch in seen if stretch.seen >= SEEN]
     if not drawn:
         return None
     stretch = max(drawn, key=lambda stretch: stretch.long)

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.marking.scans.deviation import deviation
+from graphplan.marking.scans.image import deviation
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.warp import Spots
 

@@ -1,24 +1,254 @@
 """What was drawn, taken apart: the line with the most crests first, then of what is left, again and again.
 
-Crests that bend are carried on as a circle's rim; what is neither straight nor round, such as letters, is left.
-"""
+Each crest votes for the lines through it in about its own direction (P. Hough); crests in a row are fitted by least
+squares, with gaps no wider than a pencil leaves. Crests that bend are carried on as a circle's rim; what is neither
+straight nor round, such as letters, is left."""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from graphplan.marking.scans.lines import CrestRow, bends, line, row
+from graphplan.kernel.kinds import CIRCLE, LINE
 from graphplan.marking.scans.pencil_pixels import Ink
 from graphplan.marking.scans.ridges import Ridges
-from graphplan.marking.scans.rims import grown
-from graphplan.marking.scans.runs import Stretch, stretches
-from graphplan.marking.scans.vote import LEAST, Vote
+from graphplan.marking.scans.warp import Spots
 from graphplan.marking.traces import Trace
 
-SEEN, FEW, MOST = 0.55, 8, 600  # the share of a line that is seen, its fewest crests, the most lines tried
+BIN, GAP = 0.25, 2.0  # mm: how closely a line is looked at, and the widest gap in it
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """From where to where something was drawn, in mm along it, and the share of it that is seen."""
+
+    start: float
+    end: float
+    seen: float
+
+    @property
+    def long(self) -> float:
+        return self.end - self.start
+
+
+def stretches(along: NDArray[np.float64], hidden: Callable[[NDArray[np.float64]], NDArray[np.bool_]]
+              ) -> Iterator[Stretch]:
+    """The stretches that crests at these places make; where print hides a line, it may well go on."""
+    low = float(along.min())
+    count = int((float(along.max()) - low) / BIN) + 1
+    drawn = np.zeros(count, bool)
+    drawn[np.minimum(((along - low) / BIN).astype(int), count - 1)] = True
+    open_ = ~hidden(np.asarray(low + (np.arange(count) + 0.5) * BIN, np.float64)) | drawn
+    counted = np.cumsum(open_)  # so much of it could have been seen
+    marked = np.flatnonzero(drawn)
+    breaks = np.flatnonzero(np.diff(counted[marked]) > GAP / BIN + 1)
+    for first, last in zip([0, *(breaks + 1)], [*breaks, len(marked) - 1], strict=True):
+        start, end = int(marked[first]), int(marked[last])
+        share = (last - first + 1) / max(1, int(open_[start : end + 1].sum()))
+        yield Stretch(low + start * BIN, low + (end + 1) * BIN, share)
+
+
+REACHES = 0.6, 0.6, 0.3, 0.3  # mm from a line, in which crests are taken, from fit to fit
+ASKEW = math.cos(math.radians(18.0))  # how well a crest's normal goes with its line's
+FEW = 8  # crests below which there is no line
+BENT, BETTER = 0.12, 0.7  # mm by which a line bends, more than wobble does, and how much better a bow fits
+
+
+@dataclass(frozen=True)
+class CrestRow:
+    """Crests in a row: a spot amid them, their direction and the normal to its left, and of each crest, how far along
+    and off it is."""
+
+    at: Spots
+    way: Spots
+    normal: Spots
+    which: NDArray[np.intp]
+    along: NDArray[np.float64]
+    off: NDArray[np.float64]
+
+    def spots(self, along: NDArray[np.float64], off: NDArray[np.float64] | float = 0.0) -> Spots:
+        """Spots so far along the row and off it."""
+        return np.asarray(self.at + np.multiply.outer(along, self.way)
+                          + np.multiply.outer(off + np.zeros(len(along)), self.normal))
+
+    def part(self, stretch: Stretch) -> NDArray[np.bool_]:
+        """Which of its crests a run has."""
+        return (stretch.start <= self.along) & (self.along <= stretch.end)
+
+
+def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
+    """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
+    normal = np.array([math.cos(angle), math.sin(angle)])
+    at, which = normal * shift, left
+    for reach in REACHES:
+        near = (np.abs((found.spots[which] - at) @ normal) < reach) & (np.abs(found.normals[which] @ normal) > ASKEW)
+        if near.sum() < FEW:
+            return None
+        chosen = which[near]
+        if which is left:  # a line turns by no more than a few times its width
+            which = left[np.abs((found.spots[left] - at) @ normal) < 4 * reach]
+        at = found.spots[chosen].mean(axis=0)
+        spread = found.spots[chosen] - at
+        normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
+    way = np.array([normal[1], -normal[0]])
+    return CrestRow(at, way, normal, chosen, spread @ way, spread @ normal)
+
+
+def line(crests: CrestRow, stretch: Stretch) -> Trace:
+    """A run of a row as its two ends; it is as unsure as its crests are rough, the less the longer it is."""
+    on = crests.part(stretch)
+    slope, level = _line(crests.along[on], crests.off[on])
+    ends = np.array([stretch.start, stretch.end])
+    (x, y), (u, v) = crests.spots(ends, slope * ends + level).tolist()
+    rough = float(np.std(crests.off[on] - slope * crests.along[on] - level))
+    return Trace(LINE, ((x, y), (u, v)), blur=rough / math.sqrt(max(1.0, stretch.long)))
+
+
+def bends(crests: CrestRow, stretch: Stretch) -> bool:
+    """Whether the crests of a run follow a bow rather than a line."""
+    on = crests.part(stretch)
+    along, off = crests.along[on] - crests.along[on].mean(), crests.off[on]
+    bow, (slope, level) = np.polyfit(along, off, 2), _line(along, off)
+    sag = abs(bow[0]) * (stretch.long / 2) ** 2
+    return bool(sag > BENT and np.std(off - np.polyval(bow, along)) < BETTER * np.std(off - slope * along - level))
+
+
+def _line(along: NDArray[np.float64], off: NDArray[np.float64]) -> tuple[float, float]:
+    """Slope and level by least squares."""
+    slope, level = np.polyfit(along, off, 1)
+    return float(slope), float(level)
+
+
+NEAR, ROUNDS = 0.35, 8  # mm from a rim in which crests are taken, and how often it may grow
+SMALLEST, LARGEST = 1.5, 1000.0  # mm of radius
+ROUGH, SEEN = 0.12, 0.55  # mm that a rim's crests are off it, and the share of a line or a rim that is seen
+APART = 20.0  # degrees between the spots that say where a rim is
+
+
+@dataclass(frozen=True)
+class Rim:
+    """A circle, and its run, in mm along it from the side `zero`, an angle; with its crests and how rough they are."""
+
+    centre: Spots
+    radius: float
+    zero: float
+    stretch: Stretch
+    which: NDArray[np.intp]
+    rough: float
+
+    def trace(self) -> Trace:
+        """The rim as spots of it, as far as it was drawn."""
+        count = max(5, math.ceil(math.degrees(self.stretch.long / self.radius) / APART))
+        spots = on_rim(self.centre, self.radius, self.zero, np.linspace(self.stretch.start, self.stretch.end, count))
+        blur = self.rough / math.sqrt(max(1.0, self.stretch.long))
+        return Trace(CIRCLE, tuple((float(x), float(y)) for x, y in spots), blur=blur)
+
+
+def on_rim(centre: Spots, radius: float, zero: float, along: NDArray[np.float64]) -> Spots:
+    """Spots of a circle, so many mm along it from the side `zero`."""
+    turns = zero + along / radius
+    return np.asarray(centre + radius * np.column_stack([np.cos(turns), np.sin(turns)]))
+
+
+def turned(out: Spots, zero: float) -> NDArray[np.float64]:
+    """Angles of spots about a centre, from the side `zero`."""
+    return np.asarray((np.arctan2(out[:, 1], out[:, 0]) - zero + math.pi) % (2 * math.pi) - math.pi)
+
+
+def grown(found: Ridges, left: NDArray[np.intp], seed: NDArray[np.intp], ink: Ink) -> Rim | None:
+    """The circle that some crests begin and others, of those that are left, carry on; None where they make none."""
+    rim, chosen = None, seed
+    for _ in range(ROUNDS):
+        centre, radius = through(found.spots[chosen])
+        if not SMALLEST < radius < LARGEST:
+            return None
+        middle = found.spots[seed].mean(axis=0) - centre
+        larger = _around(found, left, centre, radius, math.atan2(middle[1], middle[0]), ink)
+        if larger is None or (rim is not None and len(larger.which) <= len(rim.which)):
+            break
+        rim, chosen = larger, larger.which
+    return rim if rim and rim.rough < ROUGH and rim.stretch.seen > SEEN else None
+
+
+def through(spots: Spots) -> tuple[Spots, float]:
+    """The centre and the radius of the circle of least squares (I. Kåsa, 1976)."""
+    middle = spots.mean(axis=0)
+    x, y = (spots - middle).T
+    (u, v, w), *_ = np.linalg.lstsq(np.column_stack([2 * x, 2 * y, np.ones(len(x))]), x**2 + y**2, rcond=None)
+    return middle + np.array([u, v]), math.sqrt(max(w + u**2 + v**2, 0.0))
+
+
+def _around(found: Ridges, left: NDArray[np.intp], centre: Spots, radius: float, zero: float, ink: Ink) -> Rim | None:
+    """The run of crests on a circle that has this side of it."""
+    out = found.spots[left] - centre
+    far = np.hypot(out[:, 0], out[:, 1])
+    square = np.abs((out * found.normals[left]).sum(axis=1)) > ASKEW * far
+    near = (np.abs(far - radius) < NEAR) & square
+    if not near.any():
+        return None
+    along = turned(out[near], zero) * radius
+    drawn = stretches(along, lambda at: ink.crossed(on_rim(centre, radius, zero, at)))
+    own = [stretch for stretch in drawn if stretch.start <= 1.0 and stretch.end >= -1.0]
+    if not own:
+        return None
+    stretch = max(own, key=lambda stretch: stretch.long)
+    on = (stretch.start <= along) & (along <= stretch.end)
+    return Rim(centre, radius, zero, stretch, left[near][on], float(np.std(far[near][on] - radius)))
+
+
+TURN, SHIFT = math.radians(0.5), 0.25  # the cells of the vote: angle, and mm
+UNSURE = 6  # cells by which a crest's own direction may be off, to each side
+LEAST, VOICE = 5.0, 36.0  # mm of a line, and the votes of each mm, below which it is not heard
+LOUD = 12.0  # no crest counts for more
+
+
+class Vote:
+    """Hough's accumulator: angles of normals by distances from the origin."""
+
+    def __init__(self, found: Ridges):
+        self.count = round(math.pi / TURN)
+        self.reach = int(np.hypot(*np.abs(found.spots).max(axis=0, initial=1.0)) / SHIFT) + 2
+        angle = np.arctan2(found.normals[:, 1], found.normals[:, 0])
+        cells = np.rint(angle / TURN).astype(int)[:, None] + np.arange(-UNSURE, UNSURE + 1)
+        turn = cells % self.count * TURN
+        shift = found.spots[:, :1] * np.cos(turn) + found.spots[:, 1:] * np.sin(turn)
+        level = np.rint(shift / SHIFT).astype(int) + self.reach
+        self.cells = cells % self.count * (2 * self.reach + 1) + level
+        self.weight = np.minimum(found.strength, LOUD)
+        self.votes = self._count(np.arange(len(found)))
+        self.best = 0
+
+    def peak(self) -> tuple[float, float] | None:
+        """The angle and the distance that most crests vote for; None where there are too few."""
+        self.best = int(self.votes.argmax())
+        if self.votes[self.best] < LEAST * VOICE:
+            return None
+        turn, level = divmod(self.best, 2 * self.reach + 1)
+        return turn * TURN, (level - self.reach) * SHIFT
+
+    def remove(self, which: NDArray[np.intp]) -> None:
+        """Take crests away."""
+        self.votes -= self._count(which)
+
+    def forget(self) -> None:
+        """Do not look here again."""
+        turn, level = divmod(self.best, 2 * self.reach + 1)
+        for i in (-1, 0, 1):
+            cell = (turn + i) % self.count * (2 * self.reach + 1) + level
+            self.votes[max(0, cell - 1) : cell + 2] = -1e9
+
+    def _count(self, which: NDArray[np.intp]) -> NDArray[np.float64]:
+        cells = self.cells[which]
+        weight = np.repeat(self.weight[which], cells.shape[1])
+        votes = np.bincount(cells.ravel(), weight, self.count * (2 * self.reach + 1))
+        return np.asarray(votes, np.float64)
+
+
+MOST = 600  # lines that are tried
 LONGER = 1.25  # how much longer a rim is than the piece of it that looked straight
 
 

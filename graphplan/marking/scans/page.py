@@ -23,11 +23,11 @@ from graphplan.marking.scans.strokes import (
     CrestRow,
     Rim,
     Stretch,
-    StrokeSearch,
     grown,
     line,
     on_rim,
     stretches,
+    strokes,
     turned,
 )
 from graphplan.marking.traces import Spot, Trace
@@ -141,7 +141,7 @@ class PencilPage:
     @cached_property
     def _drawn(self) -> list[Trace]:
         """The lines and rims."""
-        return StrokeSearch.of(clear(self.found, self.ink), self.ink).traces()
+        return strokes(clear(self.found, self.ink), self.ink)
 
     @cached_property
     def _smooth(self) -> NDArray[np.float32]:
@@ -211,12 +211,11 @@ def _aligned(along: Values, off: Values, strength: Values, within: float,
 
 def _whole(crests: CrestRow, ink: Ink, half: float) -> Stretch | None:
     """All the stretches of a row between the expected ends as one, where enough of it is seen."""
-    drawn = [stretch for stretch in stretches(crests.along, lambda along: ink.crossed(crests.spots(along)))
+    drawn = [stretch for stretch in crests.drawn(ink)
              if stretch.seen >= SEEN and stretch.long >= 1.0 and stretch.start < half and stretch.end > -half]
     if sum(stretch.long for stretch in drawn) < SHORTEST:
         return None
-    whole = Stretch(drawn[0].start, drawn[-1].end, 1.0)
-    return replace(whole, seen=sum(stretch.long * stretch.seen for stretch in drawn) / whole.long)
+    return Stretch(drawn[0].start, drawn[-1].end, SEEN)
 
 
 def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,

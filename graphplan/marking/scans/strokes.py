@@ -75,6 +75,10 @@ class CrestRow:
         return np.asarray(self.at + np.multiply.outer(along, self.way)
                           + np.multiply.outer(off + np.zeros(len(along)), self.normal))
 
+    def drawn(self, ink: Ink) -> Iterator[Stretch]:
+        """The stretches of it that were drawn."""
+        return stretches(self.along, lambda along: ink.crossed(self.spots(along)))
+
     def part(self, stretch: Stretch) -> NDArray[np.bool_]:
         """Which of its crests a run has."""
         return (stretch.start <= self.along) & (self.along <= stretch.end)
@@ -252,52 +256,25 @@ MOST = 600  # lines that are tried
 LONGER = 1.25  # how much longer a rim is than the piece of it that looked straight
 
 
-@dataclass
-class StrokeSearch:
-    """The lines and rims among crests, as they are taken away; `left` says which are not."""
-
-    found: Ridges
-    ink: Ink
-    left: NDArray[np.bool_]
-
-    @classmethod
-    def of(cls, found: Ridges, ink: Ink) -> StrokeSearch:
-        """All crests, none taken yet."""
-        return cls(found, ink, np.ones(len(found), bool))
-
-    def traces(self) -> list[Trace]:
-        """All lines and rims, the longest lines first."""
-        vote, traces = Vote(self.found), list[Trace]()
-        for _ in range(MOST):
-            peak = vote.peak()
-            if peak is None:
-                break
-            crests = row(self.found, np.flatnonzero(self.left), *peak)
-            if crests is None:
-                vote.forget()
-                continue
-            for stretch in self._runs(crests):
-                trace, which = self._taken(crests, stretch)
-                if trace:
-                    traces.append(trace)
-                    self.left[which] = False
-                    vote.remove(which)
-            vote.forget()
-        return traces
-
-    def _runs(self, crests: CrestRow) -> list[Stretch]:
-        """The stretches of a row that were drawn."""
-        found = stretches(crests.along, lambda along: self.ink.crossed(crests.spots(along)))
-        return [stretch for stretch in found
-                if stretch.long >= LEAST and stretch.seen >= SEEN and crests.part(stretch).sum() >= FEW]
-
-    def _taken(self, crests: CrestRow, stretch: Stretch) -> tuple[Trace | None, NDArray[np.intp]]:
-        """What a run belongs to, a line or a rim, and the crests that go with it."""
-        own = crests.which[crests.part(stretch)]
-        own = own[self.left[own]]
-        if len(own) < FEW:
-            return None, own
-        rim = grown(self.found, np.flatnonzero(self.left), own, self.ink) if bends(crests, stretch) else None
-        if rim is None or rim.stretch.long < LONGER * stretch.long:
-            return line(crests, stretch), own  # a hand that wobbles bends lines, too, but no further than they go
-        return rim.trace(), rim.which
+def strokes(found: Ridges, ink: Ink) -> list[Trace]:
+    """The lines and rims among crests, the longest lines first; what is taken is no longer there."""
+    vote, left, traces = Vote(found), np.ones(len(found), bool), list[Trace]()
+    for _ in range(MOST):
+        peak = vote.peak()
+        if peak is None:
+            break
+        crests = row(found, np.flatnonzero(left), *peak)
+        for stretch in crests.drawn(ink) if crests else ():
+            assert crests
+            own = crests.which[crests.part(stretch)]
+            own = own[left[own]]
+            if stretch.long >= LEAST and stretch.seen >= SEEN and len(own) >= FEW:
+                rim = grown(found, np.flatnonzero(left), own, ink) if bends(crests, stretch) else None
+                if rim and rim.stretch.long < LONGER * stretch.long:
+                    rim = None  # a hand that wobbles bends lines, too, but no further than they go
+                traces.append(rim.trace() if rim else line(crests, stretch))
+                taken = rim.which if rim else own
+                left[taken] = False
+                vote.remove(taken)
+        vote.forget()
+    return traces

@@ -8,11 +8,14 @@ from typing import Any
 
 from graphplan.mechanism.fields import NAME, NUMBER, VECTOR, Kind, Names
 from graphplan.mechanism.items import Item, Vector
-from graphplan.mechanism.model import Pair, Written
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact
+from graphplan.mechanism.plane import Pair
 
 Direction = Vector | Fraction | str
 """A direction as written: a vector, an angle in degrees, or two points such as "O A"."""
+
+Written = Direction | None
+"""A direction as the scene writes it, if it does."""
 
 Where = Callable[[str], tuple[Any, Any]]
 """Gives a named point's coordinates, in fractions or in any numbers that reckon with them."""

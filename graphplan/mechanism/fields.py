@@ -13,14 +13,16 @@ from typing import Any, NamedTuple, Protocol
 
 from graphplan.errors import by_name
 from graphplan.mechanism.items import Item, described
-from graphplan.mechanism.model import FRAME, Pair, Slide, Units
+from graphplan.mechanism.pairs.pair import FRAME, KinematicPair
+from graphplan.mechanism.plane import Pair
+from graphplan.mechanism.units import Units
 
 Fragment = dict[str, Any]
 
 
 @dataclass
 class Names:
-    """What a table may speak of, as far as it is read: names and places of points, links with their points, slides.
+    """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
 
     `irrational` gathers where fractions do not hold what is written.
     """
@@ -28,7 +30,7 @@ class Names:
     points: Collection[str]
     placed: dict[str, Pair] = field(default_factory=dict)
     links: dict[str, tuple[str, ...]] = field(default_factory=dict)
-    slides: tuple[Slide, ...] = ()
+    pairs: tuple[KinematicPair, ...] = ()
     units: Units = field(default_factory=Units)
     irrational: list[str] = field(default_factory=list)
 

@@ -28,7 +28,7 @@ from graphplan.mechanism.fields import (
 )
 from graphplan.mechanism.items import Item
 from graphplan.mechanism.model import FRAME, Balance, Force, Friction, Loads, Mass, Moment, Pair, Scene
-from graphplan.mechanism.sections import has_slide
+from graphplan.mechanism.pairs.sliding import has_slide
 
 # --- masses, forces, moments ---------------------------------------------------------------------------------------
 

@@ -14,6 +14,7 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
+from graphplan.mechanism.directions import Written as Written
 from graphplan.mechanism.pairs.drives import Drive as Drive
 from graphplan.mechanism.pairs.drives import DrivenPoint
 from graphplan.mechanism.pairs.drives import Motion as Motion
@@ -24,18 +25,9 @@ from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turn
 from graphplan.mechanism.pairs.pair import Condition as Condition
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide as Slide
-from graphplan.mechanism.pairs.sliding import Written as Written
 from graphplan.mechanism.plane import Number as Number
 from graphplan.mechanism.plane import Pair as Pair
-
-
-@dataclass(frozen=True)
-class Units:
-    """The scene's units by name; results come back in them."""
-
-    length: str = "mm"
-    force: str = "N"
-    mass: str = "kg"
+from graphplan.mechanism.units import Units as Units
 
 
 @dataclass(frozen=True)

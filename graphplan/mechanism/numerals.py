@@ -9,7 +9,7 @@ from fractions import Fraction
 from math import cos, isqrt, radians, sin
 from typing import Any, NamedTuple
 
-from graphplan.mechanism.model import Pair
+from graphplan.mechanism.plane import Pair
 
 _DIGITS = 100
 """The longest numeral that is read: no drawing needs more, and exact arithmetic on more may never end."""

@@ -19,13 +19,15 @@ from graphplan.mechanism.fields import TEXT, VECTOR, Field, Names, Table
 from graphplan.mechanism.items import Item, quoted
 from graphplan.mechanism.loads import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, check_loads, loads
 from graphplan.mechanism.loads import TABLES as LOADS
-from graphplan.mechanism.model import Find, Pair, Presentation, Scene
+from graphplan.mechanism.model import Find, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
+from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
-from graphplan.mechanism.sections import DRIVES, FIND, LINKS, MOTIONS, SLIDES
-from graphplan.mechanism.units import UNITS
+from graphplan.mechanism.sections import FIND, LINKS, MOTIONS, UNITS
 
+PAIRS = fields()
+PAIR_KEYS = tuple(field.name for field in PAIRS)
 SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
     Field("title", "what the mechanism is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
@@ -35,8 +37,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
           "[points] with entries such as A = [0, 0]"),
     Field("links", "a link is the list of its points; a point that several links name is a revolute joint there",
           LINKS, '[links] with entries such as 1 = "O A"'),
-    Field("slides", "a sliding pair: one link slides along another", SLIDES),
-    Field("drive", "what drives it: one entry for each degree of freedom", DRIVES),
+    *PAIRS,
     Field("motion", "the given motion of a point, for open chains", MOTIONS),
     Field("find", "what is asked for; without it the velocity and acceleration of every joint, and the rates of every "
           "link", FIND),
@@ -48,7 +49,7 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
           BALANCE),
     Field("friction", "friction in a joint or in a slide", FRICTION),
 ))
-ORDER = ("points", "links", "slides", "drive", "motion", "units", "title", "source", "find", "gravity", *LOADS, "sheet")
+ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS, "sheet")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -149,8 +150,10 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         if key == "points":
             placements = read.get(key, {})
             names.placed = place(placements, points)
-        elif key in ("links", "slides", "units") and key in read:
+        elif key in ("links", "units") and key in read:
             setattr(names, key, read[key])
+        elif key in PAIR_KEYS:
+            names.pairs += read.get(key, ())
     scene = Scene(
         title=read.get("title", ""),
         source=read.get("source", ""),
@@ -159,7 +162,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements,
         links=names.links,
-        written=(*names.slides, *read.get("drive", ())),
+        written=names.pairs,
         motions=read.get("motion", {}),
         find=read.get("find") or _asked(names),
         loads=loads(read),
@@ -188,7 +191,8 @@ def _counting(scene: Scene) -> set[str]:
 def _asked(names: Names) -> Find:
     """What is asked for where nothing is said: velocity and acceleration of every joint that can move, or where there
     is none of every point that can, and the rates of every link."""
-    at, named = {slide.at for slide in names.slides}, Counter(p for points in names.links.values() for p in points)
+    at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
+    named = Counter(p for points in names.links.values() for p in points)
     moving = tuple(p for p in names.movable if named[p] > 1 or p in at) or names.movable
     return Find(moving, moving, links=names.moving)
 
@@ -199,11 +203,11 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
         return scene
     guides = {point for slide in scene.slides for point in slide.through or ()}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
-    if faults.none_in("points", "slides"):
+    if faults.none_in("points", *PAIR_KEYS[:-1]):
         check_use(scene, guides | centres, faults)
     if not scene.moving:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
-    elif faults.none_in("links", "slides", "drive", "motion"):
+    elif faults.none_in("links", *PAIR_KEYS, "motion"):
         check_connections(scene, faults)
         if faults.none_in("links"):
             scene = check_mobility(scene, faults)

@@ -2,10 +2,18 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from fractions import Fraction
 
-from graphplan.mechanism.fields import Field, Table, choice
-from graphplan.mechanism.model import Units
+
+@dataclass(frozen=True)
+class Units:
+    """The scene's units by name; results come back in them."""
+
+    length: str = "mm"
+    force: str = "N"
+    mass: str = "kg"
+
 
 METRES = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1), "in": Fraction(254, 10000),
           "ft": Fraction(3048, 10000)}
@@ -14,12 +22,6 @@ NEWTONS = {"N": Fraction(1), "kN": Fraction(1000), "kgf": Fraction(980665, 10**5
            "lbf": Fraction(45359237, 10**8) * Fraction(980665, 10**5)}
 
 BY_QUANTITY = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}  # the first unit of each is the default
-
-UNITS = Table("the units", (
-    Field("length", "the unit of lengths", choice(*METRES), default="mm"),
-    Field("force", "the unit of forces; moments are force * m", choice(*NEWTONS), default="N"),
-    Field("mass", "the unit of masses; inertia is mass * m^2", choice(*KILOGRAMS), default="kg"),
-), lambda row: Units(**row.values))
 
 
 def metre(units: Units) -> Fraction:

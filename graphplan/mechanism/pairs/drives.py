@@ -4,9 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from graphplan.mechanism.fields import BODY, NUMBER, TWO_LINKS, Either, Field, Row, Rows, Table, moving
+from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, KinematicPair, Statement, Turning
+from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.plane import Number, Pair, X, Y, dot
 
 if TYPE_CHECKING:
@@ -134,3 +139,47 @@ class DrivenPoint(KinematicPair):
         for axis, way in ((X, "x"), (Y, "y")):
             rates = dot(axis, self.motion.velocity), dot(axis, self.motion.acceleration)
             yield Along(self.link, FRAME, self.at, axis, way, *rates)
+
+
+def _turning(row: Row) -> TurningDrive | None:
+    link, base, rpm = row["link"], row["relative_to"], row.values.get("rpm")
+    if link == base:
+        row.item.fault(f"link {link} is driven relative to itself", "another link, or no relative_to for the frame")
+        return None
+    if rpm:
+        row.names.irrational.append(f"{row.items['rpm'].where}: rpm (2 pi/60)")
+    omega = row["omega"] if rpm is None else float(rpm / 30 * Fraction(pi)) if rpm else rpm
+    return TurningDrive(link, base, omega, row["alpha"], rpm)
+
+
+def _sliding(row: Row) -> SlidingDrive | None:
+    slide = has_slide(row, "[[slides]] with it", "one of ")
+    if slide is None:
+        return None
+    if (row["speed"] or row["acceleration"]) and not _length_is_rational(slide.direction):
+        row.names.irrational.append(f"{row.item.where}: actuator along a direction of irrational length")
+    return SlidingDrive(slide.link, slide.along, row["speed"], row["acceleration"])
+
+
+def _length_is_rational(direction: Pair) -> bool:
+    x, y = exactly(direction)
+    return is_exact(direction) and root(x * x + y * y)[1]
+
+
+def _driven(drive: Drive) -> tuple[frozenset[str], str]:
+    """The two links that a drive is between."""
+    return frozenset(drive.links), "drive between links {} and {}".format(*drive.links)
+
+
+FIELD = Field("drive", "what drives it: one entry for each degree of freedom", Rows(Either((Table("a turning drive", (
+    Field("link", "the driven link", moving("the frame is driven"), 'the driven link, such as link = "1"'),
+    Field("omega", "its angular velocity in rad/s, counter-clockwise positive", NUMBER),
+    Field("rpm", "its angular velocity in turns a minute, instead of omega", NUMBER),
+    Field("alpha", "its angular acceleration in rad/s^2", NUMBER, default=0),
+    Field("relative_to", "the link that it turns relative to", BODY, default=FRAME),
+), _turning, either=("omega", "rpm"), remedy="either omega in rad/s or rpm"), Table("a sliding actuator", (
+    Field("slide", "the sliding link and the link with the guide", TWO_LINKS,
+          'the sliding link and the guide\'s, such as slide = ["3", "2"]'),
+    Field("speed", "the speed along the direction, in length/s", NUMBER, "a length per second, such as speed = 0.5"),
+    Field("acceleration", "the acceleration along the direction, in length/s^2", NUMBER, default=0),
+), _sliding))), remedy="one drive between two links", once=_driven))

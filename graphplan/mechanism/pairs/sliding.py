@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from fractions import Fraction
 from typing import TYPE_CHECKING, ClassVar
 
+from graphplan.mechanism.directions import GUIDE, Written
+from graphplan.mechanism.fields import LINK, POINT, Field, Row, Rows, Table, on_link
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turning
 from graphplan.mechanism.plane import Pair, turned
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
-
-Written = tuple[Fraction, Fraction] | Fraction | str | None
 
 
 @dataclass(frozen=True)
@@ -50,3 +49,36 @@ class Slide(KinematicPair):
         if self.turns_alike:
             yield Turning(self.link, self.along)
         yield Along(self.link, self.along, self.at, turned(self.direction), "across")
+
+
+def _read(row: Row) -> Slide | None:
+    """A sliding pair; the direction's length stays as written."""
+    link, along = row["link"], row["along"]
+    if link == along:
+        row.item.fault(f"link {link} slides along itself", "two different links")
+        return None
+    return Slide(link, along, row["at"], *row["direction"]) if on_link(row, link, "the sliding link") else None
+
+
+FIELD = Field("slides", "a sliding pair: one link slides along another", Rows(Table("a sliding pair", (
+    Field("link", "the sliding link", LINK, 'the sliding link, such as link = "3"'),
+    Field("along", "the link with the guide", LINK, 'the link with the guide, such as along = "2"'),
+    Field("at", "a point of the sliding link on the guide line", POINT,
+          'a point of the sliding link on the guide line, such as at = "B"'),
+    Field("direction", "the guide's direction: a vector, an angle in degrees, or two points", GUIDE,
+          'the guide\'s direction: a vector, an angle in degrees, or two points "O A"'),
+), _read), remedy="one slide between two links", once=lambda slide: (
+    frozenset(slide.links), "slide between links {} and {}".format(*slide.links))))
+
+
+def has_slide(row: Row, otherwise: str, few: str = "") -> Slide | None:
+    """The slide that the key `slide` of a row names; a fault where there is none, unless slides have their own."""
+    item, (link, along) = row.items["slide"], row["slide"]
+    guides = {slide.links: slide for slide in row.names.pairs if isinstance(slide, Slide)}
+    if (link, along) in guides or not item.faults.none_in("slides", "links"):
+        return guides.get((link, along))
+    known = [f'slide = ["{one}", "{other}"]' for one, other in sorted(guides)]
+    instead = few + ", ".join(known) if known else otherwise
+    meant = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
+    item.fault(f"no slide of link {link} along link {along}", meant)
+    return None

@@ -54,6 +54,10 @@ class Phrase:
     def __call__(self, *put: Any, **named: Any) -> Said:
         return said(self.english, *put, **named)
 
+    def says(self, words: str) -> bool:
+        """Whether these words are this phrase, filled in with whatever."""
+        return isinstance(words, Said) and words.key == self.english
+
 
 def phrase(english: str) -> Phrase:
     """A phrase, to be filled in when it is said."""

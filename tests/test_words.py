@@ -26,6 +26,7 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import JointForce, Lever
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
@@ -177,7 +178,7 @@ def test_words_do_not_run_together() -> None:
 ])
 def test_results_are_named_in_the_language(kind: str, of: str, told: str) -> None:
     """The names of results come out in the language: slides, and reactions at joints."""
-    assert tongue("de")(thing_named(gp.load("slider-crank"), kind, of)) == told
+    assert tongue("de")(thing_named(gp.load("slider-crank"), KINDS[kind], of)) == told
 
 
 def test_levers_are_named_in_the_language() -> None:

@@ -18,17 +18,17 @@ from graphplan.accuracy.hand import Hand
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import metre
+from graphplan.mechanism.units import LENGTH
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, Kind
 from graphplan.methods.motion.time_scale import extent
-from graphplan.methods.results import Reading, kind_named, thing_named
+from graphplan.methods.results import Reading, thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.deviations import Deviation
 
 ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
-RATES = {"omega": "velocity", "alpha": "acceleration"}
 
 
 @dataclass(frozen=True)
@@ -36,7 +36,7 @@ class Result:
     """The expected error of one reading: in its own unit and in mm, beside the largest value of its kind where there
     is any, and the share of each drawn step in its variance."""
 
-    kind: str
+    kind: Kind
     of: str
     thing: str
     deviation: Deviation
@@ -46,19 +46,15 @@ class Result:
     @property
     def named(self) -> Said:
         """The reading in words."""
-        kind = kind_named(self.kind)
-        if self.kind in RATES:
-            return said("{0} of link {1}", kind, self.of)
-        return joined((kind, self.of), " ") if self.of.isdigit() else said("{0} of {1}", kind, self.thing)
+        if self.kind.turning:
+            return said("{0} of link {1}", self.kind.words, self.of)
+        numbered = self.of.isdigit()
+        return joined((self.kind.words, self.of), " ") if numbered else said("{0} of {1}", self.kind.words, self.thing)
 
     def unit(self, scene: Scene) -> str:
         """The unit of its error."""
-        length, force = scene.units.length, scene.units.force
-        plain = {"omega": "1/s", "alpha": "1/s²", "slide arm": length}
-        group, _ = _group(scene, self.kind)
-        if self.kind in plain or group != "force":
-            return plain.get(self.kind) or length + {"velocity": "/s", "acceleration": "/s²"}[group]
-        return f"{force}·m" if "moment" in self.kind else force
+        written = self.kind.dimension.unit(scene.units)
+        return written.replace("rad", "1").replace("^2", "²").replace("*", "·")
 
     @property
     def worst_step(self) -> int:
@@ -102,18 +98,16 @@ def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> It
         yield reading, marks, drawing.value(reading, marks, domain)
 
 
-def _of_mm(kind: str, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
+def _of_mm(kind: Kind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
     """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
 
     A moment is no vector of a plan.
     """
-    if kind in RATES:
-        turning = scales.speed if kind == "omega" else scales.acceleration
-        return turning(panel) / math.dist(marks[0], marks[1])
-    if "moment" in kind and len(marks) > 1:
+    if kind.single and not kind.turning and len(marks) > 1:
         return None
-    measures = {"velocity": scales.speed, "acceleration": scales.acceleration, "arm": scales.of}
-    return measures.get(kind.split()[-1], scales.force)(panel)
+    measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
+    scale = scales.of(panel) if kind.dimension == LENGTH else measures[kind.group](panel)
+    return scale / math.dist(marks[0], marks[1]) if kind.turning else scale
 
 
 def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
@@ -126,24 +120,15 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
     return largest
 
 
-def _beside(scene: Scene, kind: str, error: float, largest: dict[str, float]) -> float | None:
+def _beside(scene: Scene, kind: Kind, error: float, largest: dict[str, float]) -> float | None:
     """An error beside the largest value of its kind; nothing where there is none."""
     group, arm = _group(scene, kind)
     return arm * error / largest[group] if largest[group] > ROUNDING * arm * error else None
 
 
-def _group(scene: Scene, kind: str) -> tuple[str, float]:
-    """What a kind is seen beside, and at what arm.
-
-    Turnings count with what they make at the mechanism's extent, moments with the force that they are at that arm.
-    """
-    if kind in RATES:
-        return RATES[kind], extent(scene)
-    if kind.endswith(tuple(RATES.values())):
-        return kind.removeprefix("slide "), 1.0
-    if kind == "slide arm":
-        return "place", 1.0
-    return "force", float(metre(scene.units)) / extent(scene) if "moment" in kind else 1.0
+def _group(scene: Scene, kind: Kind) -> tuple[str, float]:
+    """What a kind is seen beside, and at what arm."""
+    return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(extent(scene), scene.units))
 
 
 def _root(squares: Any) -> float:

@@ -22,13 +22,13 @@ from graphplan.check.decimals import OPEN, SPARE, decimal, upwards
 from graphplan.check.enclosed import enclosed
 from graphplan.check.json_results import data
 from graphplan.check.measures import difference
-from graphplan.check.report import KINDS, RATES, Report
+from graphplan.check.report import Report
 from graphplan.check.trusted import trusted
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import metre
 from graphplan.methods.construct import constructions
+from graphplan.methods.kinds import ACCELERATION, FORCES, ORDER, SLIDE_ARM, VELOCITY, kind_of
 from graphplan.methods.motion.time_scale import extent
 from graphplan.solver import Rates, solve
 
@@ -84,16 +84,17 @@ class Certified(Report):
     @cached_property
     def _parts(self) -> dict[str, list[str]]:
         """The readings that there are, by the kind that they count for."""
-        known = {kind: [part for part in parts if part in self.results] for kind, parts in KINDS.items()}
-        others = [part for part in self.results if all(part not in parts for parts in KINDS.values())]
-        known["force"] = [part for part in others if part != "slide arm"]
-        return {kind: parts for kind, parts in known.items() if parts}
+        known: dict[str, list[str]] = {}
+        for part in sorted(self.results, key=lambda part: ORDER.get(kind_of(part), len(ORDER))):
+            if part != SLIDE_ARM:
+                known.setdefault(kind_of(part).group, []).append(part)
+        return known
 
     @cached_property
     def _sizes(self) -> dict[str, Fraction]:
         """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
         unit, phi = (Fraction(float(number)) for number in (self.drawing.tempo.unit, self.drawing.phi))
-        drawn = {"velocity": self._extent * unit, "acceleration": self._extent * unit**2, "force": self._extent / phi}
+        drawn = {VELOCITY: self._extent * unit, ACCELERATION: self._extent * unit**2, FORCES: self._extent / phi}
         sizes = {}
         for kind, parts in self._parts.items():
             values = [value for part in parts for value in self._weighed(part, self.results[part])]
@@ -107,8 +108,7 @@ class Certified(Report):
 
     def _weight(self, part: str) -> Fraction:
         """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
-        metres = self._extent / metre(self.scene.units)
-        return self._extent if part in RATES else 1 / metres if "moment" in part else Fraction(1)
+        return Fraction(kind_of(part).arm(self._extent, self.scene.units))
 
     def _weighed(self, part: str, values: dict[str, Any]) -> Iterator[Enclosure]:
         """The components of all readings of one kind."""

@@ -12,9 +12,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import Arithmetic
-from graphplan.check.compared import KINDS
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.pairs.pair import Along, Statement
+from graphplan.methods.kinds import ORDER
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, held, moved
 from graphplan.solver.rates import Rates, motion
@@ -75,7 +75,7 @@ def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],
 
 def by_part(rates: Rates) -> dict[str, Any]:
     """The solver's rates, by the kinds of readings."""
-    return {part: getattr(rates, part.replace(" ", "_")) for parts in KINDS.values() for part in parts}
+    return {part: getattr(rates, part.replace(" ", "_")) for part in ORDER}
 
 
 def plain_rates(rates: Rates, plain: Callable[[Any], Any]) -> Rates:

@@ -12,21 +12,10 @@ from fractions import Fraction
 from typing import Any, NamedTuple
 
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import metre
+from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.time_scale import extent
 from graphplan.solver.bounded import UP, Bounded
-
-# What the readings of a construction are called in the solver's answer, by the kind that their difference counts for.
-KINDS = {
-    "velocity": ("velocity", "omega", "slide velocity"),
-    "acceleration": ("acceleration", "alpha", "slide acceleration"),
-}
-RATES = ("omega", "alpha")
-SLIDING = ("slide velocity", "slide acceleration")
-ARM = "slide arm"
-THIRD = "power balance"  # the third opinion has no bounds: it counts beside the largest of its kind
-FORCE = "force"
 
 NOTHING = 2.0**-64  # of the largest of a kind
 DIGITS = 1e-9  # of a number: what its bound may be at most
@@ -34,6 +23,8 @@ CLOSE = 1e-12  # of a number: differences up to this are rounding in any constru
 ZERO = 1e-250  # a bound that proves a zero
 
 Results = Mapping[str, Mapping[str, Any]]
+# Of these nothing is proven: they count beside the largest of their group.
+UNBOUNDED = (kinds.SLIDE_ARM, kinds.POWER, kinds.POWER_MOMENT)
 
 
 class Compared(NamedTuple):
@@ -63,11 +54,6 @@ class Compared(NamedTuple):
 Numbers = dict[str, dict[str, tuple[Compared, ...]]]
 
 
-def kind_of(part: str) -> str:
-    """The kind that a reading's difference counts for."""
-    return next((kind for kind, parts in KINDS.items() if part in parts), FORCE)
-
-
 def compared(drawing: Construction, ours: Results, theirs: Results,
              floor: Callable[[str, str], float] = lambda part, name: 0.0) -> Numbers:
     """All readings that the solver knows, beside what it says of them; none counts beside less than its `floor`."""
@@ -75,8 +61,8 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
     found: Numbers = {}
     for part, named in ours.items():
         if part in theirs:
-            scale = largest[kind_of(part)] / weight(drawing, part) if part != ARM else extent(drawing.scene)
-            least = scale if part == ARM or part.startswith(THIRD) else NOTHING * scale
+            scale = _scale(drawing, largest, part)
+            least = scale if part in UNBOUNDED else NOTHING * scale
             found[part] = {
                 name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
                                     max(least, floor(part, name), sliding(drawing.scene, theirs, part, name)), scale))
@@ -86,10 +72,11 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
 
 def sliding(scene: Scene, theirs: Results, part: str, name: str) -> Any:
     """The size of the vectors whose difference a sliding is, whichever way they point; of any other reading nothing."""
-    if part not in SLIDING:
+    kind = kinds.kind_of(part)
+    if not kind.pair or kind.group == kinds.FORCES:
         return 0.0
     at = next(slide.at for slide in scene.slides if slide.name == name)
-    sizes = [abs(plain(number)) for number in theirs[part.removeprefix("slide ")][at]]
+    sizes = [abs(plain(number)) for number in theirs[kind.group][at]]
     return (sizes[0]**2 + sizes[1]**2) ** 0.5
 
 
@@ -104,22 +91,29 @@ def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
     """The largest number of each kind, or what is drawn as large as the mechanism if that is larger."""
     found = drawn_sizes(drawing)
     for part, named in theirs.items():
-        if part != ARM:
+        if part != kinds.SLIDE_ARM:
             sizes = (abs(float(number)) * weight(drawing, part) for value in named.values() for number in each(value))
-            found[kind_of(part)] = max([found[kind_of(part)], *sizes])
+            group = kinds.kind_of(part).group
+            found[group] = max([found[group], *sizes])
     return found
 
 
 def drawn_sizes(drawing: Construction) -> dict[str, float]:
     """The numbers of each kind that are drawn as large as the mechanism."""
     reach, unit = extent(drawing.scene), float(drawing.tempo.unit)
-    return {"velocity": reach * unit, "acceleration": reach * unit**2, FORCE: reach / float(drawing.phi)}
+    return {kinds.VELOCITY: reach * unit, kinds.ACCELERATION: reach * unit**2, kinds.FORCES: reach / float(drawing.phi)}
+
+
+def _scale(drawing: Construction, largest: Mapping[str, float], part: str) -> float:
+    """The largest number of a reading's group, as such a reading; of a place the mechanism's extent."""
+    if part == kinds.SLIDE_ARM:
+        return extent(drawing.scene)
+    return largest[kinds.kind_of(part).group] / weight(drawing, part)
 
 
 def weight(drawing: Construction, part: str) -> float:
     """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
-    reach = extent(drawing.scene)
-    return reach if part in RATES else float(metre(drawing.scene.units)) / reach if "moment" in part else 1.0
+    return float(kinds.kind_of(part).arm(extent(drawing.scene), drawing.scene.units))
 
 
 def each(value: Any) -> tuple[Any, ...]:

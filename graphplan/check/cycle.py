@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.compared import KINDS
 from graphplan.check.measures import extent
 from graphplan.check.poses import Round, gaps, sound
 from graphplan.check.trusted import construct
@@ -22,6 +21,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import METHODS
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import FORCES, MOTION
 
 BACK = 1e-9  # of the mechanism's extent: points that are so near are in one place
 Progress = Callable[[str, int, int], None]
@@ -73,7 +73,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
     turn = follow(scene, positions, span, lambda part: told("positions")(round(part * positions), positions))
     left = Round(scene, np.arange(positions), turn.points, turn.guides).some(_reached(turn))
-    kinds = (*KINDS, *(["force"] if scene.loads else []))
+    kinds = (*MOTION, *([FORCES] if scene.loads else []))
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
                   {kind: np.full(positions, np.nan) for kind in kinds})
     for name, other in _forms(drawing, method, plan, inertia):

@@ -8,16 +8,16 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.units import metre
+from graphplan.methods import kinds
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
+from graphplan.methods.results import balances
 from graphplan.solver.efficiency import efficiency
 from graphplan.solver.friction import Frictional, with_friction
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions
-
-RUBBED = ("balance with friction", "balance moment with friction")
 
 
 @dataclass(frozen=True)
@@ -35,31 +35,38 @@ class Held:
     @cached_property
     def truth(self) -> dict[str, dict[str, Any]]:
         """What the solver says of every force that the construction gives, by the same kinds and names."""
-        arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get("slide arm", {})}
+        arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get(kinds.SLIDE_ARM, {})}
         joints = {JointForce(p, link).name: force for (p, link), force in self.reactions.joints.items()}
         slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
-        balances = self.named(self.reactions.balances)
-        held = {name: value for name, value in balances.items() if isinstance(value, tuple)}
-        turned = {name: value for name, value in balances.items() if name not in held}
-        return {"reaction": joints, "slide reaction": slides, "slide moment": moments, "slide arm": arms,
-                "balance": held, "lever": held, "balance moment": turned, "lever moment": turned, **self._rough}
+        held, levers = (self._by_kind(self.reactions.balances, way) for way in (kinds.BY_PLANS, kinds.BY_LEVER))
+        return {kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments,
+                kinds.SLIDE_ARM: arms, **held, **levers, **self._rough}
+
+    def _by_kind(self, values: Iterable[Any], way: str) -> dict[str, dict[str, Any]]:
+        """What is said of each balance in the scene's order, by the kind that finds it in this way, and by name."""
+        found: dict[str, dict[str, Any]] = {}
+        for (name, value), balance in zip(self.named(values).items(), self._balances.values(), strict=True):
+            found.setdefault(kinds.balance_kind(way, balance), {})[name] = value
+        return found
 
     def named(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
-        return dict(zip(self.scene.loads.named_balances if self.scene.loads else (), values, strict=True))
+        return dict(zip(self._balances, values, strict=True))
+
+    @property
+    def _balances(self) -> dict[str, Balance]:
+        return self.scene.loads.named_balances if self.scene.loads else {}
 
     @property
     def asked(self) -> list[tuple[str, str, str]]:
         """The pairs whose reactions are found: joint, link, and the link that carries the pin."""
-        found = self.results.get("reaction", {})
+        found = self.results.get(kinds.REACTION, {})
         return [pair for pair in pairs(self.scene) if JointForce(*pair[:2]).name in found]
 
     @property
     def rubbed(self) -> dict[str, Any]:
         """The balances with friction that are drawn, in the scene's order."""
-        found = {name: value for kind in RUBBED for name, value in self.results.get(kind, {}).items()}
-        order = self.scene.loads.named_balances if self.scene.loads else ()
-        return {name: found[name] for name in order if name in found}
+        return balances(self.scene, self.results, (kinds.RUBBED,))
 
     @property
     def _rough(self) -> dict[str, dict[str, Any]]:
@@ -67,8 +74,8 @@ class Held:
         if not self.rounds:
             return {}
         rough = self.rough or with_friction(self.scene, self.rounds, self.exact)
-        return {kind: {name: value for name, value in self.named(rough.balances).items()
-                       if isinstance(value, tuple) == (kind == RUBBED[0])} for kind in RUBBED if kind in self.results}
+        found = self._by_kind(rough.balances, kinds.RUBBED)
+        return {kind: named for kind, named in found.items() if kind in self.results}
 
     def _arm(self, slide: Slide) -> Any:
         """From a slide's point to where its reaction has no moment, square to it."""
@@ -86,19 +93,19 @@ class Held:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.rubbed:
             return None
-        with_, without = (self._delivered(suffix) for suffix in (" with friction", ""))
+        with_, without = (self._delivered(way) for way in (kinds.RUBBED, kinds.BY_PLANS))
         return efficiency(without, with_)
 
-    def _delivered(self, suffix: str) -> Any:
-        """The power that the balances of the construction give, in force * length/s."""
-        loads, rates, delivered = self.scene.loads, self.reactions.rates, Fraction(0)
-        for name, balance in loads.named_balances.items() if loads else ():
+    def _delivered(self, way: str) -> Any:
+        """The power that the balances of the construction give, found in this way, in force * length/s."""
+        rates, delivered = self.reactions.rates, Fraction(0)
+        for name, balance in self._balances.items():
+            value = self.results[kinds.balance_kind(way, balance)][name]
             if balance.at:
-                force, velocity = self.results["balance" + suffix][name], rates.velocity[balance.at]
-                delivered += force[0] * velocity[0] + force[1] * velocity[1]
+                velocity = rates.velocity[balance.at]
+                delivered += value[0] * velocity[0] + value[1] * velocity[1]
             else:
-                moment = self.results["balance moment" + suffix][name]
-                delivered += moment * metre(self.scene.units) * rates.omega[balance.link]
+                delivered += value * metre(self.scene.units) * rates.omega[balance.link]
         return delivered
 
 
@@ -111,9 +118,9 @@ def force_truth(scene: Scene, results: dict[str, dict[str, Any]], found: Reactio
 
 def powers(balances: tuple[Any, ...]) -> dict[str, dict[str, Any]]:
     """Balances in their order as readings of the power balance."""
-    found: dict[str, dict[str, Any]] = {"power balance": {}, "power balance moment": {}}
+    found: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
     for number, value in enumerate(balances, 1):
-        found["power balance" if isinstance(value, tuple) else "power balance moment"][str(number)] = value
+        found[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
     return found
 
 

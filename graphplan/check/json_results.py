@@ -10,6 +10,8 @@ from graphplan.check.compared import Compared
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.methods import kinds
+from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
 
 if TYPE_CHECKING:
@@ -22,10 +24,10 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
-        "points": _merged(found, scene.points, velocity="velocity", acceleration="acceleration"),
-        "links": _merged(found, scene.moving, omega="omega", alpha="alpha"),
-        "slides": _merged(found, (s.name for s in scene.slides), velocity="slide velocity",
-                               acceleration="slide acceleration"),
+        "points": _merged(found, scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
+        "links": _merged(found, scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
+        "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
+                          acceleration=kinds.SLIDE_ACCELERATION),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
         **_protocol(found, each),
@@ -67,10 +69,10 @@ def _forces(found: Report) -> dict[str, Any]:
     told = _balances(found, balances(found.scene, found.results))
     entries: list[dict[str, Any]] = []
     for point, link, pin in found.held.asked:
-        force = _number(found.results["reaction"][f"{link} at {point}"])
+        force = _number(found.results[kinds.REACTION][JointForce(point, link).name])
         entries.append({"at": point, "on": link, "from": pin, "force": force})
     for slide in found.scene.slides:
-        if slide.name in found.results.get("slide reaction", {}):
+        if slide.name in found.results.get(kinds.SLIDE_REACTION, {}):
             entries.append(_slide(found, slide))
     kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
     return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.held)}
@@ -79,19 +81,20 @@ def _forces(found: Report) -> dict[str, Any]:
 def _indeterminate(scene: Scene) -> dict[str, Any]:
     """The pairs whose reactions are asked for, though equilibrium does not tell them."""
     asked = scene.find.reactions
+    of_joint = {JointForce(point, link).name: point for point in scene.joints for link in scene.links_of[point]}
     names = [name for name in scene.indeterminate_pairs
-             if asked is None or name in asked or name.rpartition(" at ")[2] in asked]
+             if asked is None or name in asked or of_joint.get(name) in asked]
     return {"indeterminate": names} if names else {}
 
 
 def _slide(found: Report, slide: Slide) -> dict[str, Any]:
     """A slide's reaction; `acts_at` is a point of its line, where that lies near."""
     x, y = found.scene.points[slide.at]
-    arm = found.results.get("slide arm", {}).get(slide.name)
+    arm = found.results.get(kinds.SLIDE_ARM, {}).get(slide.name)
     return {
         "slide": slide.name, "on": slide.link, "from": slide.along,
-        "force": _number(found.results["slide reaction"][slide.name]),
-        "moment": _number(found.results["slide moment"][slide.name]),
+        "force": _number(found.results[kinds.SLIDE_REACTION][slide.name]),
+        "moment": _number(found.results[kinds.SLIDE_MOMENT][slide.name]),
         **({"acts_at": _number((x + arm[0], y + arm[1]))} if arm is not None else {}),
     }
 

@@ -13,13 +13,10 @@ from graphplan.check.arithmetics import floats
 from graphplan.check.certified_solver import bounded_rates, bounded_reactions, by_part
 from graphplan.check.compared import (
     CLOSE,
-    KINDS,
     NOTHING,
-    RATES,
     compared,
     drawn_sizes,
     each,
-    kind_of,
     plain,
     sliding,
     weight,
@@ -27,6 +24,7 @@ from graphplan.check.compared import (
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import FORCES, MOTION, kind_of
 from graphplan.solver import poses, solve
 from graphplan.solver.bounded import Unproven
 
@@ -87,25 +85,26 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
         from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
-    apart: dict[str, Any] = {kind: np.zeros(n) for kind in (*KINDS, *(["force"] if scene.loads else []))}
+    apart: dict[str, Any] = {kind: np.zeros(n) for kind in (*MOTION, *([FORCES] if scene.loads else []))}
     least = {kind: NOTHING * size for kind, size in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():
             numbers = each(truth[kind][name])
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
-            size = np.full(n, least[kind_of(kind)] / weight(drawing, kind))
+            size = np.full(n, least[kind_of(kind).group] / weight(drawing, kind))
             besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
             for number in (*(number.size for number in numbers), *besides):
                 size = np.maximum(size, number)
-            apart[kind_of(kind)] = np.maximum(apart[kind_of(kind)], np.abs(value - true) / size)
+            group = kind_of(kind).group
+            apart[group] = np.maximum(apart[group], np.abs(value - true) / size)
     return apart
 
 
 def _read_from(scene: Scene, truth: Results, kind: str, name: str) -> Any:
     """The size of the vectors that a link's rate is read from, beside its longest side; of any other result nothing."""
-    if kind not in RATES:
+    if not kind_of(kind).turning:
         return 0.0
-    vectors, points = truth["velocity" if kind == "omega" else "acceleration"], scene.links[name]
+    vectors, points = truth[kind_of(kind).group], scene.links[name]
     ends: Any = combinations([scene.points[point] for point in points], 2)
     longest = max((float(np.max(np.hypot(a[0] - b[0], a[1] - b[1]))) for a, b in ends), default=0.0)
     sizes = [np.abs(plain(part)) for point in points for part in vectors[point]]

@@ -7,16 +7,15 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.compared import KINDS, RATES, Compared, Numbers, kind_of
+from graphplan.check.compared import Compared, Numbers
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import FORCES, MOTION, kind_of
 from graphplan.solver import Rates
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Held
-
-__all__ = ["KINDS", "RATES", "Report", "report"]
 
 
 @dataclass(frozen=True)
@@ -53,10 +52,10 @@ class Report:
 
     def _largest(self, part: str) -> dict[str, Any]:
         found: dict[str, Any] = {}
-        for kind in (*KINDS, "force"):
-            values = [number.beside(part) for reading, named in self.numbers.items() if kind_of(reading) == kind
+        for kind in (*MOTION, FORCES):
+            values = [number.beside(part) for reading, named in self.numbers.items() if kind_of(reading).group == kind
                       for vector in named.values() for number in vector]
-            if values or (kind == "force" and self.held is not None):
+            if values or (kind == FORCES and self.held is not None):
                 found[kind] = max(values, default=0)
         return found
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from fractions import Fraction
+from typing import NamedTuple
 
 
 @dataclass(frozen=True)
@@ -20,6 +21,26 @@ METRES = {"mm": Fraction(1, 1000), "cm": Fraction(1, 100), "m": Fraction(1), "in
 KILOGRAMS = {"kg": Fraction(1), "g": Fraction(1, 1000), "t": Fraction(1000), "lb": Fraction(45359237, 10**8)}
 NEWTONS = {"N": Fraction(1), "kN": Fraction(1000), "kgf": Fraction(980665, 10**5),
            "lbf": Fraction(45359237, 10**8) * Fraction(980665, 10**5)}
+
+
+class Dimension(NamedTuple):
+    """Powers of length, time and force, the letter of such a quantity, and how its unit is made of the scene's."""
+
+    length: int
+    time: int
+    force: int
+    letter: str
+    pattern: str
+
+    def unit(self, units: Units) -> str:
+        """The unit of such a quantity, as files write it."""
+        return self.pattern.format(length=units.length, force=units.force)
+
+
+SPEED, ACCELERATING = Dimension(1, -1, 0, "v", "{length}/s"), Dimension(1, -2, 0, "a", "{length}/s^2")
+TURNING, TURNING_FASTER = Dimension(0, -1, 0, "omega", "rad/s"), Dimension(0, -2, 0, "alpha", "rad/s^2")
+FORCE, MOMENT = Dimension(0, 0, 1, "F", "{force}"), Dimension(1, 0, 1, "M", "{force}*m")
+LENGTH = Dimension(1, 0, 0, "r", "{length}")
 
 BY_QUANTITY = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}  # the first unit of each is the default
 

@@ -14,8 +14,9 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.methods.kinds import ACCELERATION, ALPHA, OMEGA, REACTION, SLIDE_REACTION, VELOCITY
 from graphplan.methods.motion.network import Network
-from graphplan.methods.results import ACCELERATION, VELOCITY, Vectors, balances
+from graphplan.methods.results import Vectors, balances
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -56,17 +57,17 @@ class Poses:
     @property
     def omega(self) -> dict[str, Any]:
         """The angular velocities of links."""
-        return self.results.get("omega", {})
+        return self.results.get(OMEGA, {})
 
     @property
     def alpha(self) -> dict[str, Any]:
         """The angular accelerations of links."""
-        return self.results.get("alpha", {})
+        return self.results.get(ALPHA, {})
 
     @property
     def reactions(self) -> dict[str, Any]:
         """The reactions, on links at joints, such as `2 at B`, and of slides."""
-        return {**self.results.get("reaction", {}), **self.results.get("slide reaction", {})}
+        return {**self.results.get(REACTION, {}), **self.results.get(SLIDE_REACTION, {})}
 
     @property
     def balances(self) -> list[Any]:

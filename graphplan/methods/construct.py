@@ -11,6 +11,7 @@ from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
+from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
 from graphplan.methods.motion.alternatives import growth_of_rates, ways
@@ -23,16 +24,7 @@ from graphplan.methods.motion.time_scale import tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
 from graphplan.methods.poses import Pose
-from graphplan.methods.results import (
-    ACCELERATION,
-    ALPHA,
-    OMEGA,
-    ORDER,
-    SLIDE_ACCELERATION,
-    SLIDE_VELOCITY,
-    VELOCITY,
-    Reading,
-)
+from graphplan.methods.results import Reading
 from graphplan.methods.styles import Style, style
 from graphplan.phrases import Said, said
 
@@ -53,18 +45,18 @@ class Draughtsman:
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
         velocity.draw(self.moves)
-        self._points(velocity, VELOCITY, self.scene.find.velocity)
-        self._links(velocity, OMEGA, self.scene.find.velocity)
-        self._slides(velocity, SLIDE_VELOCITY, self.scene.find.velocity)
+        self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
+        self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
+        self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
         plan = self.accelerations(velocity) if self._accelerated else None
         return self.finished(velocity, plan)
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
         which marks are drawn anyway."""
-        self._rates(plan, ALPHA)
-        self._rates(velocity, OMEGA)
-        self.readings.sort(key=lambda reading: ORDER.get(reading.kind, len(ORDER)))
+        self._rates(plan, kinds.ALPHA)
+        self._rates(velocity, kinds.OMEGA)
+        self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             tuple(_ways(self.moves)), notes=[*redundancies(self.scene)])
@@ -81,23 +73,24 @@ class Draughtsman:
         kind = PolarAcceleration if self.polar else Normal
         plan = kind(self.board, self.net, self.pose, velocity, self.moves)
         plan.draw(self.moves)
-        self._points(plan, ACCELERATION, self.scene.find.acceleration)
-        self._links(plan, ALPHA, self.scene.find.acceleration)
-        self._slides(plan, SLIDE_ACCELERATION, self.scene.find.acceleration)
+        self._points(plan, kinds.ACCELERATION, self.scene.find.acceleration)
+        self._links(plan, kinds.ALPHA, self.scene.find.acceleration)
+        self._slides(plan, kinds.SLIDE_ACCELERATION, self.scene.find.acceleration)
         return plan
 
-    def read(self, kind: str, of: str, *marks: Mark, excess: Number = 0, given: Number | Pair | None = None) -> None:
+    def read(self, kind: kinds.Kind, of: str, *marks: Mark, excess: Number = 0,
+             given: Number | Pair | None = None) -> None:
         """Note what is read, and keep the marks that it is read from."""
         start = len(self.marks)
         self.marks.extend(marks)
         self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks))), excess, given))
 
-    def _given(self, kind: str, link: str) -> Number | None:
+    def _given(self, kind: kinds.Kind, link: str) -> Number | None:
         """The rate that the drives prescribe for a link."""
         rates = self.turnings.given(link)
         return rates and getattr(rates, kind)
 
-    def _points(self, plan: Plan, kind: str, names: tuple[str, ...]) -> None:
+    def _points(self, plan: Plan, kind: kinds.Kind, names: tuple[str, ...]) -> None:
         asked = set(names)
         for name in (point for point in ordered_points(self.scene) if point in asked):
             place = (self.net.name(name), "")
@@ -108,7 +101,7 @@ class Draughtsman:
             given = getattr(motion, kind) if motion else None
             self.read(kind, name, plan.home(place), plan.ends[place], given=given)
 
-    def _links(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
+    def _links(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
         links, sought = self.scene.find.links, {*map(self.net.name, asked)}
         asked_for = self.scene.moving if links is None else links
@@ -122,7 +115,7 @@ class Draughtsman:
                 points = self.pose.points[P], self.pose.points[R]
                 self.read(kind, link, *points, *vectors, given=self._given(kind, link))
 
-    def _rates(self, plan: Plan | None, kind: str) -> None:
+    def _rates(self, plan: Plan | None, kind: kinds.Kind) -> None:
         """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
         read = {reading.of for reading in self.readings if reading.kind == kind}
         links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
@@ -147,7 +140,7 @@ class Draughtsman:
             raise Refused(link_named(link), why, "ask for other links")
         return min(found, key=needed.price)
 
-    def _slides(self, plan: Plan, kind: str, asked: tuple[str, ...]) -> None:
+    def _slides(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
         """The sliding of each pair that is asked for, by its name or by its point."""
         names = self.scene.find.slides
         prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
@@ -158,7 +151,7 @@ class Draughtsman:
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)
                 vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
                 drive = prescribed.get(slide.links)
-                given = None if drive is None else drive.rate if kind == SLIDE_VELOCITY else drive.change
+                given = None if drive is None else drive.rate if kind == kinds.SLIDE_VELOCITY else drive.change
                 guide = [self.pose.guide(slide, run=True)] if given else []
                 self.read(kind, slide.name, *guide, *vector, given=given)
 

@@ -20,21 +20,10 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.mechanism.model import FRAME, Number, Scene
-from graphplan.mechanism.units import metre
+from graphplan.methods import kinds
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, Lever
-from graphplan.methods.results import (
-    ACCELERATION,
-    FORCE_READERS,
-    NUMBERS,
-    PLANS,
-    READERS,
-    VELOCITY,
-    Reading,
-    Vectors,
-    balances,
-    prescribed,
-)
+from graphplan.methods.results import READERS, Reading, Vectors, balances, prescribed
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
@@ -57,6 +46,14 @@ class Arrow(NamedTuple):
     end: int
 
 
+class ForceArrow(NamedTuple):
+    """A force that is drawn as an arrow: its kind and letter, and from which wanted mark to which (by position)."""
+
+    kind: str
+    letter: str
+    marks: tuple[int, int]
+
+
 @dataclass(repr=False)
 class Construction:
     """Ordered drawing steps for a scene, and what they give.
@@ -76,7 +73,7 @@ class Construction:
     strict: bool = False
     notes: list[str] = field(default_factory=list)
     phi: Number = 1
-    shown: tuple[Reading, ...] = ()
+    shown: tuple[ForceArrow, ...] = ()
     rounds: int = 0
 
     def __repr__(self) -> str:
@@ -155,8 +152,8 @@ class Construction:
     def method(self) -> dict[str, list[str]]:
         """How velocities, accelerations and forces are found, in a few words each."""
         found: dict[str, list[str]] = {}
-        for kind in (VELOCITY, ACCELERATION):
-            if any(reading.marks and PLANS.get(reading.kind) == kind for reading in self.readings):
+        for kind in (kinds.VELOCITY, kinds.ACCELERATION):
+            if any(reading.marks and reading.kind.group == kind for reading in self.readings):
                 ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self.ways]))
                 found[kind] = ways or [PLAIN[self.turned, kind]]
         return found | self._force_method()
@@ -167,7 +164,7 @@ class Construction:
         for step in self.drawn.steps:
             if step.choice is None or not step.choice.compound.claimed("locus"):
                 continue
-            if (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == ACCELERATION):
+            if (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
                 form = step.choice.best.form
                 if form != "auxiliary point":
                     yield said(form.partition(" on ")[0])
@@ -200,14 +197,14 @@ class Construction:
         """The vectors that were asked for, as marks of the drawn program."""
         found = []
         for reading in self.readings:
-            if reading.kind in (VELOCITY, ACCELERATION):
+            if reading.kind in (kinds.VELOCITY, kinds.ACCELERATION):
                 start, end = (self.drawn.wanted[position] for position in reading.marks)
                 panel = self.drawn.steps[end].panel
-                prefix = "v" if reading.kind == VELOCITY else "j"
+                prefix = "v" if reading.kind == kinds.VELOCITY else "j"
                 found.append(Arrow(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
         for force in self.shown:
             start, end = (self.drawn.wanted[position] for position in force.marks)
-            found.append(Arrow(force.kind, force.of, force.of, self.drawn.steps[end].panel, start, end))
+            found.append(Arrow(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
         return tuple(found)
 
     def read(
@@ -243,9 +240,7 @@ class Construction:
         """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
         if not marks:
             return prescribed(reading, marks, domain)
-        if reading.kind in FORCE_READERS:
-            return FORCE_READERS[reading.kind](marks, domain.lift(self.phi), domain.lift(metre(self.scene.units)))
-        value = READERS[reading.kind](marks, domain.lift(self.tempo.unit), self.turned)
+        value = READERS[reading.kind.dimension](marks, domain.lift, self)
         return value + domain.lift(reading.excess) if reading.excess else value
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
@@ -268,7 +263,7 @@ class Construction:
         import numpy as np
 
         def array(reading: Reading) -> Any:
-            numbers = np.empty(n, float if reading.kind in NUMBERS else complex)
+            numbers = np.empty(n, float if reading.kind.single else complex)
             if value is not None:
                 numbers[:] = value
             return numbers
@@ -315,12 +310,12 @@ class Construction:
     @property
     def velocity(self) -> Vectors:
         """The velocities asked for, in length units of the scene per second; of a fixed point 0."""
-        return self._vectors(VELOCITY)
+        return self._vectors(kinds.VELOCITY)
 
     @property
     def reactions(self) -> dict[str, complex]:
         """The reactions asked for, in the scene's forces: on links at joints, such as `2 at B`, and of slides."""
-        forces = {**self._floats.get("reaction", {}), **self._floats.get("slide reaction", {})}
+        forces = {**self._floats.get(kinds.REACTION, {}), **self._floats.get(kinds.SLIDE_REACTION, {})}
         return {name: complex(*pair) for name, pair in forces.items()}
 
     @property
@@ -333,7 +328,7 @@ class Construction:
     @property
     def acceleration(self) -> Vectors:
         """The accelerations asked for, in length units of the scene per second squared; of a fixed point 0."""
-        return self._vectors(ACCELERATION)
+        return self._vectors(kinds.ACCELERATION)
 
     def _vectors(self, kind: str) -> Vectors:
         found = {name: complex(*pair) for name, pair in self._floats.get(kind, {}).items()}
@@ -341,8 +336,8 @@ class Construction:
 
 
 PLAIN = {
-    (True, VELOCITY): said("parallels on the mechanism plan"),
-    (True, ACCELERATION): said("plan of relative normal accelerations"),
-    (False, VELOCITY): said("polar velocity plan"),
-    (False, ACCELERATION): said("polar acceleration plan"),
+    (True, kinds.VELOCITY): said("parallels on the mechanism plan"),
+    (True, kinds.ACCELERATION): said("plan of relative normal accelerations"),
+    (False, kinds.VELOCITY): said("polar velocity plan"),
+    (False, kinds.ACCELERATION): said("polar acceleration plan"),
 }

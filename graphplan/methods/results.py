@@ -1,19 +1,28 @@
-"""Readings: what a construction gives, of what kind, from which marks it is read, and how it is called."""
+"""What a construction gives: from which marks each result is read, and how."""
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
-from typing import Any, NamedTuple
+from collections.abc import Callable, Collection, Mapping, Sequence
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain
 from graphplan.mechanism.model import Number, Pair, Scene
+from graphplan.mechanism.units import (
+    ACCELERATING,
+    FORCE,
+    LENGTH,
+    MOMENT,
+    SPEED,
+    TURNING,
+    TURNING_FASTER,
+    Dimension,
+    metre,
+)
+from graphplan.methods import kinds
 from graphplan.methods.panels import reactions_named
-from graphplan.phrases import Said, phrase
 
-VELOCITY, ACCELERATION = "velocity", "acceleration"
-OMEGA, ALPHA = "omega", "alpha"
-SLIDE_VELOCITY, SLIDE_ACCELERATION = "slide velocity", "slide acceleration"
-
+if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
 
 class Reading(NamedTuple):
     """What is read from the program: of what kind, of which thing, between which wanted marks (by position).
@@ -22,7 +31,7 @@ class Reading(NamedTuple):
     the scene prescribes, for a slide along the guide, its first mark; then the marks only show it.
     """
 
-    kind: str
+    kind: kinds.Kind
     of: str
     marks: tuple[int, ...]
     excess: Number = 0
@@ -43,76 +52,84 @@ class Vectors(dict[str, Any]):
         raise KeyError(name)
 
 
-PAIRS = frozenset({"slide velocity", "slide acceleration", "slide reaction", "slide moment", "slide arm", "reaction"})
-KINDS = {
-    "velocity": phrase("velocity"), "acceleration": phrase("acceleration"), "omega": phrase("omega"),
-    "alpha": phrase("alpha"), "slide velocity": phrase("slide velocity"), "force": phrase("force"),
-    "slide acceleration": phrase("slide acceleration"), "reaction": phrase("reaction"),
-    "slide reaction": phrase("slide reaction"), "slide moment": phrase("slide moment"),
-    "slide arm": phrase("slide arm"), "balance": phrase("balance"), "balance moment": phrase("balance moment"),
-    "balance with friction": phrase("balance with friction"),
-    "balance moment with friction": phrase("balance moment with friction"), "lever": phrase("lever"),
-    "lever moment": phrase("lever moment"), "curves": phrase("curves"),
-}  # fmt: skip
-
-
-def kind_named(kind: str) -> Said:
-    """A kind of reading in words."""
-    return KINDS[kind]()
-
-
-def thing_named(scene: Scene, kind: str, of: str) -> str:
+def thing_named(scene: Scene, kind: kinds.Kind, of: str) -> str:
     """What a reading of a kind is of, in words: a slide, a link at a joint, else a point or link as it is."""
-    return reactions_named(scene)[of] if kind in PAIRS else of
+    return reactions_named(scene)[of] if kind.pair else of
 
 
-def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]]) -> dict[str, Any]:
-    """The balances among results, by name in the scene's order: by force plans or else by the lever."""
-    kinds = "lever", "lever moment", "balance", "balance moment"
-    found = {name: value for kind in kinds for name, value in results.get(kind, {}).items()}
-    return {name: found[name] for name in (scene.loads.named_balances if scene.loads else ()) if name in found}
+def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
+             ways: Sequence[str] = (kinds.BY_PLANS, kinds.BY_LEVER)) -> dict[str, Any]:
+    """The balances among results, by name in the scene's order: each in the first of these ways that gives it."""
+    found: dict[str, Any] = {}
+    for name, balance in scene.loads.named_balances.items() if scene.loads else ():
+        values = [results[kind][name] for kind in (kinds.balance_kind(way, balance) for way in ways)
+                  if name in results.get(kind, {})]
+        found |= {name: values[0]} if values else {}
+    return found
+
+
+# ---- reading -----------------------------------------------------------------------------------------------------
+
+
+Lift = Callable[[Any], Any]
 
 
 def _difference(one: Any, two: Any) -> Any:
     return two[0] - one[0], two[1] - one[1]
 
 
-def _read_velocity(marks: Sequence[Any], unit: Any, turned: bool) -> Any:
-    x, y = _difference(*marks[-2:])
-    return (y * unit, -x * unit) if turned else (x * unit, y * unit)
+def _speed(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
+    return (y * unit, -x * unit) if drawing.turned else (x * unit, y * unit)
 
 
-def _read_acceleration(marks: Sequence[Any], unit: Any, turned: bool) -> Any:
-    x, y = _difference(*marks[-2:])
+def _acceleration(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
     return x * unit * unit, y * unit * unit
 
 
-def _read_omega(marks: Sequence[Any], unit: Any, turned: bool) -> Any:
-    """From the vectors of two points P, R: marks P, R, begin and end of each."""
+def _turning(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    return _rate(marks, drawing.turned) * lift(drawing.tempo.unit)
+
+
+def _turning_faster(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    unit = lift(drawing.tempo.unit)
+    return _rate(marks, False) * unit * unit
+
+
+def _rate(marks: Sequence[Any], turned: bool) -> Any:
+    """From the vectors of two points P, R, turned a quarter or not: marks P, R, begin and end of each."""
     P, R, p0, p1, r0, r1 = marks
     u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
-    if not turned:
-        w = -w[1], w[0]
-    return -(u[0] * w[0] + u[1] * w[1]) / (u[0] * u[0] + u[1] * u[1]) * unit
+    rate = -(u[0] * w[0] + u[1] * w[1]) if turned else u[0] * w[1] - u[1] * w[0]
+    return rate / (u[0] * u[0] + u[1] * u[1])
 
 
-def _read_alpha(marks: Sequence[Any], unit: Any, turned: bool) -> Any:
-    P, R, p0, p1, r0, r1 = marks
-    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
-    return (u[0] * w[1] - u[1] * w[0]) / (u[0] * u[0] + u[1] * u[1]) * unit * unit
+def _force(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    (x, y), phi = _difference(*marks), lift(drawing.phi)
+    return x / phi, y / phi
 
 
-READERS = {  # in the order in which they are told
-    VELOCITY: _read_velocity,
-    OMEGA: _read_omega,
-    SLIDE_VELOCITY: _read_velocity,
-    ACCELERATION: _read_acceleration,
-    ALPHA: _read_alpha,
-    SLIDE_ACCELERATION: _read_acceleration,
-}
-ORDER = {kind: place for place, kind in enumerate(READERS)}
-# What each of them is drawn by: the plan of velocities, or that of accelerations.
-PLANS = dict(zip(READERS, (VELOCITY,) * 3 + (ACCELERATION,) * 3, strict=True))
+def _moment(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    """Of forces, each by its point, tail and head, about the first mark."""
+    pole, *rest = marks
+    phi, long = lift(drawing.phi), lift(metre(drawing.scene.units))
+    total = 0 * phi
+    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
+        arm, force = _difference(pole, C), _difference(tail, head)
+        total = total + (arm[0] * force[1] - arm[1] * force[0])
+    return total / phi / long
+
+
+def _length(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
+    """From the slide's point to where its reaction acts, in the scene's lengths."""
+    return _difference(*marks)
+
+
+READERS: dict[Dimension, Callable[[Sequence[Any], Lift, Construction], Any]] = {
+    SPEED: _speed, ACCELERATING: _acceleration, TURNING: _turning, TURNING_FASTER: _turning_faster,
+    FORCE: _force, MOMENT: _moment, LENGTH: _length,
+}  # fmt: skip
 
 
 def prescribed(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
@@ -120,48 +137,10 @@ def prescribed(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
     given = reading.given
     if isinstance(given, tuple):
         return tuple(map(domain.lift, given))
-    if reading.kind not in (SLIDE_VELOCITY, SLIDE_ACCELERATION):
+    if not reading.kind.pair:
         return domain.lift(given)
     if not given:
         return domain.lift(0), domain.lift(0)
     a, b, _ = marks[0]
     rate = domain.lift(given) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
     return rate * b, -rate * a
-
-
-
-def _read_force(marks: Sequence[Any], phi: Any, metre: Any) -> Any:
-    x, y = _difference(*marks)
-    return x / phi, y / phi
-
-
-def _read_moment(marks: Sequence[Any], phi: Any, metre: Any) -> Any:
-    """Of forces, each by its point, tail and head, about the first mark."""
-    pole, *rest = marks
-    total = 0 * phi
-    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
-        arm, force = _difference(pole, C), _difference(tail, head)
-        total = total + (arm[0] * force[1] - arm[1] * force[0])
-    return total / phi / metre
-
-
-def _read_arm(marks: Sequence[Any], phi: Any, metre: Any) -> Any:
-    """From the slide's point to where its reaction acts, in the scene's lengths."""
-    return _difference(*marks)
-
-
-FORCE_READERS = {
-    "reaction": _read_force,
-    "slide reaction": _read_force,
-    "slide moment": _read_moment,
-    "slide arm": _read_arm,
-    "balance": _read_force,
-    "balance moment": _read_moment,
-    "balance with friction": _read_force,
-    "balance moment with friction": _read_moment,
-    "lever": _read_force,
-    "lever moment": _read_moment,
-}
-
-# Readings that are one number; the others are vectors.
-NUMBERS = frozenset({OMEGA, ALPHA, *(kind for kind in FORCE_READERS if "moment" in kind)})

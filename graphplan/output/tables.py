@@ -10,30 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.model import Scene, Units
-
-# What the readings of each kind are called in a column, and in which unit they stand.
-HEADINGS = {
-    "velocity": ("v", "{length}/s"),
-    "acceleration": ("a", "{length}/s^2"),
-    "omega": ("omega", "rad/s"),
-    "alpha": ("alpha", "rad/s^2"),
-    "slide velocity": ("v", "{length}/s"),
-    "slide acceleration": ("a", "{length}/s^2"),
-    "reaction": ("F", "{force}"),
-    "slide reaction": ("F", "{force}"),
-    "slide moment": ("M", "{force}*m"),
-    "slide arm": ("r", "{length}"),
-    "balance": ("F", "{force}"),
-    "balance moment": ("M", "{force}*m"),
-    "lever": ("F", "{force}"),
-    "lever moment": ("M", "{force}*m"),
-    "balance with friction": ("F", "{force}"),
-    "balance moment with friction": ("M", "{force}*m"),
-}
-# What a numbered reading is the number of.
-NUMBERED = {"balance": "balance", "balance moment": "balance", "lever": "lever", "lever moment": "lever",
-            "balance with friction": "with friction", "balance moment with friction": "with friction"}
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.units import LENGTH
+from graphplan.methods.kinds import KINDS
 
 Results = Mapping[str, Mapping[str, Any]]
 
@@ -67,14 +46,14 @@ def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resul
 def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
     sliding = scene.drives[0].slides
-    yield ("travel " + _unit("{length}" if sliding else "deg", scene.units)), travel if sliding else np.degrees(travel)
+    long = LENGTH.unit(scene.units)
+    yield f"travel [{long if sliding else 'deg'}]", travel if sliding else np.degrees(travel)
     for name, z in points.items():
-        yield from _parts(f"{name}.", z, _unit("{length}", scene.units))
+        yield from _parts(f"{name}.", z, f"[{long}]")
     for kind, named in results.items():
-        letter, unit = HEADINGS[kind]
+        way, dimension = KINDS[kind].way, KINDS[kind].dimension
         for name, z in named.items():
-            of = f"{NUMBERED[kind]} {name}" if kind in NUMBERED else name
-            yield from _parts(f"{of}.{letter}", z, _unit(unit, scene.units))
+            yield from _parts(f"{way} {name}.{dimension.letter}".strip(), z, f"[{dimension.unit(scene.units)}]")
 
 
 def _parts(heading: str, z: Any, unit: str) -> Iterator[tuple[str, Any]]:
@@ -84,7 +63,3 @@ def _parts(heading: str, z: Any, unit: str) -> Iterator[tuple[str, Any]]:
         return
     yield f"{heading}x {unit}", z.real
     yield f"{heading}y {unit}", z.imag
-
-
-def _unit(template: str, units: Units) -> str:
-    return "[" + template.format(length=units.length, force=units.force) + "]"

@@ -9,10 +9,11 @@ import pytest
 
 from graphplan.errors import Refused
 from graphplan.marking.submission import read
-from graphplan.marking.tables.results import KINDS, SINGLE, in_scene_units
+from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
-from graphplan.methods.construction import FORCE_READERS, NUMBERS, READERS
+from graphplan.methods.kinds import KINDS
+from graphplan.methods.results import READERS
 
 
 def numbers(folder: Path, text: str) -> tuple[Number, ...]:
@@ -24,8 +25,7 @@ def numbers(folder: Path, text: str) -> tuple[Number, ...]:
 
 def test_quantities_are_those_of_constructions() -> None:
     """Whatever a construction gives can stand in a table, as a vector or as one number."""
-    assert KINDS.keys() == READERS.keys() | FORCE_READERS.keys()
-    assert SINGLE == NUMBERS
+    assert {kind.dimension for kind in KINDS.values()} == READERS.keys()
 
 
 def test_vectors_and_single_numbers(tmp_path: Path) -> None:
@@ -63,7 +63,7 @@ CONVERTED = [
 @pytest.mark.parametrize(("kind", "unit", "units", "factor"), CONVERTED)
 def test_units_become_the_scenes(kind: str, unit: str, units: Units, factor: float) -> None:
     """A number in any unit is converted to what the scene's results come in."""
-    value = (3.0,) if kind in SINGLE else (3.0, -2.0)
+    value = (3.0,) if KINDS[kind].single else (3.0, -2.0)
     assert in_scene_units(Number(kind, "A", value, unit), units) == pytest.approx([factor * part for part in value])
 
 

@@ -13,7 +13,7 @@ import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.methods.construction import NUMBERS
+from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, turning
 from graphplan.sheet.frames.corner_marks import corner_marks
@@ -97,7 +97,7 @@ def test_every_reading_has_its_empty_boxes(name: str) -> None:
     """A box for each component and size that the construction gives, on the task sheet and on the guided one."""
     _, _, *parts = handout_of(name)
     drawing = drawing_of(name)
-    sizes = {kind: 1 if kind in NUMBERS else 2 if kind == "slide arm" else 3 for kind in drawing.kinds}
+    sizes = {kind: 1 if KINDS[kind].single else 2 if kind == "slide arm" else 3 for kind in drawing.kinds}
     numbers = sum(sizes[kind] * len(found) for kind, found in drawing.read(Floats()).items())
     assert numbers
     for pages in parts:

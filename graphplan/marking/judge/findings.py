@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
 from graphplan.marking.judge.verdict import MISSING, NOT_NEEDED, STATES, WRONG, Judgement, NumberVerdict, Verdict
-from graphplan.methods.results import KINDS, kind_named
+from graphplan.methods.kinds import WORDS
 from graphplan.phrases import Said, arranged, joined, phrase, said
 from graphplan.sheet.layout.scales import digits
 
@@ -135,7 +135,7 @@ def lacking(judgement: Judgement, state: str = MISSING) -> str:
 def quantity(verdict: NumberVerdict) -> Said:
     """What a number of the table is, such as velocity A."""
     number = verdict.number
-    return joined((kind_named(number.kind) if number.kind in KINDS else number.kind, number.of), " ")
+    return joined((WORDS.get(number.kind, number.kind), number.of), " ")
 
 
 def miss(verdict: NumberVerdict) -> Said:

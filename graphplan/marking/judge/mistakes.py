@@ -15,6 +15,7 @@ from typing import Any
 from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, OPENING, POINT, Movement, Primitive, made_by
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
+from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.scales import digits
 
@@ -150,10 +151,10 @@ def _(occasion: Occasion) -> Iterator[Mistake]:
 
 @mistake("reversed", laid_off)
 def _(occasion: Occasion) -> Iterator[Mistake]:
-    why = occasion.step.why.key if isinstance(occasion.step.why, Said) else ""
-    if why.startswith("the relative normal acceleration"):
+    why = occasion.step.why
+    if NORMAL.says(why):
         told = said("the normal acceleration points away from the centre")
-    elif why.startswith("the Coriolis acceleration"):
+    elif CORIOLIS.says(why):
         told = said("the Coriolis acceleration is reversed")
     else:
         told = said("the vector has the wrong sense")

@@ -21,7 +21,7 @@ from graphplan.marking.judge.student_sheet import PointResidual, Residual, plain
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, NumberVerdict
 from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
-from graphplan.methods.results import NUMBERS, Reading
+from graphplan.methods.results import Reading
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.scales import digits
 
@@ -66,7 +66,7 @@ def judged(matching: Matching, numbers: Sequence[Number]) -> Iterator[NumberVerd
 
 def _expected(matching: Matching, values: Sequence[Any]) -> dict[Key, Expected]:
     """Every number that a drawing says."""
-    drawing, found = matching.sheet.drawing, {}
+    drawing, found = matching.sheet.drawing, dict[Key, Expected]()
     for reading, marks, value in readings(drawing, values, matching.sheet.domain):
         parts = value if isinstance(value, tuple) else (value,)
         found[reading.kind, reading.of] = Expected(parts, _read(matching, reading, [plain(mark) for mark in marks]))
@@ -80,7 +80,7 @@ def _read(matching: Matching, reading: Reading, marks: Sequence[Any]) -> float:
     home = matching.sheet.plan_of_step[matching.sheet.drawing.drawn.wanted[reading.marks[-1]]]
     length = READ * matching.sheet.pencil.point / matching.sheet.mm(home)
     shaken = [_difference(matching, reading, marks, shift) for shift in ((length, 0.0), (0.0, length))]
-    return math.hypot(*shaken) / math.sqrt(1 if reading.kind in NUMBERS else 2)
+    return math.hypot(*shaken) / math.sqrt(1 if reading.kind.single else 2)
 
 
 def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shift: tuple[float, float]) -> float:

@@ -12,7 +12,7 @@ from graphplan.kernel.program import Program
 from graphplan.marking.judge.findings import judged
 from graphplan.marking.judge.verdict import UNSEEN, Judgement
 from graphplan.methods.construction import Construction
-from graphplan.methods.results import ACCELERATION, PLANS, VELOCITY
+from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
@@ -121,7 +121,7 @@ def served(drawing: Construction) -> list[str]:
     drawn = drawing.drawn
     groups = [FORCE if drawing.scene.loads else VELOCITY] * len(drawn)
     for group in (ACCELERATION, VELOCITY):
-        kinds = (reading for reading in drawing.readings if PLANS.get(reading.kind) == group)
+        kinds = (reading for reading in drawing.readings if reading.kind.group == group)
         for index in _needed(drawn, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
             groups[index] = group
     return [POSE] * drawn.givens + groups[drawn.givens:]

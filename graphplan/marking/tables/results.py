@@ -7,26 +7,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from graphplan.marking.tables.table_rows import TableRow, rows
-from graphplan.marking.tables.written_units import (
-    ACCELERATING,
-    FORCE,
-    LENGTH,
-    MOMENT,
-    SPEED,
-    TURNING,
-    TURNING_FASTER,
-    factor,
-)
+from graphplan.marking.tables.written_units import example, factor
 from graphplan.marking.traces import Number, Submission
 from graphplan.mechanism.model import Units
+from graphplan.methods.kinds import KINDS
 
-KINDS = {
-    "velocity": SPEED, "acceleration": ACCELERATING, "omega": TURNING, "alpha": TURNING_FASTER,
-    "slide velocity": SPEED, "slide acceleration": ACCELERATING, "reaction": FORCE, "slide reaction": FORCE,
-    "slide moment": MOMENT, "slide arm": LENGTH, "balance": FORCE, "balance moment": MOMENT,
-    "balance with friction": FORCE, "balance moment with friction": MOMENT, "lever": FORCE, "lever moment": MOMENT,
-}  # fmt: skip
-SINGLE = {kind for kind, dimension in KINDS.items() if dimension in (TURNING, TURNING_FASTER, MOMENT)}
 ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha", "ε": "alpha"}
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
@@ -59,12 +44,12 @@ def entry(quantity: str, of: str, value: Sequence[float], unit: str) -> Number:
     kind = ALSO.get(name, name)
     if kind not in KINDS:
         raise ValueError(f"{quantity!r} is no quantity")
-    if len(value) != (1 if kind in SINGLE else 2):
-        raise ValueError(f"{kind} is {'one number' if kind in SINGLE else 'a vector'}")
+    if len(value) != (1 if KINDS[kind].single else 2):
+        raise ValueError(f"{kind} is {'one number' if KINDS[kind].single else 'a vector'}")
     if any(abs(part) > LARGEST for part in value):
         raise ValueError("a number is too large")
     if unit:
-        factor(unit, KINDS[kind], Units())
+        factor(unit, KINDS[kind].dimension, Units())
     return Number(kind, " ".join(of.split()), tuple(value), unit)
 
 
@@ -79,13 +64,13 @@ def _do(quantity: str) -> str:
     kind = ALSO.get(name, name)
     if kind not in KINDS:
         return f"one of {', '.join(KINDS)}"
-    parts = "value" if kind in SINGLE else "x and y, or size and angle"
-    return f"{parts}, in a unit such as {KINDS[kind].example}"
+    parts = "value" if KINDS[kind].single else "x and y, or size and angle"
+    return f"{parts}, in a unit such as {example(KINDS[kind].dimension)}"
 
 
 def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
     """A result in the scene's units; one without a unit is in them already. Units were checked as `entry` was made."""
     if not number.unit:
         return number.value
-    one = factor(number.unit, KINDS[number.kind], units)
+    one = factor(number.unit, KINDS[number.kind].dimension, units)
     return tuple([one * part for part in number.value])

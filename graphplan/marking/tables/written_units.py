@@ -4,24 +4,9 @@ from __future__ import annotations
 
 import math
 import re
-from typing import NamedTuple
 
 from graphplan.mechanism.model import Units
-from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
-
-
-class Dimension(NamedTuple):
-    """Powers of length, time and force, and such a unit as an example."""
-
-    length: int
-    time: int
-    force: int
-    example: str = ""
-
-
-SPEED, ACCELERATING = Dimension(1, -1, 0, "mm/s"), Dimension(1, -2, 0, "mm/s^2")
-TURNING, TURNING_FASTER = Dimension(0, -1, 0, "rad/s"), Dimension(0, -2, 0, "rad/s^2")
-FORCE, MOMENT, LENGTH = Dimension(0, 0, 1, "N"), Dimension(1, 0, 1, "N·m"), Dimension(1, 0, 0, "mm")
+from graphplan.mechanism.units import KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
 
 BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
     **{name: (float(size), (1, 0, 0)) for name, size in METRES.items()},
@@ -51,7 +36,7 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
         size *= one**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
-        raise ValueError(f"{written!r} is no such unit as {dimension.example}")
+        raise ValueError(f"{written!r} is no such unit as {example(dimension)}")
     return size / _scene(dimension, units)
 
 
@@ -67,6 +52,11 @@ def _factors(written: str) -> list[tuple[str, int]]:
                 raise ValueError(f"{written!r} is no unit that is known")
             found.append((fits[1], int(fits[2] or 1) * (-1 if place else 1)))
     return found
+
+
+def example(dimension: Dimension) -> str:
+    """Such a unit, as a student may write it."""
+    return dimension.unit(Units()).replace("*", "·")
 
 
 def _scene(dimension: Dimension, units: Units) -> float:

@@ -9,7 +9,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
-from graphplan.methods import panels
+from graphplan.methods import kinds, panels
 from graphplan.methods.forces.assumed_motion import (
     AXES,
     Assumed,
@@ -35,11 +35,7 @@ from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
-REACTION, SLIDE_REACTION, SLIDE_MOMENT, SLIDE_ARM = "reaction", "slide reaction", "slide moment", "slide arm"
-BALANCE, BALANCE_MOMENT = "balance", "balance moment"
-RUBBED, RUBBED_MOMENT = "balance with friction", "balance moment with friction"
-LEVER, LEVER_MOMENT = "lever", "lever moment"
-Result = tuple[str, str, tuple[Mark, ...]]
+Result = tuple[kinds.Kind, str, tuple[Mark, ...]]
 Way = tuple[str, int]
 
 
@@ -134,14 +130,14 @@ def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:
             yield point, link, pin
 
 
-def with_friction(loading: Loading, forces: Forces) -> Iterator[Result]:
-    """The balances with friction, by kind and name."""
+def balances(loading: Loading, forces: Forces, way: str) -> Iterator[Result]:
+    """The balances by kind and name, found in this way."""
     for name, balance in loading.loads.named_balances.items():
         if balance in forces.balances:
-            yield RUBBED, name, forces.balances[balance]
+            yield kinds.balance_kind(way, balance), name, forces.balances[balance]
         elif balance in forces.moments:
             pair = forces.moments[balance]
-            yield RUBBED_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
+            yield kinds.balance_kind(way, balance), name, _about(loading.arm(balance.link)[0], pair or ())
 
 
 def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:
@@ -149,17 +145,12 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
         if (asked is None or point in asked) and _told(scene, forces, point, link):
-            yield REACTION, JointForce(point, link).name, reaction_on(forces, board, point, link)
+            yield kinds.REACTION, JointForce(point, link).name, reaction_on(forces, board, point, link)
     for slide in scene.slides:
         if (asked is None or slide.name in asked) and slide in forces.slides:
-            yield SLIDE_REACTION, slide.name, forces.slides[slide]
-            yield SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
-    for name, balance in loading.loads.named_balances.items():
-        if balance in forces.balances:
-            yield BALANCE, name, forces.balances[balance]
-        elif balance in forces.moments:
-            pair = forces.moments[balance]
-            yield BALANCE_MOMENT, name, _about(loading.arm(balance.link)[0], pair or ())
+            yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
+            yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
+    yield from balances(loading, forces, kinds.BY_PLANS)
 
 
 def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tuple[list[Result], list[Shown]]:
@@ -173,12 +164,8 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tu
             assumed = working(scene, mode)
             motion = velocities(assumed, pose, plans.planner(assumed, panel))
         lever = Lever(board, motion, loading, panel)
-        if balance.at:
-            marks: tuple[Mark, ...] = lever.force(balance)
-            results.append((LEVER, name, marks))
-        else:
-            marks = lever.moment(balance.link)
-            results.append((LEVER_MOMENT, name, marks))
+        marks: tuple[Mark, ...] = lever.force(balance) if balance.at else lever.moment(balance.link)
+        results.append((kinds.balance_kind(kinds.BY_LEVER, balance), name, marks))
         shown += [*lever.shown, Shown("balance", f"{'F' if balance.at else 'T'}_{balance.link}", *marks[-2:])]
     return results, shown
 
@@ -216,18 +203,18 @@ class Freed:
             self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
         (tail, corner), other = spans
         with self.board.on(lever.panel):
-            self.results.append((REACTION, force.name, (tail, self.board.transfer(*other, corner))))
+            self.results.append((kinds.REACTION, force.name, (tail, self.board.transfer(*other, corner))))
 
     def _slide(self, slide: Slide) -> None:
         """A slide's reaction by two levers: its force, and its moment."""
         lever = self._lever(freed_slide(self.loading.scene, slide), panels.Lever.of(slide, "F"))
         force = lever.off_guide(slide)
         self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
-        self.results.append((SLIDE_REACTION, slide.name, force))
+        self.results.append((kinds.SLIDE_REACTION, slide.name, force))
         lever = self._lever(freed_turning(self.loading.scene, slide), panels.Lever.of(slide, "M"))
         moment = lever.turning(slide.link, slide.along)
         self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
-        self.results.append((SLIDE_MOMENT, slide.name, moment))
+        self.results.append((kinds.SLIDE_MOMENT, slide.name, moment))
 
 
 def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
@@ -241,7 +228,7 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
             at, guide = pose.points[slide.at], pose.guide(slide)
             if seat is not at:
                 H = board.foot(guide, H)
-        yield SLIDE_ARM, slide.name, (at, H)
+        yield kinds.SLIDE_ARM, slide.name, (at, H)
 
 
 def _told(scene: Scene, forces: Forces, point: str, link: str) -> bool:

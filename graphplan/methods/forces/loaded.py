@@ -19,7 +19,7 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construct import Draughtsman
-from graphplan.methods.construction import Construction
+from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.forces.friction import SHORT, Rubbed
 from graphplan.methods.forces.groups import (
     Freed,
@@ -27,14 +27,15 @@ from graphplan.methods.forces.groups import (
     Result,
     Way,
     arms,
+    balances,
     levers,
     reactions,
     results,
-    with_friction,
 )
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.reactions import Forces, Shown
 from graphplan.methods.forces.statics import PREFERENCES
+from graphplan.methods.kinds import REACTION, RUBBED, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
@@ -42,7 +43,6 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import link_named, slide_named
-from graphplan.methods.results import Reading
 from graphplan.methods.styles import Style
 from graphplan.phrases import Phrase, phrase, said
 
@@ -133,7 +133,7 @@ class Loaded(Draughtsman):
                 stands = not self.loads.rounds and last.stands(rubbed, self._valued)
             except ConstructionError:  # whoever reads the numbers is told
                 break
-        self._note(with_friction(loading, forces), ())
+        self._note(balances(loading, forces, RUBBED), ())
         self.rounds = forces.number
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
@@ -159,7 +159,7 @@ class Loaded(Draughtsman):
         for kind, of, marks in found:
             self.read(kind, of, *marks)
 
-    def _arrows(self) -> tuple[Reading, ...]:
+    def _arrows(self) -> tuple[ForceArrow, ...]:
         """The forces drawn as arrows: of those that what is asked for needs."""
         needed = needed_steps(self.board, self.marks)
         found = []
@@ -168,7 +168,7 @@ class Loaded(Draughtsman):
             if force.tail is not force.head and {head.step.index, force.tail.step.index} <= needed:
                 start = len(self.marks)
                 self.marks += [force.tail, force.head]
-                found.append(Reading(force.kind, force.label, (start, start + 1)))
+                found.append(ForceArrow(force.kind, force.label, (start, start + 1)))
         return tuple(found)
 
 
@@ -290,9 +290,9 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
         values = found.read(Floats())
     except ConstructionError:
         return found
-    slides, moments = values.get("slide reaction", {}), values.get("slide moment", {})
+    slides, moments = values.get(SLIDE_REACTION, {}), values.get(SLIDE_MOMENT, {})
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
-    least = SMALL * max((math.hypot(*force) for force in (*values.get("reaction", {}).values(), *slides.values())),
+    least = SMALL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
                         default=0.0)
     size = extent(found.scene)
     least, reach = max(least, SHORT * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))

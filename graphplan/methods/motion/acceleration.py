@@ -20,7 +20,7 @@ from graphplan.methods.motion.plan import Plan, Vector
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, slide_named
 from graphplan.methods.poses import Pose
-from graphplan.phrases import said
+from graphplan.phrases import phrase, said
 
 GREEK = {
     "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
@@ -28,6 +28,8 @@ GREEK = {
     "S": "sigma", "T": "tau", "U": "upsilon", "V": "psi", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
 }
 
+NORMAL = phrase("the relative normal acceleration of {0} about {1}")
+CORIOLIS = phrase("the Coriolis acceleration of the pair {0}, twice the half-vector")
 LAWS: dict[type, str] = {
     Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
@@ -194,7 +196,7 @@ class Normal(Plan):
         points = self.pose.points
         if side == X:
             m, w = self.velocity.relative(link, K, X)
-            why = said("the relative normal acceleration of {0} about {1}", X, K)
+            why = NORMAL(X, K)
             return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
         ends = self.figure(link, K), self.figure(link, side)
         return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
@@ -254,7 +256,7 @@ class Normal(Plan):
         link, P = self._pivot(known, new, B)
         turning = self.velocity.about(link, P, B)
         slip = self.velocity.slip(known, new, B)
-        why = said("the Coriolis acceleration of the pair {0}, twice the half-vector", slide_named(slide))
+        why = CORIOLIS(slide_named(slide))
         return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:

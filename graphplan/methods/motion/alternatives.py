@@ -19,9 +19,9 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
+from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.results import ACCELERATION, ORDER, VELOCITY
 from graphplan.phrases import joined, said
 
 if TYPE_CHECKING:

@@ -8,8 +8,10 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from graphplan.mechanism.model import Balance
+from graphplan.methods import kinds
+from graphplan.methods.forces.groups import pairs
 from graphplan.methods.forces.letters import pair_letter
-from graphplan.methods.panels import slide_named
+from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
@@ -19,10 +21,8 @@ from graphplan.sheet.words.tables import Table, figure, largest_size, with_devia
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]
-WAYS = {  # the ways to find a balance, and the kinds of reading that tell it
-    phrase("by force plans"): "balance{}", phrase("with friction"): "balance{} with friction",
-    phrase("by the lever"): "lever{}",
-}  # fmt: skip
+WAYS = {phrase("by force plans"): kinds.BY_PLANS, phrase("with friction"): kinds.RUBBED,
+        phrase("by the lever"): kinds.BY_LEVER}
 
 
 @dataclass(frozen=True)
@@ -48,12 +48,12 @@ class ForceTables:
 
     def reactions(self) -> Table:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
-        joints, slides = (self.values.get(kind, {}) for kind in ("reaction", "slide reaction"))
+        joints, slides = (self.values.get(kind, {}) for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
         largest = max(largest_size(joints), largest_size(slides))
         head = [sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]
         table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
         table += [self._row(*self._of_slide(name), force, largest) for name, force in slides.items()]
-        off = self.pencil.of("reaction", "slide reaction")
+        off = self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION)
         table = with_deviations([head, *table], [*joints, *slides], off) if table else []
         return self._with_moments(table, [*joints, *slides], largest) if slides else table
 
@@ -61,9 +61,9 @@ class ForceTables:
         """The same with a last column for the moments of slides."""
         column = [sentence_runs(f"M {self.moment}")]
         for name in names:
-            moment = self.values.get("slide moment", {}).get(name)
+            moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
             told = () if moment is None else figure(self._of_slide(name)[1] * moment, largest)
-            column.append((*told, *self._off("slide moment", name)))
+            column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
         return [[*row, cell] for row, cell in zip(table, column, strict=True)]
 
     def _off(self, kind: str, name: str) -> Runs:
@@ -76,9 +76,9 @@ class ForceTables:
         return [name, *(figure(value, largest) for value in (x, y, math.hypot(x, y)))]
 
     def _of_joint(self, name: str) -> tuple[Runs, int]:
-        """The letter of the reaction `LINK at POINT`, and its sign."""
-        link, _, point = name.rpartition(" at ")
-        return self._lettered(self.drawing.scene.links_of[point][0], link, point)
+        """The letter of the reaction at a joint, by its name in results, and its sign."""
+        named = {JointForce(point, link).name: (pin, link, point) for point, link, pin in pairs(self.drawing.scene)}
+        return self._lettered(*named[name])
 
     def _of_slide(self, name: str) -> tuple[Runs, int]:
         slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
@@ -94,10 +94,10 @@ class ForceTables:
 
     def seats(self) -> Iterator[Said]:
         """Where the reactions of slides act, in words."""
-        for name, (x, y) in self.values.get("slide arm", {}).items():
+        for name, (x, y) in self.values.get(kinds.SLIDE_ARM, {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
-            spot, off = f"({digits(at[0] + x)}, {digits(at[1] + y)})", self.pencil.of("slide arm").get(name)
+            spot, off = f"({digits(at[0] + x)}, {digits(at[1] + y)})", self.pencil.of(kinds.SLIDE_ARM).get(name)
             told = [spot, unit(self.drawing.scene.units.length), *([f"±{off}"] if off else [])]
             yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
 
@@ -108,11 +108,11 @@ class ForceTables:
         loads = self.drawing.scene.loads
         table: Table = []
         for name, balance in loads.named_balances.items() if loads else ():
-            moment = "" if balance.at else " moment"
-            found = {way: self.values.get(kind.format(moment), {}).get(name) for way, kind in WAYS.items()}
-            ways = {way: value for way, value in found.items() if value is not None}
-            off = [self._off(WAYS[way].format(moment), name) for way in ways]
-            heads = (said("balance"), *(way() for way in ways))
+            told = {words: kinds.balance_kind(way, balance) for words, way in WAYS.items()}
+            found = {words: self.values.get(kind, {}).get(name) for words, kind in told.items()}
+            ways = {words: value for words, value in found.items() if value is not None}
+            off = [self._off(told[words], name) for words in ways]
+            heads = (said("balance"), *(words() for words in ways))
             table = table or [[sentence_runs(self.tongue(head)) for head in heads]]
             table += self._force(balance, ways, off) if balance.at else self._moment(balance, ways, off)
         return table if table and len(table[0]) > 1 else []

@@ -6,7 +6,8 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from graphplan.mechanism.model import Balance, Loads, Pair, Scene
-from graphplan.methods.panels import link_named, listed, slide_named
+from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
+from graphplan.methods.panels import JointForce, link_named, listed, slide_named
 from graphplan.phrases import Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 
@@ -77,10 +78,11 @@ def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[
     if values.get("slide velocity") or values.get("slide acceleration"):
         moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
         yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
-    joints = dict.fromkeys(name.rpartition(" at ")[2] for name in values.get("reaction", ()))
-    if joints or values.get("slide reaction"):
-        yield said("Reactions: {0}.", joined((*joints, *(slides[name] for name in values.get("slide reaction", ())))))
-    if scene.loads and any(kind.startswith(("balance", "lever")) for kind in values):
+    told = values.get(REACTION, ())
+    joints = [p for p in scene.joints if any(JointForce(p, link).name in told for link in scene.links_of[p])]
+    if joints or values.get(SLIDE_REACTION):
+        yield said("Reactions: {0}.", joined((*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ())))))
+    if scene.loads and any(kind_of(kind).way for kind in values):
         yield from map(_keeping, scene.loads.balances)
 
 

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
-from graphplan.methods.results import kind_named
 from graphplan.phrases import arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
@@ -126,14 +126,14 @@ class Words:
     def _check(self, wide: float) -> Iterator[Row]:
         if self.check:
             yield self._heading(said("Check"))
-            parts = joined(joined((kind_named(kind), _within(float(gap))), " ") for kind, gap in self.check.items())
+            parts = joined(joined((WORDS[kind], _within(float(gap))), " ") for kind, gap in self.check.items())
             yield from self._said(said("Largest difference from the analytic solver, beside the number's own "
                                        "size: {0}.", parts), wide)
 
     def _forms(self, wide: float) -> Iterator[Row]:
         yield self._heading(said("Method and forms"))
         for kind, ways in self.drawing.method.items():
-            yield from self._said(arranged("{0:capital}: {1}.", kind_named(kind), joined(ways)), wide)
+            yield from self._said(arranged("{0:capital}: {1}.", WORDS[kind], joined(ways)), wide)
         for form in self.drawing.brief_forms:
             yield from self._said(form, wide)
 

@@ -1,0 +1,94 @@
+"""The kinds of results: how each is called, its dimension, what it counts for."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Self
+
+from graphplan.mechanism.model import Balance
+from graphplan.mechanism.units import (
+    ACCELERATING,
+    FORCE,
+    LENGTH,
+    MOMENT,
+    SPEED,
+    TURNING,
+    TURNING_FASTER,
+    Dimension,
+    metre,
+)
+from graphplan.phrases import said
+
+BY_PLANS, BY_LEVER, RUBBED = "balance", "lever", "with friction"  # how a balance is found
+FORCES = "force"  # the group of all that is no motion
+
+
+class Kind(str):
+    """A kind of result by its public name: it knows its words, its dimension and what it is read of.
+
+    `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found.
+    """
+
+    words: str
+    dimension: Dimension
+    pair: bool
+    way: str
+
+    def __new__(cls, words: str, dimension: Dimension, *, pair: bool = False, way: str = "") -> Self:
+        self = super().__new__(cls, words)
+        self.words, self.dimension, self.pair, self.way = words, dimension, pair, way
+        return self
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return kind_of, (str(self),)
+
+    @property
+    def group(self) -> str:
+        """What it counts for: velocity, acceleration or force."""
+        return {-1: VELOCITY, -2: ACCELERATION}.get(self.dimension.time, FORCES)
+
+    @property
+    def single(self) -> bool:
+        """Whether it is one number; else it is a vector."""
+        return self.dimension in (TURNING, TURNING_FASTER, MOMENT)
+
+    @property
+    def turning(self) -> bool:
+        """Whether it is the rate of a link."""
+        return self.dimension in (TURNING, TURNING_FASTER)
+
+    def arm(self, reach: Any, units: Any) -> Any:
+        """At which arm it counts among its group: turnings with what they make at the mechanism's reach, moments as
+        the forces that they are there."""
+        return reach if self.turning else metre(units) / reach if self.dimension == MOMENT else 1
+
+
+VELOCITY = Kind(said("velocity"), SPEED)
+ACCELERATION = Kind(said("acceleration"), ACCELERATING)
+OMEGA, ALPHA = Kind(said("omega"), TURNING), Kind(said("alpha"), TURNING_FASTER)
+SLIDE_VELOCITY = Kind(said("slide velocity"), SPEED, pair=True)
+SLIDE_ACCELERATION = Kind(said("slide acceleration"), ACCELERATING, pair=True)
+REACTION, SLIDE_REACTION = Kind(said("reaction"), FORCE, pair=True), Kind(said("slide reaction"), FORCE, pair=True)
+SLIDE_MOMENT, SLIDE_ARM = Kind(said("slide moment"), MOMENT, pair=True), Kind(said("slide arm"), LENGTH, pair=True)
+KINDS: Mapping[str, Kind] = {kind: kind for kind in (
+    VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
+    SLIDE_ARM,
+    Kind(said("balance"), FORCE, way=BY_PLANS), Kind(said("balance moment"), MOMENT, way=BY_PLANS),
+    Kind(said("balance with friction"), FORCE, way=RUBBED),
+    Kind(said("balance moment with friction"), MOMENT, way=RUBBED),
+    Kind(said("lever"), FORCE, way=BY_LEVER), Kind(said("lever moment"), MOMENT, way=BY_LEVER),
+)}
+POWER, POWER_MOMENT = Kind("power balance", FORCE), Kind("power balance moment", MOMENT)  # a third opinion, not read
+MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION)}
+ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
+WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), "curves": said("curves")}
+
+
+def kind_of(name: str) -> Kind:
+    """The kind of this public name."""
+    return KINDS.get(name) or (POWER if name == POWER else POWER_MOMENT)
+
+
+def balance_kind(way: str, balance: Balance) -> Kind:
+    """The kind of a balance that is found in this way: a force or a moment."""
+    return next(kind for kind in KINDS.values() if kind.way == way and kind.single != bool(balance.at))

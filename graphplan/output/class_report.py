@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from html import escape
 
 from graphplan.marking.classroom import NOT_JUDGED, Classroom, ReportRow, mistaken
-from graphplan.output.report_page import FIGURE, Cell, page, table
+from graphplan.output.report_page import FIGURE, HtmlCell, page, table
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue
 
@@ -48,17 +48,17 @@ class _ClassList:
         yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
                          [self.say(head) for head in heads], rows)
 
-    def _row(self, row: ReportRow) -> tuple[Cell, ...]:
+    def _row(self, row: ReportRow) -> tuple[HtmlCell, ...]:
         return (
-            Cell(escape(row.file)), Cell("" if row.score is None else f"{row.score:.0f}", FIGURE),
-            Cell("" if row.step is None else escape(row.step.short), FIGURE), Cell(self.say(row.mistake or "")),
-            Cell(self.say(row.told)),
+            HtmlCell(escape(row.file)), HtmlCell("" if row.score is None else f"{row.score:.0f}", FIGURE),
+            HtmlCell("" if row.step is None else escape(row.step.short), FIGURE), HtmlCell(self.say(row.mistake or "")),
+            HtmlCell(self.say(row.told)),
         )  # fmt: skip
 
     def _unread(self) -> Iterator[str]:
         if self.found.unread:
             yield f"<h2>{self.say(NOT_JUDGED())}</h2>"
-            rows = [("", (Cell(escape(one.file)), Cell(escape(one.why)))) for one in self.found.unread]
+            rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
             yield from table(self.say(said("Files that could not be read, or show no such drawing.")),
                              (self.say(said("Drawing")), self.say(said("Reason"))), rows)
 
@@ -67,8 +67,8 @@ class _ClassList:
         if not counts:
             return
         most = max(counts.values())
-        rows = [("", (Cell(name), Cell(str(count), FIGURE),
-                      Cell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
+        rows = [("", (HtmlCell(name), HtmlCell(str(count), FIGURE),
+                      HtmlCell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
                 for name, count in counts.items()]
         yield f"<h2>{self.say(head)}</h2>"
         yield from table(self.say(said("How many drawings, of {0}.", len(self.found.marked))),

@@ -17,19 +17,18 @@ from typing import Any
 
 import matplotlib
 import numpy as np
-from matplotlib.artist import Artist
-from matplotlib.backends.backend_agg import FigureCanvasAgg
-from matplotlib.backends.backend_pdf import PdfPages
+from matplotlib.backends.backend_agg import RendererAgg
+from matplotlib.backends.backend_pdf import Name, PdfFile, RendererPdf
 from matplotlib.colors import to_rgb
-from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.ft2font import FT2Font
+from matplotlib.image import imsave
 from matplotlib.path import Path
 from matplotlib.transforms import Affine2D
 
 from graphplan.errors import Refused
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, SUBSCRIPT
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
 INCH = 25.4
@@ -38,8 +37,7 @@ EM = 1000  # advances are read off at this size
 WORD = re.compile(r" *[^ ]+ *|^ +$")  # with the spaces about it, so that words stay apart for those who search
 SETTINGS: Any = {  # whatever the reader's own settings are
     "pdf.fonttype": 42, "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,
-    "savefig.bbox": "standard", "savefig.transparent": False, "savefig.facecolor": PAPER, "text.hinting": "no_hinting",
-    "text.antialiased": True,
+    "text.hinting": "no_hinting", "text.antialiased": True,
 }  # fmt: skip
 
 
@@ -48,13 +46,21 @@ def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> byte
 
     Fails with `Refused` where a sheet has letters that the font does not.
     """
-    file = io.BytesIO()
-    about: Any = {"Title": title or sheets[0].title, "Creator": "graphplan", "Producer": "graphplan",
-                  "CreationDate": None}
-    with matplotlib.rc_context(SETTINGS), PdfPages(file, metadata=about) as pages:
+    written, about = io.BytesIO(), {"Title": title or sheets[0].title, "Creator": "graphplan", "Producer": "graphplan",
+                                    "CreationDate": None}
+    with matplotlib.rc_context(SETTINGS):
+        file: Any = PdfFile(written, metadata=about)
+        heard = {"Lang": language or sheets[0].language, "ViewerPreferences": {"DisplayDocTitle": True}}
+        file.writeObject(file.rootObject, {"Type": Name("Catalog"), "Pages": file.pagesObject, **heard})
         for sheet in sheets:
-            pages.savefig(_figure(sheet))
-    return _spoken(file.getvalue(), language or sheets[0].language)
+            wide, high = sheet.width / INCH, sheet.height / INCH
+            file.newPage(wide, high)
+            renderer = RendererPdf(file, 72, high, wide)
+            _Painter(renderer).sheet(sheet)
+            renderer.finalize()
+        file.finalize()
+        file.close()
+    return written.getvalue()
 
 
 def png(sheet: Sheet, dpi: float = 150) -> bytes:
@@ -62,59 +68,32 @@ def png(sheet: Sheet, dpi: float = 150) -> bytes:
 
     Fails with `Refused` where the sheet has letters that the font does not.
     """
-    file = io.BytesIO()
-    about: Any = {"Title": sheet.title, "Software": "graphplan"}
+    written, about = io.BytesIO(), {"Title": sheet.title, "Software": "graphplan"}
     with matplotlib.rc_context(SETTINGS):
-        _figure(sheet).savefig(file, format="png", dpi=dpi, metadata=about)
-    return file.getvalue()
+        renderer = RendererAgg(int(sheet.width / INCH * dpi), int(sheet.height / INCH * dpi), dpi)
+        _Painter(renderer).sheet(sheet)
+        imsave(written, np.asarray(renderer.buffer_rgba()), format="png", dpi=dpi, metadata=about)
+    return written.getvalue()
 
 
-def _figure(sheet: Sheet) -> Figure:
-    """A figure of the sheet's size with nothing on it but the sheet."""
-    letters = {char for item in sheet.items if isinstance(item, Text) for run in item.runs for char in run.text}
-    if lacking := sorted(char for char in letters if not _has(char)):
-        raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(lacking)}",
-                      "draw it as SVG, whose viewer brings other fonts")
-    figure = Figure(figsize=(sheet.width / INCH, sheet.height / INCH), facecolor=PAPER)
-    FigureCanvasAgg(figure)
-    figure.add_artist(_Page(sheet))
-    return figure
-
-
-def _spoken(document: bytes, language: str) -> bytes:
-    """The document with its language and title for those who hear it: an update of its catalogue, put at its end."""
-    trailer = document[document.rindex(b"trailer") :]
-    root, size, before = (int(re.findall(key + rb"\s+(\d+)", trailer)[0]) for key in (b"Root", b"Size", b"startxref"))
-    info = re.findall(rb"/Info \d+ 0 R", trailer)[0]
-    catalogue = re.findall(rb"\n%d 0 obj\n<<(.*?)>>\nendobj" % root, document, re.DOTALL)[0]
-    heard = b"/Lang (%s) /ViewerPreferences << /DisplayDocTitle true >>" % language.encode("ascii")
-    entry = b"%d 0 obj\n<<%s%s>>\nendobj\n" % (root, catalogue, heard)
-    table = b"xref\n%d 1\n%010d 00000 n \n" % (root, len(document))
-    end = b"trailer\n<< /Size %d /Root %d 0 R %s /Prev %d >>\n" % (size, root, info, before)
-    return b"%s%s%s%sstartxref\n%d\n%%%%EOF\n" % (document, entry, table, end, len(document) + len(entry))
-
-
-class _Page(Artist):
-    """A sheet as a thing that matplotlib draws."""
-
-    def __init__(self, sheet: Sheet):
-        super().__init__()
-        self.sheet = sheet
-
-    def draw(self, renderer: Any) -> None:
-        """Draw every item, from back to front."""
-        hand = _Hand(renderer)
-        for item in self.sheet.items:
-            hand.draw(item)
-
-
-class _Hand:
+class _Painter:
     """Draws items with a renderer of matplotlib: `mm` of its units are a millimetre."""
 
     def __init__(self, renderer: Any):
         self.renderer, self.mm = renderer, renderer.points_to_pixels(POINTS)
         self.height = renderer.get_canvas_width_height()[1]
         self.pens: dict[Pen, Any] = {}
+
+    def sheet(self, sheet: Sheet) -> None:
+        """Draw a sheet on its paper, from back to front."""
+        letters = {char for item in sheet.items if isinstance(item, Text) for run in item.runs for char in run.text}
+        if lacking := sorted(char for char in letters if not _has(char)):
+            raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(lacking)}",
+                          "draw it as SVG, whose viewer brings other fonts")
+        paper = Rect(0.0, 0.0, sheet.width, sheet.height).corners
+        self._stroke(Pen(0.0), Path([*paper, paper[0]], closed=True), PAPER)
+        for item in sheet.items:
+            self.draw(item)
 
     def draw(self, item: Item) -> None:
         match item:

@@ -38,7 +38,7 @@ FIGURE, STATE = "figure", "state"  # the classes of cells: of numbers, and of ve
 
 
 @dataclass(frozen=True)
-class Cell:
+class HtmlCell:
     """A cell of a table, as HTML, with its class; one that is a `head` names its row."""
 
     html: str
@@ -64,7 +64,7 @@ def page(tongue: Tongue, title: str, body: Iterable[str]) -> str:
     return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
 
 
-def table(caption: str, heads: Sequence[str], rows: Iterable[tuple[str, Sequence[Cell]]]) -> Iterator[str]:
+def table(caption: str, heads: Sequence[str], rows: Iterable[tuple[str, Sequence[HtmlCell]]]) -> Iterator[str]:
     """A table with its caption and heads, all escaped already; each row has a class, and its first cell names it."""
     yield f'<div class="wide"><table><caption>{caption}</caption>'
     yield "<thead><tr>" + "".join(map(_head, heads)) + "</tr></thead><tbody>"
@@ -124,7 +124,7 @@ class _Report:
             return
         told = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
         told.append((said("in all, of 100"), self.score.total))
-        rows = [("", (Cell(self.say(name)), Cell(f"{percent:.0f}", FIGURE))) for name, percent in told]
+        rows = [("", (HtmlCell(self.say(name)), HtmlCell(f"{percent:.0f}", FIGURE))) for name, percent in told]
         yield f"<h2>{self.say(said('Score'))}</h2>"
         yield from table(self.say(said("What was earned, of 100.")), ("", self.say(said("Score"))), rows)
 
@@ -140,17 +140,17 @@ class _Report:
         yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
                          [self.say(head) for head in heads], rows)
 
-    def _step(self, verdict: Verdict) -> tuple[Cell, ...]:
+    def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
         seen = measured(self.judgement, verdict)
         sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
-            Cell(self.set(called(drawn, verdict.step).short), FIGURE),
-            Cell(self.say(plans.plan_of_step[verdict.step].words)),
-            Cell(self.set(drawn.sentence(verdict.step))),
-            Cell(self.say(STATES[verdict.state]()), STATE),
-            *(Cell(size, FIGURE) for size in sizes),
-            Cell(self.set(self._mistake(verdict))),
+            HtmlCell(self.set(called(drawn, verdict.step).short), FIGURE),
+            HtmlCell(self.say(plans.plan_of_step[verdict.step].words)),
+            HtmlCell(self.set(drawn.sentence(verdict.step))),
+            HtmlCell(self.say(STATES[verdict.state]()), STATE),
+            *(HtmlCell(size, FIGURE) for size in sizes),
+            HtmlCell(self.set(self._mistake(verdict))),
         )  # fmt: skip
 
     def _mistake(self, verdict: Verdict) -> str:
@@ -173,13 +173,13 @@ class _Report:
         yield f"<h2>{self.say(said('Results'))}</h2>"
         yield from table(self.say(said("In the units of the scene.")), [self.say(head) for head in heads], rows)
 
-    def _number(self, verdict: NumberVerdict) -> tuple[Cell, ...]:
+    def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
         told: Said | str = verdict.mistake or ""
         return (
-            Cell(self.set(quantity(verdict))), Cell(escape(written(verdict.number)), FIGURE),
-            Cell(figures(verdict.true), FIGURE), Cell(self.say(STATES[verdict.state]()), STATE),
-            Cell(digits(verdict.off, FIGURES), FIGURE), Cell(digits(verdict.tolerance, FIGURES), FIGURE),
-            Cell(self.set(told)),
+            HtmlCell(self.set(quantity(verdict))), HtmlCell(escape(written(verdict.number)), FIGURE),
+            HtmlCell(figures(verdict.true), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
+            HtmlCell(digits(verdict.off, FIGURES), FIGURE), HtmlCell(digits(verdict.tolerance, FIGURES), FIGURE),
+            HtmlCell(self.set(told)),
         )  # fmt: skip
 
 

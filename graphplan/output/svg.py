@@ -42,7 +42,7 @@ def svg(sheet: Sheet, **look: Any) -> str:
 
 def groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
     """The groups of a sheet from back to front, each by its layer or by the number of its step."""
-    writer = _Writer(sheet.height)
+    writer = _SheetWriter(sheet.height)
     for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else item.step):
         made = group(key, sheet)
         for item in items:
@@ -72,7 +72,7 @@ class _Metadata(TSpan):  # type: ignore[misc]
 
 
 @dataclass(frozen=True)
-class _Writer:
+class _SheetWriter:
     """Writes items; y runs down in SVG and up on the sheet."""
 
     height: float

@@ -76,10 +76,13 @@ def test_a_pdf_has_a_page_of_true_size_for_each_sheet() -> None:
     assert b"/Title (Two sheets)" in document
     assert b"/Lang (lv)" in document
     assert b"/FontFile2" in document, "fonts are embedded as outlines"
-    table = document[int(re.findall(rb"startxref\s+(\d+)", document)[-1]) :]
-    updated = re.match(rb"xref\n(\d+) 1\n(\d{10}) 00000 n \ntrailer", table)
-    assert updated, "readers find the last table where the end says"
-    assert document[int(updated[2]) :].startswith(updated[1] + b" 0 obj\n<< /Type /Catalog")
+    table = document[int(re.findall(rb"startxref\s+(\d+)", document)[-1]) :].splitlines()
+    root = re.findall(rb"/Root (\d+) 0 R", document)[0]
+    assert table[0] == b"xref", "readers find the table where the end says"
+    catalogue = document[int(table[2 + int(root)].split()[0]) :].partition(b"endobj")[0]
+    assert catalogue.startswith(root + b" 0 obj\n<< /Type /Catalog")
+    assert b"/Lang (lv)" in catalogue
+    assert b"/DisplayDocTitle true" in catalogue
 
 
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="pdftotext is not installed")

@@ -36,7 +36,7 @@ FRONT = {"__init__", "__main__", "commands"}
 OUTSIDE = {
     "matplotlib": {"output/pdf_png.py"},
     "svgwrite": {"output/svg.py", "output/stepper.py"},
-    "shapely": {"sheet", "output", "marking"},
+    "shapely": {"sheet", "marking"},
     "ezdxf": {"output", "marking"},
     "cv2": {"marking"},
     "pypdfium2": {"marking"},

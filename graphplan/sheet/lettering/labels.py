@@ -12,9 +12,9 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import AIR, BALLOON, OUTWARDS, SMALL, Array, Places, Wish, places
+from graphplan.sheet.lettering.label_candidates import AIR, BALLOON, SMALL, Array, Places, Wish, places
 from graphplan.sheet.lettering.lettering import CAPS
-from graphplan.sheet.lettering.obstacles import Lines, Marks, Surfaces, around, meet
+from graphplan.sheet.lettering.obstacles import Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 
@@ -97,7 +97,8 @@ def _free_place(prices: Prices, letter: slice, taken: Array) -> int:
 
 def _overlap(boxes: Array, others: Array) -> Array:
     """How much of the other letters each box covers: a fixed price for touching, and the area."""
-    others = others[meet(around(boxes) + AIR * OUTWARDS, others)]
+    low, high = boxes[:, :2].min(axis=0) - AIR, boxes[:, 2:].max(axis=0) + AIR
+    others = others[((others[:, :2] <= high) & (others[:, 2:] >= low)).all(axis=1)]
     if not len(others):
         return np.zeros(len(boxes))
     wide = np.minimum(boxes[:, None, 2], others[None, :, 2]) - np.maximum(boxes[:, None, 0], others[None, :, 0]) + AIR

@@ -20,7 +20,7 @@ MAY = {
     "phrases": set(),
     "words": {"errors", "phrases"},
     "kernel": {"errors", "phrases"},
-    "mechanism": {"errors", "phrases"},
+    "mechanism": {"errors", "phrases", "words"},
     "solver": {"errors", "mechanism"},
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},

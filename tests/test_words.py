@@ -31,7 +31,8 @@ from graphplan.methods.panels import JointForce, Lever
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import ADVANCE
-from graphplan.words.tongue import LANGUAGES, Entry, catalogue, tongue
+from graphplan.words import LANGUAGES
+from graphplan.words.tongue import Entry, catalogue, tongue
 
 PACKAGE = Path(gp.__file__).parent
 SAYING = {"said", "phrase"}

@@ -5,14 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
+from graphplan.accuracy import PREFERENCES
 from graphplan.accuracy.drafted import Drafted, drafted, percent
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import FAILURES
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import METHODS
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
+from graphplan.methods.styles import METHODS
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 from graphplan.sheet.layout.paper import sheet_size
 
@@ -149,7 +150,6 @@ def _balanced(one: Drafted) -> tuple[float, ...]:
     return one.operations * one.error, one.operations
 
 
-WEIGHED: dict[str, tuple[Callable[[Drafted], tuple[float, ...]], Phrase]] = {
-    "quick": (_quick, phrase("quick")), "accurate": (_accurate, phrase("accurate")),
-    "balanced": (_balanced, phrase("balanced")),
-}  # fmt: skip
+WEIGHED: dict[str, tuple[Callable[[Drafted], tuple[float, ...]], Phrase]] = dict(zip(PREFERENCES, (
+    (_quick, phrase("quick")), (_accurate, phrase("accurate")), (_balanced, phrase("balanced")),
+), strict=True))

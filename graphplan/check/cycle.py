@@ -18,10 +18,10 @@ from graphplan.check.trusted import construct
 from graphplan.cycle import Turn, follow
 from graphplan.errors import ConstructionError, GraphplanError, SingularPose
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import METHODS
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION
+from graphplan.methods.styles import METHODS
 
 BACK = 1e-9  # of the mechanism's extent: points that are so near are in one place
 Progress = Callable[[str, int, int], None]

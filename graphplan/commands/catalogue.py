@@ -8,13 +8,12 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.output import write
+from graphplan.commands.output import as_json, write
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -34,7 +33,7 @@ def run(options: argparse.Namespace) -> int:
 
     scenes = [load(name) for name in packaged()]
     if options.json:
-        write(json.dumps([_data(scene) for scene in scenes], indent=1, ensure_ascii=False) + "\n")
+        write(as_json([_data(scene) for scene in scenes]))
         return 0
     width = shutil.get_terminal_size().columns if sys.stdout and sys.stdout.isatty() else None
     write("\n".join([*fitted([HEAD, *map(_row, scenes)], width), "", LEGEND]) + "\n")

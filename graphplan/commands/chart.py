@@ -16,21 +16,43 @@ examples:
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_pencil
+from graphplan.commands.choices import add_pencil, pencil
 from graphplan.commands.messages import Messages
-from graphplan.commands.output import write
+from graphplan.commands.output import folder_at, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.pencil import Pencil
-    from graphplan.accuracy.survey.picture import Chart
     from graphplan.mechanism.model import Scene
 
-Made = tuple["Chart", str]  # a picture and its table
+
+class Survey(NamedTuple):
+    """What is measured for a chart: the module that does, what its rows are, and what it gives of all, or of a scene.
+
+    Of all it is called with the module alone, and each row is `told` to whoever waits; of a scene besides with this,
+    the pencil, and whether scenes are named.
+    """
+
+    module: str
+    row: str
+    rows: Callable[..., Iterable[Any]]
+    told: str = ""
+
+
+BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
+CHARTS = {
+    "machine": Survey("machine", "Measure", lambda module, scene, hand, named: module.measures(
+        scene, compiled=named or scene.name == BIG)),
+    "draughtsman": Survey("draughtsman", "Draft", lambda module, scene, hand, named: module.drafts(
+        scene, hand, long=named)),
+    "stability": Survey("stability", "Sample", lambda module: module.everything(), "{0.degeneracy}"),
+    "forms": Survey("best_forms", "Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
+    "growth": Survey("growth", "Stage", lambda module: module.stages(), "{0.links} links"),
+}
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -43,93 +65,37 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.pencil import pencil
+    from graphplan.accuracy.survey.table import table
     from graphplan.mechanism.scene import load
     from graphplan.output.charts import drawn
 
     for name in options.names:
         if name not in CHARTS:
             raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
-    if not options.folder.is_dir():
-        raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
-    scenes, hand, messages = [load(name) for name in options.scenes], pencil(options.pencil), Messages(options.quiet)
+    folder_at(options.folder)
+    scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
     for name in options.names or CHARTS:
-        chart, table = CHARTS[name](scenes, hand, messages)
+        module = import_module(f"graphplan.accuracy.survey.{CHARTS[name].module}")
+        rows = [*_rows(name, module, scenes, hand, messages)]
         messages.progress("")
+        picture = import_module(f"graphplan.accuracy.survey.pictures.{name}").picture
+        chart = picture(rows, hand.told) if name == "draughtsman" else picture(rows)
         write(drawn(chart), str(options.folder / f"{name}.svg"))
-        write(table, str(options.folder / f"{name}.csv"))
+        write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0
 
 
-def _machine(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.accuracy.survey.machine import Measure, measures
-    from graphplan.accuracy.survey.pictures.machine import picture
-    from graphplan.accuracy.survey.table import table
-
-    rows = [row for scene in _each("machine", scenes or _packaged(), messages)
-            for row in measures(scene, compiled=bool(scenes) or scene.name == BIG)]
-    return picture(rows), table(Measure, rows)
-
-
-def _draughtsman(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.accuracy.survey.draughtsman import Draft, drafts
-    from graphplan.accuracy.survey.pictures.draughtsman import picture
-    from graphplan.accuracy.survey.table import table
-
-    rows = [row for scene in _each("draughtsman", scenes or _packaged(), messages)
-            for row in drafts(scene, hand, long=bool(scenes))]
-    return picture(rows, hand.told), table(Draft, rows)
-
-
-def _stability(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.accuracy.survey.pictures.stability import picture
-    from graphplan.accuracy.survey.stability import Sample, everything
-    from graphplan.accuracy.survey.table import table
-
-    rows = []
-    for row in everything():
-        messages.progress(f"stability: {row.degeneracy}")
-        rows.append(row)
-    return picture(rows), table(Sample, rows)
-
-
-def _forms(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.accuracy.survey.best_forms import SCENES, Sample, samples
-    from graphplan.accuracy.survey.pictures.forms import picture
-    from graphplan.accuracy.survey.table import table
-    from graphplan.mechanism.scene import load
-
-    rows = [row for scene in _each("forms", scenes or [load(name) for name in SCENES], messages)
-            for row in samples(scene, hand)]
-    return picture(rows), table(Sample, rows)
-
-
-def _growth(scenes: Sequence[Scene], hand: Pencil, messages: Messages) -> Made:
-    from graphplan.accuracy.survey.growth import Stage, stages
-    from graphplan.accuracy.survey.pictures.growth import picture
-    from graphplan.accuracy.survey.table import table
-
-    rows = []
-    for row in stages():
-        messages.progress(f"growth: {row.links} links")
-        rows.append(row)
-    return picture(rows), table(Stage, rows)
-
-
-BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
-CHARTS: dict[str, Callable[[Sequence[Scene], Pencil, Messages], Made]] = {
-    "machine": _machine, "draughtsman": _draughtsman, "stability": _stability, "forms": _forms, "growth": _growth,
-}
-
-
-def _packaged() -> list[Scene]:
+def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: Messages) -> Iterator[Any]:
+    """The rows of a chart, of these scenes or else of those that it is of; each scene is told when it begins."""
     from graphplan.mechanism.scene import load, packaged
 
-    return [load(name) for name in packaged()]
-
-
-def _each(chart: str, scenes: Sequence[Scene], messages: Messages) -> Iterator[Scene]:
-    """The scenes one after the other, told to whoever waits."""
-    for count, scene in enumerate(scenes, 1):
-        messages.progress(f"{chart}: {count}/{len(scenes)} {scene.name}")
-        yield scene
+    survey = CHARTS[name]
+    if survey.told:
+        for row in survey.rows(module):
+            messages.progress(f"{name}: {survey.told.format(row)}")
+            yield row
+        return
+    of = scenes or [load(name) for name in getattr(module, "SCENES", packaged())]
+    for count, scene in enumerate(of, 1):
+        messages.progress(f"{name}: {count}/{len(of)} {scene.name}")
+        yield from survey.rows(module, scene, hand, bool(scenes))

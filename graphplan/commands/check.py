@@ -9,14 +9,13 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, rounded
+from graphplan.commands.choices import add_choices, given, reported
 from graphplan.commands.messages import error
-from graphplan.commands.output import write
+from graphplan.commands.output import as_json, write
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report
@@ -30,19 +29,16 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.replacement import replacements
-    from graphplan.check.report import report
     from graphplan.check.shortcuts import shortcuts
-    from graphplan.mechanism.scene import load
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 
-    scene = rounded(options, load(options.scene))
-    found = report(scene, exact=options.exact, method=options.method, plan=options.plan, inertia=options.inertia,
-                   refuse=False)
+    scene = given(options)
+    found = reported(options, scene, exact=options.exact, refuse=False)
     groups = structure(scene).lines()
     notes = [str(note) for note in (*redundancies(scene), *shortcuts(found.drawing), *replacements(scene))]
     if options.json:
-        write(json.dumps(_data(found, groups, notes), indent=1, ensure_ascii=False) + "\n")
+        write(as_json(_data(found, groups, notes)))
     else:
         write("\n".join(_lines(found, groups, notes)) + "\n")
     if found.drawing.broken:

@@ -1,100 +1,161 @@
-"""Options that several subcommands share."""
+"""Options that several subcommands share, and what they are asked for: a scene, its construction, its sheet."""
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
+from graphplan.accuracy import PREFERENCES
 from graphplan.errors import Refused
+from graphplan.mechanism.presentation import FRAMES, SIZES
+from graphplan.methods.styles import INERTIA, METHODS
+from graphplan.words import LANGUAGES
 
 if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.accuracy.pencil import Pencil
+    from graphplan.check.report import Report
     from graphplan.mechanism.model import Scene
 
 MOST_ROUNDS = 50  # of friction that are drawn, each in force plans of its own
 
 
+def count(option: str, least: int, most: int | None = None) -> Callable[[str], int]:
+    """What reads the whole number of an option, within bounds."""
+    right = f"at least {least}" if most is None else f"{least} to {most}"
+
+    def read(text: str) -> int:
+        try:
+            number = int(text)
+        except ValueError:
+            number = least - 1
+        if number < least or (most is not None and number > most):
+            raise Refused(option, text, f"give {right}")
+        return number
+
+    return read
+
+
+# --- declared ------------------------------------------------------------------------------------------------------
+
+
 def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
     """The options that choose how it is drawn."""
-    command.add_argument("--method", default="", choices=("auxiliary", "trial", "poles"),
+    command.add_argument("--method", default="", choices=tuple(METHODS),
                          help="the form of loci and rings; without it the pose chooses, and the protocol says why")
     command.add_argument("--plan", default="", metavar="PLAN",
                          help="orthogonal velocities on the mechanism plan, or polar plans (without either the lengths "
                          "of the links decide); of the forces lever, polygons, or both (default); such as "
                          "--plan polar,lever")
-    command.add_argument("--inertia", default="couple", choices=("couple", "shifted", "points"),
+    command.add_argument("--inertia", default=INERTIA[0], choices=INERTIA,
                          help="inertia forces: at the centre of mass with a couple (default), shifted so that they "
                          "need none, or at two points that replace the link")
-    command.add_argument("--rounds", type=int, metavar="N",
+    command.add_argument("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
                          help="draw so many rounds of friction; without it they go on until the forces stand")
+    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="")
     if strict:
         command.add_argument("--strict", action="store_true",
                              help="compasses and straightedge alone, no set squares")
 
 
-def add_language(command: argparse.ArgumentParser, default: str = "en") -> None:
-    """The option that says in which language it is said; the `default` may be left to the scene."""
-    from graphplan.words.tongue import LANGUAGES
-
+def add_language(command: argparse.ArgumentParser, default: str = "") -> None:
+    """The option that says in which language it is said; without a `default` it is left to the scene."""
     told = default or "without it the scene's, or en"
     command.add_argument("--language", default=default, choices=LANGUAGES, help=f"the language of all words ({told})")
 
 
+def add_paper(command: argparse.ArgumentParser, told: str) -> None:
+    """The option that names the sheet."""
+    command.add_argument("--paper", choices=tuple(SIZES), help=told)
+
+
 def add_sheet(command: argparse.ArgumentParser) -> None:
     """The options that say what the sheet looks like; without them the scene has a say in it."""
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
-                         help="the sheet; without it the scene's, or the smallest that will do")
-    command.add_argument("--frame", choices=("iso", "gost"),
+    add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
+    command.add_argument("--frame", choices=FRAMES,
                          help="frame and title block after ISO 5457 and 7200, or GOST 2.301 and 2.104; without it the "
                          "scene's, or iso")
-    add_language(command, default="")
-
-
-def rounded(options: argparse.Namespace, scene: Scene) -> Scene:
-    """The scene with as many rounds of friction as the options ask for, if they do."""
-    if options.rounds is None:
-        return scene
-    if not 1 <= options.rounds <= MOST_ROUNDS:
-        raise Refused("--rounds", f"{options.rounds} rounds of friction", f"give 1 to {MOST_ROUNDS}")
-    if scene.loads is None:
-        return scene
-    return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
-
-
-def presented(options: argparse.Namespace, scene: Scene) -> Scene:
-    """The scene with its sheet and its rounds of friction as the options have it, where they say; its title in the
-    sheet's language."""
-    from graphplan.words.tongue import tongue
-
-    scene = rounded(options, scene)
-    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    sheet = replace(scene.sheet, **said)
-    return replace(scene, sheet=sheet, title=tongue(sheet.language or "en").title(scene.title))
+    add_language(command)
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that says how well it is drawn."""
-    command.add_argument("--pencil", default="", metavar="SIZES",
+    command.add_argument("--pencil", type=_pencil, metavar="SIZES",
                          help="how far off the pencil is, as standard deviations: such as point=0.1,edge=0.1,"
                          "opening=0.1 in mm of paper and angle=0.05 in degrees (the defaults)")
 
 
+def _pencil(text: str) -> Pencil:
+    from graphplan.accuracy.pencil import pencil
+
+    return pencil(text)
+
+
 def add_preference(command: argparse.ArgumentParser) -> None:
     """The options by which a form is preferred."""
-    command.add_argument("--prefer", default="", choices=("quick", "accurate", "balanced"),
+    command.add_argument("--prefer", default="", choices=PREFERENCES,
                          help="weigh all forms: the fewest operations, the smallest pencil error, or both")
     add_pencil(command)
 
 
-def chosen(options: argparse.Namespace, scene: Scene, *, strict: bool = False,
-           paper: str | None = None) -> tuple[str, tuple[str, ...]]:
-    """The method to draw by, as named or as preferred, and what is told of the preference."""
+# --- asked for -----------------------------------------------------------------------------------------------------
+
+
+def given(options: argparse.Namespace) -> Scene:
+    """The scene that is named, with as many rounds of friction as the options ask for, if they do."""
+    from graphplan.mechanism.scene import load
+
+    scene = load(options.scene)
+    if options.rounds is None or scene.loads is None:
+        return scene
+    return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
+
+
+def presented(options: argparse.Namespace) -> Scene:
+    """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
+    from graphplan.words.tongue import tongue
+
+    scene = given(options)
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    sheet = replace(scene.sheet, **said)
+    return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
+
+
+def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
+    """The construction that the options ask for, compared with the solver; it notes what is told of a preference."""
+    from graphplan.check.trusted import trusted
+
+    how, told = drawn_by(options, scene)
+    report = trusted(scene, **how, **more)
+    report.drawing.notes.extend(told)
+    return report
+
+
+def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """How a scene is to be drawn, by the method named or preferred, and what is told of the preference."""
+    how = {key: getattr(options, key) for key in ("method", "plan", "inertia", "strict")}
     if not options.prefer:
-        return options.method, ()
-    from graphplan.accuracy.pencil import pencil
+        return how, ()
     from graphplan.accuracy.preference import preferred
     from graphplan.check.trusted import construct
 
-    found = preferred(scene, options.prefer, pencil(options.pencil), method=options.method, plan=options.plan,
-                      strict=strict, inertia=options.inertia, paper=paper, construct=construct)
-    return found.method, found.told
+    found = preferred(scene, options.prefer, pencil(options), construct=construct, **how)
+    return {**how, "method": found.method}, found.told
+
+
+def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafted:
+    """A construction on its sheet, drawn with the pencil and in the language that are asked for."""
+    from graphplan.accuracy.drafted import drafted
+    from graphplan.words.tongue import tongue
+
+    found = found or reported(options, presented(options))
+    return drafted(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language))
+
+
+def pencil(options: argparse.Namespace) -> Pencil:
+    """The pencil that is asked for, or a careful hand's."""
+    from graphplan.accuracy.pencil import Pencil
+
+    return options.pencil or Pencil()

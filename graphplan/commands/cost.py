@@ -9,22 +9,20 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
-from collections.abc import Iterator
+from itertools import product
 
-from graphplan.commands.choices import add_pencil
+from graphplan.commands.choices import add_paper, add_pencil, count, pencil
 from graphplan.commands.messages import Messages
-from graphplan.commands.output import write
+from graphplan.commands.output import as_json, write
+from graphplan.methods.styles import MOTION_PLANS
 
-PLANS = "orthogonal", "polar"
 HAND = 4096  # bytes for what one hand draws, as measured
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
-    command.add_argument("--paper", choices=("A4", "A3", "A2", "A1"),
-                         help="the sheet of all forms; without it each has the smallest that will do")
-    command.add_argument("--hands", type=int, default=0, metavar="N",
+    add_paper(command, "the sheet of all forms; without it each has the smallest that will do")
+    command.add_argument("--hands", type=count("--hands", 2), default=0, metavar="N",
                          help="let N noisy hands draw each form as well, and tell how their results scatter beside "
                          "the expected errors")
     add_pencil(command)
@@ -32,19 +30,16 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.comparison import Comparison, legend
-    from graphplan.accuracy.pencil import pencil
     from graphplan.accuracy.preference import forms
     from graphplan.check.trusted import construct
     from graphplan.cycle.memory import afford
-    from graphplan.errors import Disagreement, Refused
+    from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
 
-    if options.hands and options.hands < 2:
-        raise Refused(f"--hands {options.hands}", "one hand does not scatter", "some thousands")
     afford("--hands", options.hands, "hands", HAND)
-    scene, hand, messages = load(options.scene), pencil(options.pencil), Messages(options.quiet)
+    scene, hand, messages = load(options.scene), pencil(options), Messages(options.quiet)
     found = []
-    for plan, strict in _kinds():
+    for strict, plan in product((False, True), MOTION_PLANS):
         messages.progress(f"{plan} plans{', strict' if strict else ''}")
         drawn = forms(scene, hand, plan=plan, strict=strict, paper=options.paper, construct=construct)
         found.append(Comparison(scene, plan, strict, tuple(drawn), options.hands))
@@ -55,14 +50,9 @@ def run(options: argparse.Namespace) -> int:
             raise refusal
     if options.json:
         data = {"title": scene.title, "model": hand.model, "forms": [row for one in found for row in one.data()]}
-        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")
+        write(as_json(data))
     else:
         tables = [line for one in found for line in one.lines()]
         lines = [scene.title, f"Pencil, standard deviations: {hand.told}.", *tables, *legend(options.hands)]
         write("\n".join(lines) + "\n")
     return 0
-
-
-def _kinds() -> Iterator[tuple[str, bool]]:
-    """Every plan with set squares, then with compasses and straightedge alone."""
-    yield from ((plan, strict) for strict in (False, True) for plan in PLANS)

@@ -17,7 +17,7 @@ import argparse
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_language, rounded
+from graphplan.commands.choices import add_choices, add_language, count, presented
 from graphplan.commands.messages import Messages, error
 from graphplan.commands.output import apart, kind, write
 from graphplan.errors import Refused
@@ -31,7 +31,7 @@ NOTHING_REACHED = 3
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("--positions", type=int, required=True, metavar="N", help="how many poses")
+    add("--positions", type=count("--positions", 1), required=True, metavar="N", help="how many poses")
     add("--from", type=float, dest="start", metavar="A",
         help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
     add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
@@ -44,13 +44,12 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code by numba, if installed: pays for millions of poses")
     add_choices(command)
-    add_language(command, default="")
+    add_language(command)
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.check.curves import asking, curves, quantities
     from graphplan.check.cycle import cycle
-    from graphplan.mechanism.scene import load
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
@@ -59,7 +58,7 @@ def run(options: argparse.Namespace) -> int:
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     apart(options.output, options.plot)
-    scene = rounded(options, load(options.scene))
+    scene = presented(options)
     span = None if options.start is None else (options.start, options.end)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
@@ -79,8 +78,7 @@ def run(options: argparse.Namespace) -> int:
         from graphplan.words.tongue import tongue
 
         drawn = [diagram(curve, options.strips) for curve in curves(found, wanted)]
-        say = tongue(options.language or scene.sheet.language or "en")
-        write(diagrams(drawn, say.title(scene.title), say), options.plot)
+        write(diagrams(drawn, scene.title, tongue(scene.sheet.language)), options.plot)
     _say(found, messages)
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 

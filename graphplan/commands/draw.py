@@ -18,23 +18,23 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper, presented, reported
 from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
+from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.kernel.program import Program
-    from graphplan.methods.construction import Construction
     from graphplan.sheet.plates.display import Sheet
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf")
-DOTS, COARSEST, FINEST = 150, 20, 600  # per inch
+DOTS = 150  # per inch
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="SHEET.svg",
                          help="the file to write: .svg, .pdf, .png or .dxf; without it SVG on standard output")
-    command.add_argument("--dpi", type=int, metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    command.add_argument("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
     add_sheet(command)
     shown = command.add_mutually_exclusive_group()
     shown.add_argument("--until", metavar="N", help="the sheet as it stands after step N")
@@ -48,37 +48,24 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.accuracy.pencil import pencil
-    from graphplan.check.report import report
-    from graphplan.mechanism.scene import load
     from graphplan.sheet.layout.layout import layout
-    from graphplan.words.tongue import tongue
-
-    ending, dpi = asked(options)
-    scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
-    method, told = chosen(options, scene, strict=options.strict)
-    found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
-    found.drawing.notes.extend(told)
-    if options.strip:
-        write(_pages(_strip(found.drawing, options), ending, dpi), options.output)
-        return 0
-    say = tongue(scene.sheet.language or "en")
-    composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
-    if options.numbers:
-        from graphplan.sheet.plates.selection import with_numbers
-
-        composition = with_numbers(composition)
-    sheet = _shown(layout(found.drawing, composition=composition), found.drawing.drawn, options)
-    write(_drawn(sheet, ending, dpi), options.output)
-    return 0
-
-
-def _strip(drawing: Construction, options: argparse.Namespace) -> list[Sheet]:
-    """The pages of the film strip."""
+    from graphplan.sheet.plates.selection import with_numbers
     from graphplan.sheet.strip import strip
 
-    return strip(drawing, single=options.strip == "step")
+    name = asked(options)
+    found = reported(options, presented(options))
+    if options.strip:
+        sheets = strip(found.drawing, single=options.strip == "step")
+    else:
+        composition = on_paper(options, found).composition
+        composition = with_numbers(composition) if options.numbers else composition
+        sheet = layout(found.drawing, composition=composition)
+        sheets = [_shown(sheet, found.drawing.drawn, options)]
+    if name != "pdf" and len(sheets) > 1:
+        raise Refused("--strip", f"it has {len(sheets)} pages", "-o STRIP.pdf, or a larger --paper")
+    write_out, more = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
+    write(write_out(sheets if name == "pdf" else sheets[0], **more), options.output)
+    return 0
 
 
 def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
@@ -91,51 +78,9 @@ def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:
     return selected(sheet, last, first if options.steps else 0)
 
 
-def asked(options: argparse.Namespace) -> tuple[str, int]:
-    """What kind of file is asked for, and how many dots per inch a picture has."""
-    ending, dpi = kind(options.output, ENDINGS, "sheet"), options.dpi
-    if dpi is None:
-        return ending, DOTS
-    if ending != ".png":
-        raise Refused(f"--dpi {dpi}", "only a .png has dots", "leave it out, or -o SHEET.png")
-    if not COARSEST <= dpi <= FINEST:
-        raise Refused(f"--dpi {dpi}", "nobody could read or keep that", f"{COARSEST} to {FINEST} dots per inch")
-    return ending, dpi
-
-
-def _pages(sheets: list[Sheet], ending: str, dpi: int) -> str | bytes:
-    """Sheets as one file of this kind: only a PDF has pages."""
-    if ending == ".pdf":
-        from graphplan.output.pdf_png import pdf
-
-        return pdf(sheets)
-    if len(sheets) > 1:
-        raise Refused("--strip", f"it has {len(sheets)} pages", "-o STRIP.pdf, or a larger --paper")
-    return _drawn(sheets[0], ending, dpi)
-
-
-def _drawn(sheet: Sheet, ending: str, dpi: int) -> str | bytes:
-    """The sheet as a file of this kind."""
-    match ending:
-        case ".pdf":
-            from graphplan.output.pdf_png import pdf
-
-            return pdf([sheet])
-        case ".png":
-            from graphplan.output.pdf_png import png
-
-            return png(sheet, dpi)
-        case ".dxf":
-            return _modelled(sheet)
-    from graphplan.output.svg import svg
-
-    return svg(sheet)
-
-
-def _modelled(sheet: Sheet) -> bytes:
-    """The sheet for CAD programs, where the package is installed that writes for them."""
-    try:
-        from graphplan.output.dxf import dxf
-    except ModuleNotFoundError:
-        raise Refused("DXF", "ezdxf is not installed", "pip install 'graphplan[dxf]', or draw it as SVG") from None
-    return dxf(sheet)
+def asked(options: argparse.Namespace) -> str:
+    """The format that is asked for."""
+    name = kind(options.output, ENDINGS, "sheet").removeprefix(".")
+    if options.dpi and name != "png":
+        raise Refused(f"--dpi {options.dpi}", "only a .png has dots", "leave it out, or -o SHEET.png")
+    return name

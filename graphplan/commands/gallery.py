@@ -13,8 +13,7 @@ from html import escape
 from pathlib import Path
 
 from graphplan.commands.messages import Messages, error
-from graphplan.commands.output import write
-from graphplan.errors import Refused
+from graphplan.commands.output import folder_at, write
 
 HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked
 
@@ -25,8 +24,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    if not options.folder.is_dir():
-        raise Refused(f"{options.folder}: folder", "there is no such folder", "make it first")
+    folder_at(options.folder)
     stale = 0
     written = set()
     for name, text in _pages(options.folder, Messages(options.quiet)):

@@ -15,9 +15,10 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, chosen, presented
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper
 from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
+from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -33,7 +34,7 @@ SHOWN = 2**18  # bytes for a pose that is drawn, as measured
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("-o", "--output", metavar="FILE", required=True, help="the file to write: .pdf or .html")
     command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
-    command.add_argument("--positions", type=int, metavar="N",
+    command.add_argument("--positions", type=count("--positions", 0), metavar="N",
                          help=f"how many poses of the cycle a .html shows ({POSITIONS}); 0 for the given one alone")
     add_sheet(command)
     add_choices(command, strict=True)
@@ -41,25 +42,17 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.accuracy.pencil import pencil
-    from graphplan.check.report import report
-    from graphplan.mechanism.scene import load
-    from graphplan.words.tongue import tongue
+    suffix = _suffix(options)
+    if suffix == ".pdf":
+        write(back_end("pdf")(_pages(on_paper(options).composition, options.only)), options.output)
+        return 0
+    from graphplan.cycle.memory import afford
+    from graphplan.output.stepper import stepper
 
-    suffix, positions = _suffix(options), _positions(options)
-    scene, hand = presented(options, load(options.scene)), pencil(options.pencil)
-    method, told = chosen(options, scene, strict=options.strict)
-    found = report(scene, method=method, plan=options.plan, strict=options.strict, inertia=options.inertia)
-    found.drawing.notes.extend(told)
-    say = tongue(scene.sheet.language or "en")
-    composition = drafted(found.drawing, hand, check=found.check, tongue=say).composition
-    if suffix == ".html":
-        from graphplan.output.stepper import stepper
-
-        write(stepper(_round(found.drawing, composition, positions)), options.output)
-    else:
-        write(_pages(composition, options.only), options.output)
+    positions = POSITIONS if options.positions is None else options.positions
+    afford("--positions", positions, "drawn positions", SHOWN)
+    on_sheet = on_paper(options)
+    write(stepper(_round(on_sheet.drawing, on_sheet.composition, positions)), options.output)
     return 0
 
 
@@ -69,37 +62,18 @@ def _suffix(options: argparse.Namespace) -> str:
     if suffix == ".html" and options.only:
         raise Refused(f"--only {options.only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
     if suffix == ".pdf" and options.positions is not None:
-        raise Refused(f"--positions {options.positions}", "paper does not move", "leave it out, or -o FILE.html")
+        raise Refused("--positions", "a page of a .pdf shows one pose", "leave it out, or -o FILE.html")
     return suffix
 
 
-def _positions(options: argparse.Namespace) -> int:
-    """How many poses are shown."""
-    from graphplan.cycle.memory import afford
-
-    positions = POSITIONS if options.positions is None else int(options.positions)
-    if positions < 0:
-        raise Refused(f"--positions {positions}", "there are no fewer than none", "0 or more")
-    afford("--positions", positions, "drawn positions", SHOWN)
-    return positions
-
-
-def _pages(composition: Composition, only: str | None) -> bytes:
-    """The parts that are wanted as pages."""
-    from graphplan.output.pdf_png import pdf
+def _pages(composition: Composition, only: str | None) -> list[Sheet]:
+    """The pages of the parts that are wanted."""
     from graphplan.sheet.handout import guided, solution, task
 
     solved = solution(composition)
-    sheets: list[Sheet] = []
-    for part in (only,) if only else PARTS:
-        match part:
-            case "task":
-                sheets += task(solved, composition)
-            case "guided":
-                sheets += guided(solved, composition)
-            case _:
-                sheets.append(solved)
-    return pdf(sheets)
+    pages = {"task": lambda: task(solved, composition), "guided": lambda: guided(solved, composition),
+             "solution": lambda: [solved]}
+    return [sheet for part in PARTS if only in (None, part) for sheet in pages[part]()]
 
 
 def _round(drawing: Construction, composition: Composition, positions: int) -> Round:

@@ -6,6 +6,7 @@ through and stays what it is. `-` is standard output.
 
 from __future__ import annotations
 
+import json
 import os
 import stat
 import sys
@@ -13,6 +14,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from errno import EACCES, EBADF, EEXIST, EISDIR
 from io import StringIO
+from typing import Any
 
 from graphplan.errors import Refused
 
@@ -43,6 +45,12 @@ def apart(*paths: str | None) -> None:
         raise Refused(f"{twice}: output", "two results go to one place", "a name for each")
 
 
+def folder_at(path: str | os.PathLike[str]) -> None:
+    """Refuse a folder that is not there."""
+    if not os.path.isdir(path):
+        raise Refused(f"{path}: folder", "there is no such folder", "make it first")
+
+
 def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = False) -> None:
     """Write text (as UTF-8) or bytes to a file or to standard output; a `new` file replaces none that is there."""
     try:
@@ -55,6 +63,11 @@ def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = Fals
         if isinstance(error, BrokenPipeError) and path in (None, STANDARD):
             raise  # whoever read standard output has had enough, which is no fault
         raise _unwritable(path, error) from None
+
+
+def as_json(data: Any, indent: int = 1) -> str:
+    """Data as a text file."""
+    return json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
 
 
 def flush() -> None:

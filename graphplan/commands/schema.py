@@ -13,9 +13,8 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
 
-from graphplan.commands.output import write
+from graphplan.commands.output import as_json, write
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -29,5 +28,5 @@ def run(options: argparse.Namespace) -> int:
 
     schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps,
                "verify": result_schemas.verify}
-    write(json.dumps(schemas[options.of](), indent=2, ensure_ascii=False) + "\n")
+    write(as_json(schemas[options.of](), 2))
     return 0

@@ -11,17 +11,11 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
 from importlib.util import find_spec
-from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_preference, chosen, rounded
-from graphplan.commands.output import write
+from graphplan.commands.choices import add_choices, add_preference, drawn_by, given, reported
+from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
-
-if TYPE_CHECKING:
-    from graphplan.check.report import Report
-    from graphplan.mechanism.model import Scene
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -35,29 +29,21 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.json_results import data
-    from graphplan.check.report import report
-    from graphplan.mechanism.scene import load
-
-    scene = rounded(options, load(options.scene))
-    how = {"method": chosen(options, scene)[0], "plan": options.plan, "inertia": options.inertia}
     if options.digits is not None:
-        return _certified(options, scene, how)
-    found = report(scene, exact=options.exact, alone=not options.pencil, **how)
-    return _printed(data(found, each=options.bounds) | _errors(options, found), True)
+        return _certified(options)
+    from graphplan.check.json_results import data
+
+    found = reported(options, given(options), exact=options.exact, alone=not options.pencil)
+    printed = data(found, each=options.bounds)
+    if options.pencil:
+        from graphplan.accuracy.drafted import drafted
+
+        printed["pencil"] = drafted(found.drawing, options.pencil, check=found.check).data
+    write(as_json(printed, 2))
+    return 0
 
 
-def _errors(options: argparse.Namespace, found: Report) -> dict[str, Any]:
-    """How far off each result is drawn, where a pencil is given."""
-    if not options.pencil:
-        return {}
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.accuracy.pencil import pencil
-
-    return {"pencil": drafted(found.drawing, pencil(options.pencil), check=found.check).data}
-
-
-def _certified(options: argparse.Namespace, scene: Scene, how: dict[str, str]) -> int:
+def _certified(options: argparse.Namespace) -> int:
     """The same between proven bounds."""
     if options.exact:
         raise Refused("--digits", "with --exact every digit is there", "leave out one of the two")
@@ -65,11 +51,8 @@ def _certified(options: argparse.Namespace, scene: Scene, how: dict[str, str]) -
         raise Refused("--digits", "proven digits need python-flint", "install graphplan[certified]")
     from graphplan.check.certified import certified
 
-    found = certified(scene, options.digits, **how)
-    return _printed(found.data, found.agrees)
-
-
-def _printed(table: dict[str, Any], agrees: bool) -> int:
-    """The results on standard output, and the exit status."""
-    write(json.dumps(table, indent=2, ensure_ascii=False) + "\n")
-    return 0 if agrees else 1
+    scene = given(options)
+    how, _ = drawn_by(options, scene)
+    found = certified(scene, options.digits, method=how["method"], plan=options.plan, inertia=options.inertia)
+    write(as_json(found.data, 2))
+    return 0 if found.agrees else 1

@@ -10,37 +10,41 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
+from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, chosen, rounded
-from graphplan.commands.output import write
+from graphplan.commands.choices import add_choices, add_language, add_preference, on_paper
+from graphplan.commands.output import as_json, write
+
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data")
     add_choices(command, strict=True)
-    add_language(command)
+    add_language(command, "en")
     add_preference(command)
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.accuracy.pencil import pencil
-    from graphplan.check.report import report
-    from graphplan.mechanism.scene import load
+    on_sheet = on_paper(options)
+    write(as_json(data(on_sheet)) if options.json else protocol(on_sheet))
+    return 0
+
+
+def data(on_sheet: Drafted) -> dict[str, Any]:
+    """The steps as data, with what drawing them costs and how far off the pencil is."""
+    from graphplan.mechanism.structure import structure
+    from graphplan.output.text import steps
+
+    drawing, say = on_sheet.drawing, on_sheet.composition.plans.tongue
+    return steps(drawing, structure(drawing.scene).lines(), say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+
+
+def protocol(on_sheet: Drafted) -> str:
+    """The same in words."""
     from graphplan.mechanism.structure import structure
     from graphplan.output import text
-    from graphplan.words.tongue import tongue
 
-    scene, hand = rounded(options, load(options.scene)), pencil(options.pencil)
-    method, told = chosen(options, scene, strict=options.strict)
-    found = report(scene, method=method, plan=options.plan, inertia=options.inertia, strict=options.strict)
-    found.drawing.notes.extend(told)
-    say = tongue(options.language)
-    on_sheet, lines = drafted(found.drawing, hand, check=found.check), structure(scene).lines()
-    if options.json:
-        data = text.steps(found.drawing, lines, say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
-        write(json.dumps(data, indent=1, ensure_ascii=False) + "\n")
-    else:
-        write(text.protocol(found.drawing, lines, on_sheet.lines(), say))
-    return 0
+    drawing, say = on_sheet.drawing, on_sheet.composition.plans.tongue
+    return text.protocol(drawing, structure(drawing.scene).lines(), on_sheet.lines(), say)

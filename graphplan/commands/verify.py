@@ -23,25 +23,23 @@ examples:
 from __future__ import annotations
 
 import argparse
-import json
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_choices, add_pencil, add_sheet, presented
+from graphplan.commands.choices import add_choices, add_pencil, add_sheet, on_paper
 from graphplan.commands.messages import Messages, error
-from graphplan.commands.output import STANDARD, kind, write
+from graphplan.commands.output import STANDARD, as_json, kind, write
 from graphplan.errors import GraphplanError, Refused
+from graphplan.output import back_end
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.pencil import Pencil
-    from graphplan.marking.classroom import Classroom, Marked
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.marking.classroom import Marked
     from graphplan.marking.judge.score import Weights
-    from graphplan.methods.construction import Construction
     from graphplan.phrases import Said
-    from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
@@ -63,31 +61,34 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.pencil import pencil
     from graphplan.marking.judge.score import weights
 
-    path, hand, weighed = Path(options.drawing), pencil(options.pencil), weights(options.weights)
+    path, weighed = Path(options.drawing), weights(options.weights)
     ending = _reported(options.report, path, options.scene)
-    desk = Desk(*_composed(options, hand), hand, weighed, options)
-    if os.path.isdir(path):
-        return _class(desk, path, ending)
-    messages = Messages(options.quiet)
-    messages.progress(printable(path.name))
-    one = desk.marked(path)
-    messages.progress("")
+    desk = Desk(on_paper(options), weighed, options)
+    found = (_class if os.path.isdir(path) else _one)(desk, path)
     if options.report:
-        write(_report(one, ending), options.report)
-    write(_record(one) if options.json else desk.said(_lines(one)))
-    return 0
+        write(as_json(found.data) if ending == ".json" else found.page(ending), options.report)
+    say = desk.on_sheet.composition.plans.tongue
+    write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
+    return 0 if found.judged else 2
+
+
+class Findings(NamedTuple):
+    """What is found of a drawing or of a class: as data, in words, as a report of some ending; whether any was judged.
+    """
+
+    data: dict[str, Any]
+    lines: Iterable[Said]
+    page: Callable[[str], str | bytes]
+    judged: bool = True
 
 
 @dataclass(frozen=True)
 class Desk:
     """Where drawings are judged, one after the other: beside the construction on its sheet."""
 
-    drawing: Construction
-    composition: Composition
-    pencil: Pencil
+    on_sheet: Drafted
     weights: Weights
     options: argparse.Namespace
 
@@ -102,10 +103,11 @@ class Desk:
         from graphplan.marking.traces import PlanFrame
         from graphplan.sheet.handout import code
 
-        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in self.composition.views.items()}
-        size = self.composition.arrangement.width, self.composition.arrangement.height
-        submission = read(path, list(self.composition.views), frames, self._printed, code(self.composition), size)
-        task = self.drawing, self.composition, submission, self.pencil
+        composition = self.on_sheet.composition
+        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
+        size = composition.arrangement.width, composition.arrangement.height
+        submission = read(path, list(composition.views), frames, self._printed, code(composition), size)
+        task = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
         found = (judge(*task) if self.options.method
                  else judge_any_method(*task, self.options.plan, self.options.inertia, construct))
         judgement = replace(found, name=printable(path.name))
@@ -115,29 +117,12 @@ class Desk:
         """The page that was drawn on: of a task and of its guided version the plans are the same."""
         from graphplan.sheet.handout import solution, task
 
-        return task(solution(self.composition), self.composition)[0]
-
-    def said(self, lines: Iterator[Said]) -> str:
-        """Lines in the language of the sheet."""
-        return "".join(f"{self.composition.plans.tongue(line)}\n" for line in lines)
+        return task(solution(self.on_sheet.composition), self.on_sheet.composition)[0]
 
 
 def printable(name: str) -> str:
     """A name as it can be told: a file may be called by what no terminal should obey and no text can hold."""
     return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
-
-
-def _composed(options: argparse.Namespace, hand: Pencil) -> tuple[Construction, Composition]:
-    """The construction on its sheet, as the handout has it."""
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.check.report import report
-    from graphplan.mechanism.scene import load
-    from graphplan.words.tongue import tongue
-
-    scene = presented(options, load(options.scene))
-    found = report(scene, method=options.method, plan=options.plan, inertia=options.inertia)
-    say = tongue(scene.sheet.language or "en")
-    return found.drawing, drafted(found.drawing, hand, check=found.check, tongue=say).composition
 
 
 def _reported(output: str | None, path: Path, scene: str) -> str:
@@ -162,6 +147,28 @@ def _same(one: str, other: str | Path) -> bool:
 # ---- one drawing ---------------------------------------------------------------------------------------------------
 
 
+def _one(desk: Desk, path: Path) -> Findings:
+    """One drawing, judged."""
+    from graphplan.marking.judge.overlay import overlay
+    from graphplan.marking.judge.record import record
+
+    messages = Messages(desk.options.quiet)
+    messages.progress(printable(path.name))
+    one = desk.marked(path)
+    messages.progress("")
+
+    def page(ending: str) -> str | bytes:
+        sheets = overlay(one.judgement, one.score)
+        if ending != ".html":
+            written: str | bytes = back_end(ending[1:])(sheets if ending == ".pdf" else sheets[0])
+            return written
+        from graphplan.output.report_page import marked
+
+        return marked(one.judgement, one.score, sheets)
+
+    return Findings(record(one.judgement, one.score), _lines(one), page)
+
+
 def _lines(one: Marked) -> Iterator[Said]:
     """The verdict in a few lines."""
     from graphplan.marking.judge.findings import asked, counted, lacking, miss, opinion
@@ -179,53 +186,14 @@ def _lines(one: Marked) -> Iterator[Said]:
     yield one.score.told
 
 
-def _record(one: Marked) -> str:
-    """The verdict as data."""
-    from graphplan.marking.judge.record import record
-
-    return json.dumps(record(one.judgement, one.score), indent=1, ensure_ascii=False) + "\n"
-
-
-def _report(one: Marked, ending: str) -> str | bytes:
-    """The report as a file of this kind."""
-    if ending == ".json":
-        return _record(one)
-    from graphplan.marking.judge.overlay import overlay
-
-    sheets = overlay(one.judgement, one.score)
-    match ending:
-        case ".pdf":
-            from graphplan.output.pdf_png import pdf
-
-            return pdf(sheets)
-        case ".svg":
-            from graphplan.output.svg import svg
-
-            return svg(sheets[0])
-    from graphplan.output.report_page import marked
-
-    return marked(one.judgement, one.score, sheets)
-
-
 # ---- a class -------------------------------------------------------------------------------------------------------
 
 
-def _class(desk: Desk, folder: Path, ending: str) -> int:
-    """Judge every file of a folder; one that cannot be judged is told, and the others go on."""
-    from graphplan.marking.classroom import lines
+def _class(desk: Desk, folder: Path) -> Findings:
+    """Every file of a folder, judged; one that cannot be judged is told, and the others go on."""
+    from graphplan.marking.classroom import Classroom, Unread, lines
 
-    found, options = _judged(desk, folder, desk.options), desk.options
-    if options.report:
-        write(_class_report(desk, found, ending), options.report)
-    write(_data(found) if options.json else desk.said(lines(found)))
-    return 0 if found.marked else 2
-
-
-def _judged(desk: Desk, folder: Path, options: argparse.Namespace) -> Classroom:
-    """All drawings of a folder, with those that cannot be judged."""
-    from graphplan.marking.classroom import Classroom, Unread
-
-    messages, paths = Messages(options.quiet), _files(folder, options.report)
+    messages, paths = Messages(desk.options.quiet), _files(folder, desk.options.report)
     marked, unread = [], []
     for count, path in enumerate(paths):
         messages.progress(f"{count}/{len(paths)} {printable(path.name)}")
@@ -236,7 +204,14 @@ def _judged(desk: Desk, folder: Path, options: argparse.Namespace) -> Classroom:
             error(printable(fault.lines[0]))
             unread.append(Unread(printable(path.name), printable(fault.lines[0].removeprefix(f"{path}: "))))
     messages.progress("")
-    return Classroom(desk.drawing.scene.title, tuple(marked), tuple(unread))
+    found = Classroom(desk.on_sheet.drawing.scene.title, tuple(marked), tuple(unread))
+
+    def page(ending: str) -> str:
+        from graphplan.output.class_report import class_list
+
+        return class_list(found, desk.on_sheet.composition.plans.tongue)
+
+    return Findings(found.data, lines(found), page, bool(marked))
 
 
 def _files(folder: Path, report: str | None) -> list[Path]:
@@ -257,17 +232,3 @@ def _enclosed(path: Path) -> None:
         raise Refused(f"{path}", "this is a folder within the folder", "move its drawings out of it")
     if not os.path.exists(path):
         raise Refused(f"{path}", "this link leads nowhere", "the drawing itself")
-
-
-def _data(found: Classroom) -> str:
-    """The class as data."""
-    return json.dumps(found.data, indent=1, ensure_ascii=False) + "\n"
-
-
-def _class_report(desk: Desk, found: Classroom, ending: str) -> str:
-    """The report of a class as a file of this kind."""
-    if ending == ".json":
-        return _data(found)
-    from graphplan.output.class_report import class_list
-
-    return class_list(found, desk.composition.plans.tongue)

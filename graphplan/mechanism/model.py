@@ -158,7 +158,7 @@ class Presentation:
     date: str = ""
     drawn_by: str = "graphplan"
     approved_by: str = ""
-    language: str = ""
+    language: str = "en"
     k_s: Fraction | None = None
     k_v: Fraction | None = None
     k_a: Fraction | None = None

@@ -11,10 +11,11 @@ from graphplan.mechanism.items import Item, described
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.units import METRES
+from graphplan.words import LANGUAGES
 
-PAPERS = tuple(f"A{size}{way}" for size in (4, 3, 2, 1, 0) for way in ("", " portrait"))
+SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
+PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
 FRAMES = ("iso", "gost")
-CODES = ("en", "de", "lv", "et", "ru", "uk")
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
@@ -65,7 +66,7 @@ SHEET = Table("the sheet", (
     Field("paper", "the sheet; without it the smallest that will do", choice(*PAPERS)),
     Field("frame", "frame and title block after ISO 5457 and ISO 7200, or after GOST 2.301 and GOST 2.104",
           choice(*FRAMES), default="iso"),
-    Field("language", "the language of all words on the sheet", choice(*CODES), default="en"),
+    Field("language", "the language of all words on the sheet", choice(*LANGUAGES), default="en"),
     Field("convention", "scales as real per drawn (k_v, mm/s per mm) or drawn per real (mu_v, mm per mm/s)",
           choice("real", "drawn"), default="real"),
     Field("owner", "the legal owner, for the title block", _TEXT),

@@ -25,7 +25,7 @@ from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
 from graphplan.methods.poses import Pose
 from graphplan.methods.results import Reading
-from graphplan.methods.styles import Style, style
+from graphplan.methods.styles import METHODS, Style, style
 from graphplan.phrases import Said, said
 
 
@@ -167,7 +167,6 @@ def _ways(moves: Iterable[Move]) -> Iterator[Said]:
 
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
-METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}
 
 
 def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False,

@@ -6,7 +6,9 @@ from dataclasses import dataclass
 
 from graphplan.errors import Refused
 
-PLANS = ("orthogonal", "polar", "lever", "polygons", "both")
+METHODS = {"auxiliary": "auxiliary point", "trial": "trial figure", "poles": ""}  # with the form that each prefers
+MOTION_PLANS = ("orthogonal", "polar")
+PLANS = (*MOTION_PLANS, "lever", "polygons", "both")
 INERTIA = ("couple", "shifted", "points")
 
 
@@ -34,5 +36,5 @@ def style(plan: str, inertia: str) -> Style:
             raise Refused(f"plan {word}", "there is no such plan", f"one of {', '.join(PLANS)}")
     lever, polygons = "lever" in words, "polygons" in words
     both = "both" in words or not (lever or polygons)
-    free = not {"orthogonal", "polar"} & set(words)
+    free = not {*MOTION_PLANS} & {*words}
     return Style("polar" in words, free, lever or both, polygons or both, inertia)

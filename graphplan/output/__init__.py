@@ -1,1 +1,55 @@
-"""On what it is drawn: one file a format, imported when it is called."""
+"""On what it is drawn: one file a format, imported when it is called; a format is known by its entry here."""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from typing import Any, NamedTuple
+
+from graphplan.errors import Refused
+
+
+class Format(NamedTuple):
+    """A format: how its files end, what it is in a line, and the back end: its module, what it is called and reads.
+
+    Without a module what is read is written as it is. `extra` is what installs a library that it needs and that does
+    not come with graphplan.
+    """
+
+    suffix: str
+    told: str
+    module: str
+    function: str
+    reads: str
+    extra: str = ""
+
+
+FORMATS = {
+    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "exports.geogebra", "geogebra", "figure"),
+    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "exports.jsxgraph", "jsxgraph", "figure"),
+    "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "figure"),
+    "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "figure"),
+    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "figure"),
+    "json": Format(".json", "the steps as data", "", "", "steps"),
+    "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
+    "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),
+    "png": Format(".png", "the sheet as a picture", "pdf_png", "png", "sheet"),
+    "dxf": Format(".dxf", "the sheet for CAD programs", "dxf", "dxf", "sheet", "dxf"),
+}
+
+
+def back_end(name: str) -> Callable[..., Any]:
+    """The function that writes a format; fails with `Refused` where its library is not installed."""
+    format = FORMATS[name]
+    if not format.module:
+        return str
+    try:
+        module = importlib.import_module(f"graphplan.output.{format.module}")
+    except ModuleNotFoundError as missing:
+        if not format.extra:
+            raise
+        raise Refused(f"format {name}", f"{missing.name} is not installed",
+                      f"pip install 'graphplan[{format.extra}]', or another format") from None
+    function: Callable[..., Any] = getattr(module, format.function)
+    return function
+

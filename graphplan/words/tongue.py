@@ -16,8 +16,8 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.phrases import TITLES, UNITS, Said, Shaped
+from graphplan.words import LANGUAGES
 
-LANGUAGES = ("en", "de", "lv", "et", "ru", "uk")
 _SYMBOL = re.compile(r"[A-Za-z°]+")
 
 Entry = str | dict[str, str]

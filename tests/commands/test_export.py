@@ -16,7 +16,8 @@ from graphplan.accuracy.drafted import Drafted, drafted
 from graphplan.accuracy.pencil import pencil
 from graphplan.check.report import report
 from graphplan.commands import main, parser
-from graphplan.commands.export import FORMATS, READ, back_end, format_of
+from graphplan.commands.export import READ, format_of
+from graphplan.output import FORMATS, back_end
 
 BEGINS = {
     "ggb": b"PK", "jsxgraph": b"<!DOCTYPE html>", "json": b"{", "svg": b"<?xml", "pdf": b"%PDF", "png": b"\x89PNG",
@@ -132,5 +133,5 @@ def test_exports_speak_the_language(name: str, tmp_path: Path) -> None:
     assert main(["export", "four-bar", "-o", str(path), "--format", name, "--language", "de"]) == 0
     text = ZipFile(path).read("geogebra.xml").decode() if name == "ggb" else path.read_text(encoding="utf-8")
     assert "Schneide" in text
-    assert name == "json" or "Lageplan mit orthogonalen Geschwindigkeiten" in text
+    assert name == "json" or "Lageplan mit gedrehten Geschwindigkeiten" in text
     assert not re.search(r"\b(Draw|Mark|Mechanism plan|drawable|plan:)\b", text)

@@ -55,8 +55,8 @@ def test_a_scene_that_cannot_turn_says_why(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("arguments", "why"), [
     (["-o", "handout.txt"], "no handout is written as .txt"),
     (["-o", "handout.html", "--only", "task"], "has no parts"),
-    (["-o", "handout.pdf", "--positions", "5"], "paper does not move"),
-    (["-o", "handout.html", "--positions", "-1"], "no fewer than none"),
+    (["-o", "handout.pdf", "--positions", "5"], "a page of a .pdf shows one pose"),
+    (["-o", "handout.html", "--positions", "-1"], "--positions: -1; give at least 0"),
 ])
 def test_what_makes_no_sense_is_refused(arguments: list[str], why: str, tmp_path: Path,
                                         monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:

@@ -202,7 +202,7 @@ def test_the_suffix_says_what_is_drawn(tmp_path: Path) -> None:
 @pytest.mark.parametrize(("name", "more", "said"), [
     ("sheet.jpg", [], "no sheet is written as .jpg; a name in .svg, .pdf, .png, .dxf"),
     ("sheet.svg", ["--dpi", "300"], "only a .png has dots"),
-    ("sheet.png", ["--dpi", "5000"], "20 to 600 dots per inch"),
+    ("sheet.png", ["--dpi", "5000"], "--dpi: 5000; give 20 to 600"),
     ("sheet.dxf", [], "ezdxf is not installed; pip install 'graphplan[dxf]'"),
 ])  # fmt: skip
 def test_what_cannot_be_drawn_is_told_and_nothing_written(

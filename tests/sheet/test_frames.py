@@ -15,8 +15,9 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.presentation import SIZES
 from graphplan.output.svg import svg
-from graphplan.sheet.frames.frame import BORDER, FRAMES, SIZES, frame_of
+from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, Page
 from graphplan.sheet.handout import guided, task
 from graphplan.sheet.layout.compose import compose
@@ -24,7 +25,8 @@ from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
 from graphplan.sheet.plates.display import Polyline, Rect, Sheet, Text
 from graphplan.sheet.strip import strip
-from graphplan.words.tongue import ENGLISH, LANGUAGES, tongue
+from graphplan.words import LANGUAGES
+from graphplan.words.tongue import ENGLISH, tongue
 
 FIELDS = {"A4": (6, 4), "A3": (8, 6), "A2": (12, 8), "A1": (16, 12), "A0": (24, 16)}  # ISO 5457, table 2
 

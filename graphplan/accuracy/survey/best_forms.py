@@ -16,13 +16,14 @@ from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.first_order import first_order
 from graphplan.accuracy.hand import hand
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey.draughtsman import PAPER, PLANS
+from graphplan.accuracy.survey.draughtsman import PAPER
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import METHODS, construct
+from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.alternatives import growth_of_rates
+from graphplan.methods.styles import METHODS, MOTION_PLANS
 from graphplan.sheet.layout.scales import Scales
 from graphplan.solver import poses
 
@@ -30,7 +31,7 @@ SCENES = ("alt-eight-link-2", "alt-ten-link-2", "class-four", "double-butterfly"
 POSES = 60
 EQUAL = 1.05  # growths and errors within this factor of the least count as equal: then all of them are best
 ROUNDING, PENCIL = "rounding", "pencil"
-FORMS = tuple(f"{method}, {plan}" for plan in PLANS for method in METHODS)
+FORMS = tuple(f"{method}, {plan}" for plan in MOTION_PLANS for method in METHODS)
 
 
 @dataclass(frozen=True)

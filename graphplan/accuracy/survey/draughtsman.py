@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import Form, forms
 from graphplan.mechanism.model import Scene
+from graphplan.methods.styles import MOTION_PLANS
 
 PAPER = "A1"
-PLANS = ("orthogonal", "polar")
 SQUARES, STRICT = "set squares", "compasses and straightedge"
 LONG = "with loads this takes many seconds a form; name the scene with --scenes"
 
@@ -44,7 +44,7 @@ def drafts(scene: Scene, pencil: Pencil, long: bool = True, paper: str = PAPER) 
 
 def _drawn(scene: Scene, pencil: Pencil, long: bool, paper: str) -> Iterator[Draft]:
     for tools in (SQUARES, STRICT):
-        for plan in PLANS:
+        for plan in MOTION_PLANS:
             if tools == STRICT and scene.loads is not None and not long:
                 yield Draft(scene.name, "every method", plan, tools, paper, None, None, why=LONG)
                 continue

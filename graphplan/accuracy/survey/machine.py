@@ -28,13 +28,13 @@ from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
+from graphplan.methods.styles import MOTION_PLANS
 from graphplan.solver import Rates, poses, solve
 
 POSES = 4096  # at once
 SAMPLED = 5
 LARGER = 1.02
 DIGITS_IN_BITS = 164  # 30 digits, with bits to spare as `solve --digits` takes
-PLANS = ("orthogonal", "polar")
 
 SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
 COMPILED = "loop compiled by numba"
@@ -137,7 +137,7 @@ def _refused(refusal: GraphplanError) -> Run:
 
 def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanError]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
-    for plan in PLANS:
+    for plan in MOTION_PLANS:
         found: list[tuple[list[str], Construction | GraphplanError]] = []
         for method in FORMS:
             one = _constructed(scene, method, plan)

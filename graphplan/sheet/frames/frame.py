@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from itertools import pairwise
 
 from graphplan.mechanism.model import Scene
+from graphplan.mechanism.presentation import SIZES
 from graphplan.phrases import joined, said
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.frames.title_iso import IsoBlock
@@ -22,7 +23,6 @@ from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, 
 from graphplan.sheet.plates.pens import FRAME, LETTERS, Pen
 from graphplan.words.tongue import Tongue
 
-SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 BORDER = "border"  # the layer of what stands outside the frame
 BINDING, EDGE = 20.0, 10.0
 FIELD, STRIP, CAPITALS, DIVISION = 50.0, 5.0, 3.5, Pen(0.35)

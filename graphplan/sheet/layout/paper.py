@@ -11,7 +11,8 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from graphplan.errors import Refused
-from graphplan.sheet.frames.frame import SIZES, Frame
+from graphplan.mechanism.presentation import SIZES
+from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.plates.display import Rect

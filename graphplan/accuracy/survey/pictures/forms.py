@@ -6,14 +6,13 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from graphplan.accuracy.survey.best_forms import EQUAL, PENCIL, ROUNDING, Sample
-from graphplan.accuracy.survey.draughtsman import PLANS
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
-from graphplan.methods.construct import METHODS
+from graphplan.methods.styles import METHODS, MOTION_PLANS
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, RED
 
 ANY = "any method"
 _HUES = {"orthogonal": ("#7f7f7f", BLUE, RED, GREEN), "polar": ("#d4d4d4", "#8fb0e6", "#eaa0a4", "#93cfa9")}
-LOOKS = {f"{method}, {plan}": Look(colour, area=True) for plan in PLANS
+LOOKS = {f"{method}, {plan}": Look(colour, area=True) for plan in MOTION_PLANS
          for method, colour in zip((ANY, *METHODS), _HUES[plan], strict=True)}
 NOWHERE = Look(GREY, area=True, hollow=True)
 TRAVEL = Axis("travel of the drive from the given pose, degrees", log=False, step=60.0)
@@ -51,7 +50,7 @@ def _bands(rows: Sequence[Sample]) -> Iterator[Series]:
 
 def shown(best: Sequence[str]) -> str:
     """The name under which equally good forms are shown; none where there are none."""
-    for plan in PLANS:
+    for plan in MOTION_PLANS:
         methods = [form.split(", ")[0] for form in best if form.endswith(f", {plan}")]
         if methods:
             return f"{ANY if len(methods) == len(METHODS) else methods[0]}, {plan}"

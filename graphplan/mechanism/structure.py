@@ -86,7 +86,7 @@ class Structure(NamedTuple):
 class _Bond(NamedTuple):
     """A pair of a group: its kind (R, P, or T for a prescribed turning) and its bodies; an outer pair has but one.
 
-    One that binds a single freedom acts as a `fictitious` link.
+    A prescribed turning acts as a `fictitious` link, which is no body of the group.
     """
 
     kind: str
@@ -117,7 +117,7 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     """What kind of group these links form."""
     body = _bodies(around, links)
     bonds = tuple(around.bonds(links, body))
-    bodies = dict.fromkeys(body.values())
+    bodies = dict.fromkeys([*body.values(), *(one for bond in bonds for one in bond.bodies)])
     outer = [bond for bond in bonds if len(bond.bodies) == 1]
     if len(bodies) == 1:
         held = len([bond for bond in outer if bond.kind != "T"])
@@ -220,8 +220,14 @@ class _Surroundings:
             within_one_body = len(bodies) == 1 and all(link in body for link in pair.links)
             before = all(link == FRAME or self.stage[link] <= now for link in pair.links)
             kept = isinstance(pair, Drive) or self.dropped[pair.links[0], pair.links[1]] < pair.binds
-            if pair.letter and kept and before and not within_one_body:
-                yield _Bond(pair.letter, bodies, pair.binds == 1)
+            if not (pair.letter and kept and before) or within_one_body:
+                continue
+            if len(pair.letter) == 1:
+                yield _Bond(pair.letter, bodies, isinstance(pair, Drive))
+            else:
+                between = f"between {' '.join(pair.links)}"
+                yield from (_Bond(kind, (between, *([body[link]] if link in body else [])))
+                            for kind, link in zip(pair.letter, pair.links, strict=True))
 
 
 def roman(number: int) -> str:

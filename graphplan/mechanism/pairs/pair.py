@@ -18,12 +18,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
-from graphplan.phrases import Said
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
 
 FRAME = "frame"
+
+
+POINT, LINE, TURNING = "point", "line", "turning"
+"""What a pair passes on to those who draw: the end of a point that the links share; a line along the guide on which the
+end of its point in one link's plane lies, as seen from the other; that the links turn alike."""
 
 
 class Condition(NamedTuple):
@@ -171,22 +175,19 @@ Statement = Turning | Along
 class KinematicPair:
     """A pair of links, or what drives one.
 
-    `letter` is what structure calls it; `binds` how many of the freedoms of two links it takes. A pair that takes only
-    one acts as a link of its own between the two, with a lower pair at either end.
+    `letter` is what structure calls it; `binds` how many of the freedoms of two links it takes, and what it `passes` on
+    to the planner. A pair that takes only one acts as a link of its own between the two: its letters are those of the
+    lower pairs that this has with either.
     """
 
     letter: ClassVar[str] = ""
     binds: ClassVar[int] = 2
+    passes: ClassVar[tuple[str, ...]] = ()
     at: str
 
     @property
     def links(self) -> tuple[str, ...]:
         """The links that it joins; the first carries the pin, or moves on the other."""
-        raise NotImplementedError
-
-    @property
-    def said(self) -> Said:
-        """What it is, in words."""
         raise NotImplementedError
 
     def states(self, scene: Scene) -> Iterator[Statement]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from graphplan.mechanism.pairs.pair import FRAME, Along, KinematicPair
+from graphplan.mechanism.pairs.pair import FRAME, POINT, Along, KinematicPair
 from graphplan.mechanism.plane import X, turned
 
 if TYPE_CHECKING:
@@ -20,7 +20,7 @@ class Revolute(KinematicPair):
     A link is held along x and y, or where special geometry needs only one of both, along an axis of its own and across.
     """
 
-    letter = "R"
+    letter, passes = "R", (POINT,)
     at: str
     pinned: tuple[str, ...]
     axes: Mapping[str, Any] = field(default_factory=dict, compare=False)

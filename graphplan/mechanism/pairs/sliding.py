@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import LINK, POINT, Field, Row, Rows, Table, on_link
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turning
+from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, KinematicPair, Statement, Turning
 from graphplan.mechanism.plane import Pair, turned
 
 if TYPE_CHECKING:
@@ -21,12 +21,11 @@ class Slide(KinematicPair):
 
     `direction` is the guide's direction in this pose, of any length. `through` names the two points that give it,
     where the scene gives it so: then it turns with them in other poses. `written` is the direction as the scene
-    writes it: a vector, an angle in degrees, or two points. Its links turn alike; those of other pairs with a guide
-    need not.
+    writes it: a vector, an angle in degrees, or two points. Other pairs with a guide may pass on less.
     """
 
-    letter = "P"
-    turns_alike: ClassVar[bool] = True
+    letter: ClassVar[str] = "P"
+    passes: ClassVar[tuple[str, ...]] = (LINE, TURNING)
     link: str
     along: str
     at: str
@@ -38,6 +37,16 @@ class Slide(KinematicPair):
     def links(self) -> tuple[str, str]:
         """The sliding link, and that of the guide."""
         return self.link, self.along
+
+    @property
+    def turns_alike(self) -> bool:
+        """Whether its links turn alike, so that any points of theirs tell what its own do."""
+        return TURNING in self.passes
+
+    @property
+    def guiding(self) -> tuple[str, ...]:
+        """The links whose turning is that of the guide."""
+        return self.links if self.turns_alike else (self.along,)
 
     @property
     def name(self) -> str:

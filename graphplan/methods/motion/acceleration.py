@@ -251,21 +251,21 @@ class Normal(Plan):
     def _less_coriolis(self, slide: Slide, known: str, new: str, B: str) -> Mark:
         """The coincident point's mark in the known link's figure, less the Coriolis vector of `new` about `known`."""
         start = self.figure(known, B)
-        if FRAME in (known, new) or self._still(known) or self._still(new):
+        if any(link == FRAME or self._still(link) for link in slide.guiding):
             return start
-        link, P = self._pivot(known, new, B)
+        link, P = self._pivot(slide.guiding, B)
         turning = self.velocity.about(link, P, B)
         slip = self.velocity.slip(known, new, B)
         why = CORIOLIS(slide_named(slide))
         return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
-    def _pivot(self, one: str, two: str, B: str) -> tuple[str, str]:
-        """A point to measure the common turning of two links about: their own, fixed to the frame if there is such."""
+    def _pivot(self, links: tuple[str, ...], B: str) -> tuple[str, str]:
+        """A point to measure the turning of a guide about: one of its links', fixed to the frame if there is such."""
         net = self.net
-        found = [(link, p) for link in (one, two) for p in net.links[link] if net.spot(p) != net.spot(B)]
+        found = [(link, p) for link in links for p in net.links[link] if net.spot(p) != net.spot(B)]
         if found:
             return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
-        return one, next(p for p in self.pose.points if net.spot(p) != net.spot(B))
+        return links[0], next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
     def far_from(self, place: Place) -> Mark:
         """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""

@@ -49,6 +49,9 @@ class Facts:
         self.facts: dict[Place, dict[str, Fact]] = {}
         self.drawn: set[Place] = set()
         self.places = {body: network.places_of(body) for body in network.members}
+        for slide in network.slides:
+            if not slide.turns_alike:
+                self._add_place(network.body[slide.along], network.place(slide.at, slide.along))
         self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
         self.told: dict[tuple[str, Place], int] = {}
         self.spots: dict[str, Two] = {}
@@ -354,13 +357,17 @@ class Facts:
                 self._file(target, slide.name, self._posed(slide.direction))
 
     def _seen(self, slide: Slide, known: str, new: str) -> str:
-        """A point whose end is known in the plane of `known`, not by way of this slide."""
+        """A point whose end is known in the plane of `known`, not by this slide: any, if its links turn alike."""
+        own, at = self.net.place(slide.at, known), self.net.name(slide.at)
         if self.net.body[new] == self.net.ground:
             return ""
+        if not slide.turns_alike:
+            at_rest = self.net.body[known] == self.net.ground
+            return at if at_rest or (own in self.drawn and self._heard(own, slide.name) == 2) else ""
         if self.net.body[known] == self.net.ground:
-            own, at = self.net.links[new], self.net.name(slide.at)
-            joints = [p for p in own if len(self.net.links_of[p]) > 1]
-            return at if at in own else (joints or list(own) or [slide.at])[0]
+            points = self.net.links[new]
+            joints = [p for p in points if len(self.net.links_of[p]) > 1]
+            return at if at in points else (joints or list(points) or [slide.at])[0]
         for place in self.places[self.net.body[known]]:
             if place in self.drawn and self._heard(place, slide.name) == 2 and self.net.has(known, place):
                 return place[0]

@@ -1,0 +1,136 @@
+"""Each kind of pair by its record: what it states of poses, differentiated, is what it tells of rates and passes on."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+import graphplan as gp
+from graphplan.cycle.closure import Closure, given
+from graphplan.cycle.linkage import Linkage, direction
+from graphplan.cycle.travel import paces
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.pairs import KINDS
+from graphplan.mechanism.pairs.pair import (
+    LINE,
+    POINT,
+    TURNING,
+    Along,
+    Attitude,
+    KinematicPair,
+    Rate,
+    Side,
+    Statement,
+)
+from graphplan.mechanism.plane import dot, turned
+from graphplan.mechanism.scene import packaged
+
+STEP = 2.0**-12
+SCENES = packaged()
+
+
+def in_floats(name: str) -> Scene:
+    """A packaged scene in floats, its lengths of the order of 1."""
+    scene = gp.load(name)
+    reach = max(abs(float(x)) for at in scene.points.values() for x in at)
+
+    def unit(z: Any) -> Any:
+        x, y = map(float, z)
+        return x / math.hypot(x, y), y / math.hypot(x, y)
+
+    points = {name: (float(x) / reach, float(y) / reach) for name, (x, y) in scene.points.items()}
+    return scene.posed(points, lambda one: unit(one.direction))
+
+
+def stated(scene: Scene) -> Iterator[tuple[KinematicPair, Statement]]:
+    """What all pairs state, of the directions in which nothing moves as if they were fixed to the other link."""
+    for pair in scene.pairs:
+        for fact in pair.states(scene):
+            yield pair, replace(fact, to="") if isinstance(fact, Along) else fact
+
+
+def lying(rate: Rate, change: Rate, t: float) -> Attitude:
+    """Where a link is after a time, from the origin, as its rates and their changes have it."""
+    x, y, angle = (v * t + a * t * t / 2 for v, a in zip(rate, change, strict=True))
+    return Attitude(x, y, math.cos(angle), math.sin(angle))
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_stated_of_poses_is_stated_of_rates(name: str) -> None:
+    """The residual once and twice derived is the row of the velocities, and what these leave over."""
+    scene, chance = in_floats(name), Random(name)
+    for _, fact in stated(scene):
+        arm: Any = scene.points[fact.at] if fact.at else (0.0, 0.0)
+        first, second = ({link: Rate(*(chance.uniform(-1, 1) for _ in range(3))) for link in (fact.link, fact.on)}
+                         for _ in range(2))
+        before, now, after = (fact.residual({link: lying(first[link], second[link], t) for link in first}, (arm, arm))
+                              for t in (-STEP, 0.0, STEP))
+        velocity, acceleration = (sum(sign * a * b for link, sign in ((fact.link, 1), (fact.on, -1))
+                                      for a, b in zip(fact.weights(arm), rates[link], strict=True))
+                                  for rates in (first, second))
+        left = fact.left_over(*(Side(arm, first[link]) for link in (fact.link, fact.on)))
+        assert now == pytest.approx(0, abs=1e-15)
+        assert (after - before) / (2 * STEP) == pytest.approx(velocity, abs=1e-6)
+        assert (after - 2 * now + before) / STEP**2 == pytest.approx(float(acceleration - left), abs=1e-5)
+
+
+def passed(pair: KinematicPair, scene: Scene) -> list[list[float]]:
+    """What a pair tells the planner, as rows of one link's velocity relative to the other."""
+    (x, y), rows = (float(x) for x in scene.points[pair.at]), []
+    if POINT in pair.passes:
+        rows += [[1, 0, -y], [0, 1, x]]
+    if LINE in pair.passes:
+        across = turned(pair.direction)  # type: ignore[attr-defined]
+        rows.append([*map(float, across), float(dot(across, (-y, x)))])
+    if TURNING in pair.passes:
+        rows.append([0, 0, 1])
+    return rows
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_is_passed_on_is_what_binds(name: str) -> None:
+    """A pair tells the planner as much as it binds, no more and no less."""
+    scene = in_floats(name)
+    for pair in scene.binding:
+        link = pair.links[1] if POINT in pair.passes else pair.links[0]
+        facts = [fact for fact in pair.states(scene) if fact.link == link]
+        rows = [list(fact.weights(scene.points[fact.at] if fact.at else (0, 0))) for fact in facts]
+        both = passed(pair, scene)
+        assert len(rows) == len(both) == pair.binds
+        assert np.linalg.matrix_rank(rows) == np.linalg.matrix_rank(both) == np.linalg.matrix_rank(rows + both)
+
+
+@pytest.mark.parametrize("name", [name for name in SCENES if gp.load(name).drives])
+def test_the_cycle_closes_what_is_stated(name: str) -> None:
+    """Anywhere near the pose, what the closure leaves is what the statements leave, lengths counted in reaches."""
+    linkage = Linkage(gp.load(name), paces(gp.load(name)))
+    closure, chance = Closure(linkage, linkage.parts), Random(name)
+    pose = given(linkage)
+    for link in range(1, pose.shape[2]):
+        pose[0, 0, link] += complex(chance.uniform(-0.1, 0.1), chance.uniform(-0.1, 0.1))
+        pose[0, 1, link] *= np.exp(1j * chance.uniform(-0.3, 0.3))
+    lies = {link: Attitude(base.real, base.imag, turn.real, turn.imag)
+            for link, base, turn in zip(linkage.links, *pose[0], strict=True)}
+    bonds = [bond for part in linkage.parts for link in part for bond in linkage.bonds[link]]
+    left = []
+    for bond in bonds:
+        arms: Any = None, None
+        if isinstance(bond, Along):
+            z = direction(bond)
+            bond = replace(bond, direction=(z.real, z.imag))
+            ends = (linkage.places[bond.at] - linkage.origins[end] for end in (bond.link, bond.on))
+            arms = tuple((arm.real / linkage.reach, arm.imag / linkage.reach) for arm in ends)
+        left.append(bond.residual(lies, arms))
+    assert closure.equations(pose, np.zeros(1))[0][0] == pytest.approx(left, abs=1e-12)
+
+
+def test_every_kind_of_pair_is_in_a_scene() -> None:
+    """The packaged scenes have every kind of pair among them, so that these tests leave none out."""
+    seen = {type(pair).__module__.rsplit(".", 1)[1] for name in SCENES for pair in gp.load(name).pairs}
+    assert seen == {kind for kind in KINDS if kind != "pair"}

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
-from itertools import pairwise
+
+import shapely
 
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Rect, Spot
 
@@ -47,16 +47,6 @@ def clipped(item: Item, rect: Rect) -> Iterator[Item]:
 def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
     """The runs of a chain that lie inside."""
     spots = item.spots if isinstance(item, Polyline) else (*item.spots, item.spots[0])
-    chain: list[Spot] = []
-    for start, end in pairwise(spots):
-        inside = segment(rect, start, end)
-        if inside is None:
-            continue
-        first, last = between(start, end, inside[0]), between(start, end, inside[1])
-        if not chain or math.dist(chain[-1], first) > 1e-9:
-            if len(chain) > 1:
-                yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(chain))
-            chain = [first]
-        chain.append(last)
-    if len(chain) > 1:
-        yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(chain))
+    inside = shapely.clip_by_rect(shapely.LineString(spots), rect.left, rect.bottom, rect.right, rect.top)
+    for run in shapely.get_parts(inside):
+        yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(run.coords))

@@ -7,7 +7,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from itertools import combinations
+
+import shapely
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
@@ -116,31 +117,19 @@ def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
 
 def _shading(corners: Sequence[Spot]) -> Iterator[Item]:
     """Strokes at 45 degrees over a triangle."""
-    levels = [y - x for x, y in corners]
+    triangle, levels, xs = shapely.Polygon(corners), [y - x for x, y in corners], [x for x, _ in corners]
     low, high = min(levels), max(levels)
     count = int((high - low) / (PITCH * math.sqrt(2)))
     for k in range(count):
         level = low + (k + 0.5) * (high - low) / count
-        cuts = []
-        for (p, at), (q, to) in combinations(zip(corners, levels, strict=True), 2):
-            if (at < level) != (to < level):
-                cuts.append(off(p, unit(p, q), math.dist(p, q) * (level - at) / (to - at)))
-        yield Polyline(pens.HATCH, "plates", None, tuple(cuts))
+        stroke = shapely.LineString([(x, x + level) for x in (min(xs), max(xs))]).intersection(triangle)
+        yield Polyline(pens.HATCH, "plates", None, tuple(stroke.coords))
 
 
 def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
-    """The corners of the convex hull, counter-clockwise (Andrew's chain)."""
-
-    def half(points: Sequence[Spot]) -> list[Spot]:
-        chain: list[Spot] = []
-        for p in points:
-            while len(chain) > 1 and turn(chain[-2], chain[-1], p) <= 1e-9:
-                chain.pop()
-            chain.append(p)
-        return chain[:-1]
-
-    ordered = sorted(set(spots))
-    return tuple(half(ordered) + half(ordered[::-1]))
+    """The corners of the convex hull, counter-clockwise from the leftmost."""
+    clockwise = shapely.normalize(shapely.MultiPoint(spots).convex_hull.simplify(1e-9)).exterior.coords
+    return tuple(reversed(clockwise[1:]))
 
 
 def turn(a: Spot, b: Spot, c: Spot) -> float:

@@ -3,34 +3,18 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from dataclasses import dataclass
 from statistics import fmean
 from typing import Any
 
 from graphplan.marking.judge.findings import Called, called, complaint
+from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.score import NOTHING, Score
 from graphplan.marking.judge.verdict import Judgement
-from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+from graphplan.phrases import Said, arranged, joined, phrase, said
 
 NOT_JUDGED = phrase("Not judged")
-MISTAKEN: Mapping[str, Phrase] = {  # the kinds of mistake, as they are told of a class
-    "perpendicular missed": phrase("parallel instead of perpendicular"),
-    "parallel missed": phrase("perpendicular instead of parallel"),
-    "wrong line": phrase("parallel or perpendicular to the wrong line"),
-    "wrong point": phrase("drawn through the wrong point"),
-    "wrong crossing": phrase("the wrong lines crossed"),
-    "wrong side": phrase("the other of the two crossings"),
-    "mirrored figure": phrase("the figure is mirrored"),
-    "reversed": phrase("the vector has the wrong sense"),
-    "turned the wrong way": phrase("the vector is a quarter turn off"),
-    "wrong scale": phrase("a vector of the wrong length"),
-    "wrong start": phrase("laid off from the wrong point"),
-    "wrong vector": phrase("the wrong vector carried over"),
-    "wrong centre": phrase("struck about the wrong centre"),
-    "wrong opening": phrase("struck with the wrong opening"),
-    "exchanged coordinates": phrase("coordinates exchanged, or of the wrong sign"),
-}
 
 
 @dataclass(frozen=True)
@@ -149,7 +133,7 @@ class Classroom:
 
 def mistaken(kind: str) -> Said:
     """A kind of mistake in words."""
-    return MISTAKEN[kind]()
+    return MISTAKES[kind].words()
 
 
 def _row(one: Marked) -> ReportRow:

@@ -1,22 +1,22 @@
 """The mistakes that are made on drawing boards: each is a step that is drawn in the place of another.
 
-A mistake of the table says of which operations it can be made, by what their records say, and which slips it is. A slip
-is a step like any other: another operation, other marks read, a vector turned or too long; so its rule gives what it
-makes, in any domain of numbers. The same table finds the mistake that a drawing shows, and seeds the drawings that the
-finding is tested on.
+A mistake of the table says of which operations it can be made, by what their records say, and which steps it makes: a
+mistake is a step like any other, with another operation, other marks read, a vector turned or too long; so its rule
+gives what it makes, in any domain of numbers. The same table finds the mistake that a drawing shows, and seeds the
+drawings that the finding is tested on.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
-from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, OPENING, POINT, Movement, Primitive, made_by
+from graphplan.kernel.kinds import CIRCLE, DIVIDERS, POINT, Movement, Primitive, made_by
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
-from graphplan.phrases import Said, said
+from graphplan.phrases import Phrase, Said, phrase, said
 from graphplan.sheet.layout.scales import digits
 
 FACTORS = (2.0, 0.5, 10.0, 0.1, 1.5)  # the scales that are mistaken for each other
@@ -58,51 +58,59 @@ def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
 
 @dataclass(frozen=True)
 class Occasion:
-    """A step of a program, where a mistake can be made; `plan_of_step` is the plan of every step."""
+    """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step."""
 
+    kind: str
     program: Program
     step: Step
     plan_of_step: Sequence[str]
 
-    def text(self, place: int) -> str:
+    def text(self, place: int = 0) -> str:
         """What the step reads at a place, by its letters."""
         return self.program.text(self.step.args[place])
 
-    def instead(self, place: int, kind: str) -> Iterator[tuple[str, Step]]:
-        """The step with another mark of the same plan read at a place, by the name of that mark."""
-        step, home = self.step, self.plan_of_step[self.step.args[place]]
-        for other in self.program.steps[:step.index]:
-            if other.op.gives == kind and self.plan_of_step[other.index] == home and other.index not in step.args:
-                args = (*step.args[:place], other.index, *step.args[place + 1:])
-                yield self.program.text(other.index), replace(step, args=args)
+    def made(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None, **changed: Any) -> Mistake:
+        """The step as it is drawn by mistake, with something changed."""
+        return Mistake(self.kind, told, replace(self.step, **changed), factor, mirror)
+
+    def instead(self, told: Phrase, *places: int) -> Iterator[Mistake]:
+        """The step with another mark, of the same kind and plan, read at a place, told by the names of both."""
+        step = self.step
+        for place in places:
+            kind, home = step.op.reads[place], self.plan_of_step[step.args[place]]
+            for other in self.program.steps[:step.index]:
+                if other.op.gives == kind and self.plan_of_step[other.index] == home and other.index not in step.args:
+                    args = (*step.args[:place], other.index, *step.args[place + 1:])
+                    yield self.made(told(self.program.text(other.index), self.text(place)), args=args)
 
 
-Rule = Callable[[Occasion], Iterator[Mistake]]
+Rule = Callable[[Occasion], Iterable[Mistake]]
+Operations = Callable[[Primitive], bool]
 
 
 @dataclass(frozen=True)
 class MistakeKind:
-    """One kind of mistake: at which operations it can be made, and as which slips."""
+    """One kind of mistake: how it is told of a class, at which operations it can be made, and as which steps."""
 
-    kind: str
-    at: Callable[[Primitive], bool]
+    words: Phrase
+    at: Operations
     rule: Rule
 
 
 MISTAKES: dict[str, MistakeKind] = {}
 
 
-def mistake(kind: str, at: Callable[[Primitive], bool]) -> Callable[[Rule], Rule]:
-    """Enter the decorated rule in the table, for the operations at which the mistake can be made."""
+def mistake(kind: str, words: Phrase, at: Operations) -> Callable[[Rule], Rule]:
+    """Enter the decorated rule in the table."""
 
     def enter(rule: Rule) -> Rule:
-        MISTAKES[kind] = MistakeKind(kind, at, rule)
+        MISTAKES[kind] = MistakeKind(words, at, rule)
         return rule
 
     return enter
 
 
-def by(*movements: Movement) -> Callable[[Primitive], bool]:
+def by(*movements: Movement) -> Operations:
     """The operations of some movements."""
     return lambda op: op.movement in movements
 
@@ -113,121 +121,105 @@ def laid_off(op: Primitive) -> bool:
 
 
 def mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
-    """All the slips of the table that can be made at a step."""
-    for entry in MISTAKES.values():
+    """All the mistakes of the table that can be made at a step."""
+    for kind, entry in MISTAKES.items():
         if entry.at(step.op):
-            yield from entry.rule(Occasion(program, step, plan_of_step))
+            yield from entry.rule(Occasion(kind, program, step, plan_of_step))
 
 
 ALIGNED = by(Movement.PARALLEL, Movement.PERPENDICULAR)
 
 
-@mistake("perpendicular missed", by(Movement.PERPENDICULAR))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    yield Mistake("perpendicular missed", said("parallel to {0}, not perpendicular", occasion.text(0)),
-               replace(occasion.step, op=made_by(Movement.PARALLEL)))
+@mistake("perpendicular missed", phrase("parallel instead of perpendicular"), by(Movement.PERPENDICULAR))
+def _(at: Occasion) -> Iterable[Mistake]:
+    return [at.made(said("parallel to {0}, not perpendicular", at.text()), op=made_by(Movement.PARALLEL))]
 
 
-@mistake("parallel missed", by(Movement.PARALLEL))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    yield Mistake("parallel missed", said("perpendicular to {0}, not parallel", occasion.text(0)),
-               replace(occasion.step, op=made_by(Movement.PERPENDICULAR)))
+@mistake("parallel missed", phrase("perpendicular instead of parallel"), by(Movement.PARALLEL))
+def _(at: Occasion) -> Iterable[Mistake]:
+    return [at.made(said("perpendicular to {0}, not parallel", at.text()), op=made_by(Movement.PERPENDICULAR))]
 
 
-@mistake("wrong side", lambda op: op.crossing and bool(op.reversal))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    params = occasion.step.op.reversed(occasion.step.params)
-    yield Mistake("wrong side", said("the other of the two crossings"), replace(occasion.step, params=params))
+@mistake("wrong side", phrase("the other of the two crossings"), lambda op: op.crossing and bool(op.reversal))
+def _(at: Occasion) -> Iterable[Mistake]:
+    return [at.made(said("the other of the two crossings"), params=at.step.op.reversed(at.step.params))]
 
 
-@mistake("mirrored figure", by(Movement.MET))
-def _(occasion: Occasion) -> Iterator[Mistake]:
+@mistake("mirrored figure", phrase("the figure is mirrored"), by(Movement.MET))
+def _(at: Occasion) -> Iterable[Mistake]:
     """The third corner of a similar figure, on the other side of the line of two."""
-    lines = [occasion.program.steps[arg] for arg in occasion.step.args]
+    lines = [at.program.steps[arg] for arg in at.step.args]
     through = [line.args[-1] for line in lines if ALIGNED(line.op)]
     if len(set(through)) == 2 and lines[0].op is lines[1].op:
-        yield Mistake("mirrored figure", said("the figure is mirrored"), occasion.step, mirror=(through[0], through[1]))
+        yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 
-@mistake("reversed", laid_off)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    why = occasion.step.why
-    if NORMAL.says(why):
+@mistake("reversed", phrase("the vector has the wrong sense"), laid_off)
+def _(at: Occasion) -> Iterable[Mistake]:
+    if NORMAL.says(at.step.why):
         told = said("the normal acceleration points away from the centre")
-    elif CORIOLIS.says(why):
+    elif CORIOLIS.says(at.step.why):
         told = said("the Coriolis acceleration is reversed")
     else:
         told = said("the vector has the wrong sense")
-    yield Mistake("reversed", told, occasion.step, -1.0)
+    return [at.made(told, -1.0)]
 
 
-@mistake("turned the wrong way", laid_off)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for factor in (1j, -1j):
-        yield Mistake("turned the wrong way", said("the vector is a quarter turn off"), occasion.step, factor)
+@mistake("turned the wrong way", phrase("the vector is a quarter turn off"), laid_off)
+def _(at: Occasion) -> Iterable[Mistake]:
+    return [at.made(said("the vector is a quarter turn off"), factor) for factor in (1j, -1j)]
 
 
-@mistake("wrong scale", laid_off)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for factor in FACTORS:
-        told = said("the vector is {0} times as long as it should be", digits(factor, 2))
-        yield Mistake("wrong scale", told, occasion.step, factor)
+@mistake("wrong scale", phrase("a vector of the wrong length"), laid_off)
+def _(at: Occasion) -> Iterable[Mistake]:
+    return [at.made(said("the vector is {0} times as long as it should be", digits(factor, 2)), factor)
+            for factor in FACTORS]
 
 
-@mistake("wrong line", ALIGNED)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for other, step in occasion.instead(0, LINE):
-        told = (said("parallel to {0} instead of {1}", other, occasion.text(0)) if step.op.movement is Movement.PARALLEL
-                else said("perpendicular to {0} instead of {1}", other, occasion.text(0)))
-        yield Mistake("wrong line", told, step)
+@mistake("wrong line", phrase("parallel or perpendicular to the wrong line"), ALIGNED)
+def _(at: Occasion) -> Iterable[Mistake]:
+    return at.instead(phrase("parallel to {0} instead of {1}") if at.step.op.movement is Movement.PARALLEL
+                      else phrase("perpendicular to {0} instead of {1}"), 0)
 
 
-@mistake("wrong point", by(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for place, kind in enumerate(occasion.step.op.reads):
-        for other, step in occasion.instead(place, POINT) if kind == POINT else ():
-            yield Mistake("wrong point", said("drawn through {0} instead of {1}", other, occasion.text(place)), step)
+@mistake("wrong point", phrase("drawn through the wrong point"),
+         by(Movement.PARALLEL, Movement.PERPENDICULAR, Movement.RULED, Movement.DROPPED))
+def _(at: Occasion) -> Iterable[Mistake]:
+    places = (place for place, kind in enumerate(at.step.op.reads) if kind == POINT)
+    return at.instead(phrase("drawn through {0} instead of {1}"), *places)
 
 
-@mistake("wrong crossing", lambda op: op.crossing)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for place, kind in enumerate(occasion.step.op.reads):
-        for other, step in occasion.instead(place, kind):
-            yield Mistake("wrong crossing", said("marked on {0} instead of {1}", other, occasion.text(place)), step)
+@mistake("wrong crossing", phrase("the wrong lines crossed"), lambda op: op.crossing)
+def _(at: Occasion) -> Iterable[Mistake]:
+    return at.instead(phrase("marked on {0} instead of {1}"), *range(len(at.step.args)))
 
 
-@mistake("wrong start", laid_off)
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    place = occasion.step.op.root or 0
-    for other, step in occasion.instead(place, POINT):
-        yield Mistake("wrong start", said("laid off from {0} instead of {1}", other, occasion.text(place)), step)
+@mistake("wrong start", phrase("laid off from the wrong point"), laid_off)
+def _(at: Occasion) -> Iterable[Mistake]:
+    return at.instead(phrase("laid off from {0} instead of {1}"), at.step.op.root or 0)
 
 
-@mistake("wrong vector", lambda op: op.movement is Movement.HALVED or (laid_off(op) and op.instrument == DIVIDERS))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for place in (0, 1):
-        for other, step in occasion.instead(place, POINT):
-            yield Mistake("wrong vector", said("taken from {0} instead of {1}", other, occasion.text(place)), step)
+@mistake("wrong vector", phrase("the wrong vector carried over"),
+         lambda op: op.movement is Movement.HALVED or (laid_off(op) and op.instrument == DIVIDERS))
+def _(at: Occasion) -> Iterable[Mistake]:
+    return at.instead(phrase("taken from {0} instead of {1}"), 0, 1)
 
 
-@mistake("wrong centre", by(Movement.STRUCK))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    for other, step in occasion.instead(0, POINT):
-        yield Mistake("wrong centre", said("struck about {0} instead of {1}", other, occasion.text(0)), step)
+@mistake("wrong centre", phrase("struck about the wrong centre"), by(Movement.STRUCK))
+def _(at: Occasion) -> Iterable[Mistake]:
+    return at.instead(phrase("struck about {0} instead of {1}"), 0)
 
 
-@mistake("wrong opening", by(Movement.STRUCK))
-def _(occasion: Occasion) -> Iterator[Mistake]:
+@mistake("wrong opening", phrase("struck with the wrong opening"), by(Movement.STRUCK))
+def _(at: Occasion) -> Iterable[Mistake]:
     for factor in (2.0, 0.5):
-        told = said("the radius is {0} times as large as it should be", digits(factor, 2))
-        yield Mistake("wrong opening", told, occasion.step, factor)
-    for other, step in occasion.instead(1, OPENING):
-        yield Mistake("wrong opening", said("struck with {0} instead of {1}", other, occasion.text(1)), step)
+        yield at.made(said("the radius is {0} times as large as it should be", digits(factor, 2)), factor)
+    yield from at.instead(phrase("struck with {0} instead of {1}"), 1)
 
 
-@mistake("exchanged coordinates", by(Movement.GIVEN))
-def _(occasion: Occasion) -> Iterator[Mistake]:
-    x, y = (occasion.step.params[name] for name in "xy")
+@mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"), by(Movement.GIVEN))
+def _(at: Occasion) -> Iterable[Mistake]:
+    x, y = (at.step.params[name] for name in "xy")
     for told, (u, v) in ((said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
                          (said("y has the wrong sign"), (x, -y))):
-        yield Mistake("exchanged coordinates", told, replace(occasion.step, params={"x": u, "y": v}))
+        yield at.made(told, params={"x": u, "y": v})

@@ -96,8 +96,7 @@ class Desk:
         """A drawing judged; fails with `Refused` where it cannot be."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom import Marked
-        from graphplan.marking.judge.any_method import judge_any_method
-        from graphplan.marking.judge.judge import judge
+        from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.score import score
         from graphplan.marking.submission import read
         from graphplan.marking.traces import PlanFrame
@@ -149,8 +148,8 @@ def _same(one: str, other: str | Path) -> bool:
 
 def _one(desk: Desk, path: Path) -> Findings:
     """One drawing, judged."""
+    from graphplan.marking.judge.findings import record
     from graphplan.marking.judge.overlay import overlay
-    from graphplan.marking.judge.record import record
 
     messages = Messages(desk.options.quiet)
     messages.progress(printable(path.name))

@@ -16,10 +16,8 @@ from graphplan.marking.judge.findings import (
     ALLOWED,
     FIGURES,
     OFF,
-    blamed,
     called,
     counted,
-    measured,
     named,
     opinion,
     quantity,
@@ -142,7 +140,7 @@ class _Report:
 
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
-        seen = measured(self.judgement, verdict)
+        seen = self.judgement.measured(verdict)
         sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
             HtmlCell(self.set(called(drawn, verdict.step).short), FIGURE),
@@ -157,7 +155,7 @@ class _Report:
         """What was probably done, with the earlier step at which it was if that is another."""
         if verdict.mistake is None:
             return ""
-        guilty = blamed(verdict)
+        guilty = verdict.blamed
         if guilty is None:
             return verdict.mistake
         return arranged("{0}: {1}", named(self.judgement.drawing.drawn, guilty), verdict.mistake)

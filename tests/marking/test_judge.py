@@ -14,8 +14,7 @@ import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.any_method import judge_any_method
-from graphplan.marking.judge.judge import judge
+from graphplan.marking.judge.judge import judge, judge_any_method
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.submission import read

@@ -8,7 +8,6 @@ import pytest
 from judged import judgement
 
 from graphplan.errors import Refused
-from graphplan.marking.judge.findings import judged
 from graphplan.marking.judge.score import POSE, RESULTS, Weights, score, served, weights
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict
 from graphplan.marking.traces import Number
@@ -36,7 +35,7 @@ def test_a_faultless_drawing_earns_everything() -> None:
 def test_a_slip_is_punished_once() -> None:
     """One wrong step costs one step's share, whatever rests on it; follows=0 takes those shares too."""
     slipped = judgement("four-bar", {crossing("four-bar"): 3j})
-    seen = [verdict.state for verdict in judged(slipped) if verdict.state != UNSEEN]
+    seen = [verdict.state for verdict in slipped.judged if verdict.state != UNSEEN]
     assert FOLLOWS in seen
     assert score(slipped).total == pytest.approx(100 * (1 - 1 / len(seen)))
     assert score(slipped, weights("follows=0")).total == pytest.approx(100 * seen.count(RIGHT) / len(seen))

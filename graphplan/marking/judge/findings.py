@@ -1,15 +1,14 @@
-"""What is found of a drawing, counted and in words."""
+"""What is found of a drawing: counted, in words, and as data."""
 
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
-from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Program
-from graphplan.marking.judge.verdict import MISSING, NOT_NEEDED, STATES, WRONG, Judgement, NumberVerdict, Verdict
+from graphplan.marking.judge.score import Score
+from graphplan.marking.judge.verdict import MISSING, NOT_NEEDED, STATES, Judgement, NumberVerdict, Verdict
 from graphplan.methods.kinds import WORDS
 from graphplan.phrases import Said, arranged, joined, phrase, said
 from graphplan.sheet.layout.scales import digits
@@ -18,29 +17,9 @@ FIGURES = 2  # of a distance on paper
 OFF, ALLOWED = phrase("off"), phrase("allowed")
 
 
-def judged(judgement: Judgement) -> Iterator[Verdict]:
-    """The verdicts that count: what is given counts only where it is wrong, and a plan may begin anywhere."""
-    steps = judgement.drawing.drawn.steps
-    for verdict in judgement.verdicts:
-        if verdict.state == WRONG or not steps[verdict.step].op.free:
-            yield verdict
-
-
-def measured(judgement: Judgement, verdict: Verdict) -> bool:
-    """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
-    step = judgement.drawing.drawn.steps[verdict.step]
-    return verdict.trace is not None and step.op.movement is not Movement.BEGUN
-
-
-def counts(judgement: Judgement) -> dict[str, int]:
-    """How many steps there are of each verdict."""
-    found = Counter(verdict.state for verdict in judged(judgement))
-    return {state: found[state] for state in STATES}
-
-
 def counted(judgement: Judgement) -> Said:
     """The same in words, with the marks that no step asks for."""
-    told = [arranged("{0} {1}", count, STATES[state]()) for state, count in counts(judgement).items() if count]
+    told = [arranged("{0} {1}", count, STATES[state]()) for state, count in judgement.counts.items() if count]
     if judgement.spare:
         told.append(arranged("{0} {1}", len(judgement.spare), NOT_NEEDED()))
     return joined(told)
@@ -108,21 +87,16 @@ def remark(judgement: Judgement, verdict: Verdict) -> Said:
     sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes
-    guilty = blamed(verdict)
+    guilty = verdict.blamed
     if guilty is None:
         return joined((verdict.mistake, sizes))
     return joined((sizes, said("probably {0}: {1}", named(judgement.drawing.drawn, guilty), verdict.mistake)))
 
 
-def blamed(verdict: Verdict) -> int | None:
-    """The earlier step that is probably to blame for a wrong one; None where it is its own slip."""
-    return None if verdict.guilty == verdict.step else verdict.guilty
-
-
 def lacking(judgement: Judgement, state: str = MISSING) -> str:
     """The numbers of the steps of a state, as `3, 7-9`."""
     drawn = judgement.drawing.drawn
-    numbers = [drawn.number(verdict.step) for verdict in judged(judgement) if verdict.state == state]
+    numbers = [drawn.number(verdict.step) for verdict in judgement.judged if verdict.state == state]
     parts: list[list[int]] = []
     for number in numbers:
         if parts and parts[-1][-1] == number - 1:
@@ -143,3 +117,64 @@ def miss(verdict: NumberVerdict) -> Said:
     sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
     parts = [quantity(verdict), arranged("{0} {1}", OFF(), sizes[0]), arranged("{0} {1}", ALLOWED(), sizes[1])]
     return said("Wrong result: {0}.", joined(parts if verdict.mistake is None else [*parts, verdict.mistake]))
+
+
+def record(judgement: Judgement, score: Score) -> dict[str, Any]:
+    """Everything that was judged, step by step and number by number; lengths are mm of paper."""
+    first = judgement.first
+    return {
+        "title": judgement.drawing.scene.title,
+        "drawing": judgement.name,
+        "first_wrong": None if first is None else _complaint(judgement, first),
+        "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
+        "numbers": [_number(verdict) for verdict in judgement.numbers],
+        "not_needed": len(judgement.spare),
+        "score": {"total": score.total, **score.groups},
+        "counts": judgement.counts,
+    }
+
+
+def _step(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
+    """One step, with how far off it is where it can be seen."""
+    seen = judgement.measured(verdict)
+    return {
+        **_mark(judgement, verdict.step), "verdict": verdict.state,
+        "off_mm": _finite(verdict.off) if seen else None,
+        "tolerance_mm": _finite(verdict.tolerance) if seen else None,
+        "astray_mm": _finite(verdict.astray) if seen else None,
+        "mistake": None if verdict.mistake is None else str(verdict.mistake),
+    }  # fmt: skip
+
+
+def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
+    """A step by its number and its mark."""
+    name = called(judgement.drawing.drawn, index)
+    return {"step": name.number, "mark": name.mark}
+
+
+def _complaint(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
+    """The first wrong step; `guilty` is the earlier one that is probably to blame, where there is one."""
+    drawn, guilty = judgement.drawing.drawn, verdict.blamed
+    return {
+        **_mark(judgement, verdict.step), "sentence": str(drawn.sentence(verdict.step)),
+        "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance),
+        "mistake": None if verdict.mistake is None else str(verdict.mistake),
+        "kind": verdict.kind or None,
+        "guilty": None if guilty is None else _mark(judgement, guilty),
+    }  # fmt: skip
+
+
+def _finite(size: float) -> float | None:
+    """A size as JSON takes it: what cannot be drawn from the student's marks is off by nothing that could be told."""
+    return size if math.isfinite(size) else None
+
+
+def _number(verdict: NumberVerdict) -> dict[str, Any]:
+    """One number of the table, beside the true one, in the scene's units."""
+    number = verdict.number
+    return {
+        "kind": number.kind, "of": number.of, "value": list(number.value), "unit": number.unit,
+        "verdict": verdict.state, "true": list(verdict.true),
+        "off": _finite(verdict.off), "tolerance": _finite(verdict.tolerance),
+        "mistake": None if verdict.mistake is None else str(verdict.mistake),
+    }  # fmt: skip

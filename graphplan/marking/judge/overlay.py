@@ -1,4 +1,6 @@
 """The overlay: a student's drawing over the true one on the sheet of the construction, and what there is to say of it.
+
+What is wrong first stands in a box, where it covers least of its plan, with a leader to its mark.
 """
 
 from __future__ import annotations
@@ -6,8 +8,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 
-from graphplan.marking.judge.callout import callout
-from graphplan.marking.judge.findings import called, complaint, judged, opinion
+import numpy as np
+import shapely
+from shapely import Geometry, LineString, Point, STRtree
+
+from graphplan.marking.judge.findings import called, complaint, opinion
 from graphplan.marking.judge.remarks import VERDICT, LegendRow, Remarks
 from graphplan.marking.judge.score import Score
 from graphplan.marking.judge.student_strokes import RED, SIZES, StudentStrokes, sample
@@ -15,12 +20,12 @@ from graphplan.marking.judge.verdict import WRONG, Judgement, Verdict
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
 from graphplan.sheet.layout.pages import packed
-from graphplan.sheet.lettering.label_candidates import SMALL, Wish
+from graphplan.sheet.lettering.label_candidates import SMALL, Array, Wish
 from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import Run
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Sheet, Text
-from graphplan.sheet.plates.pens import PAPER, Pen
-from graphplan.sheet.words.rows import Placed, lettered
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, Runs, sentence_runs, width, wrap
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
+from graphplan.sheet.words.rows import LEADING, Placed, lettered
 from graphplan.sheet.words.texts import RESULTS
 
 FAINT, LETTERED, TINTED = "#a6a6a6", "#7a7a7a", "#efefef"
@@ -72,7 +77,7 @@ def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[I
     """On one plan: the first wrong step called out, the others by their numbers."""
     student, first, drawn = StudentStrokes(judgement), judgement.first, judgement.drawing.drawn
     rect = judgement.composition.views[panel].rect
-    wrong = [verdict for verdict in judged(judgement) if verdict.state == WRONG and verdict.trace is not None
+    wrong = [verdict for verdict in judgement.judged if verdict.state == WRONG and verdict.trace is not None
              and student.home(verdict) == panel and panel in judgement.frames]
     here = list(items)
     if first in wrong:
@@ -97,3 +102,74 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
         yield from lettered([(row, x, y)])
         if isinstance(row, LegendRow):
             yield from sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
+
+
+LAYER = "student"
+WIDEST, PAD, PITCH = 62.0, 1.5, 2.0  # mm: of the lettering; about it in its box; between the places that are tried
+CLEAR, FAR = 6.0, 0.25  # mm between the box and its mark; the price of every further one
+RING = 2.4  # mm about the mark
+
+
+def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
+            pen: Pen) -> Iterator[Item]:
+    """The box with its leader; `items` are what it should not cover."""
+    room = min(WIDEST, rect.width - 4 * PAD)
+    lines = wrap(sentence_runs(sentence, names), SIZE, room)
+    wide = max(width(line, SIZE) for line in lines) + 2 * PAD
+    high = SIZE * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
+    box = _box(wide, high, spot, items, rect)
+    nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
+    yield Circle(pen.filled("none"), LAYER, None, spot, RING)
+    yield Polyline(pen, LAYER, None, (_towards(spot, nearest), nearest))
+    yield Polygon(pen.filled(PAPER), LAYER, None, box.corners)
+    yield from _lettered(lines, box)
+
+
+def _lettered(lines: Sequence[Runs], box: Rect) -> Iterator[Text]:
+    """The lines of the sentence, from the top of the box."""
+    for i, runs in enumerate(lines):
+        y = box.top - PAD - SIZE * (CAPS + LEADING * i)
+        yield Text(LETTERS, LAYER, None, (box.left + PAD, y), runs, SIZE)
+
+
+def _towards(spot: Spot, other: Spot) -> Spot:
+    """Where the leader leaves the ring about its mark."""
+    way = complex(other[0] - spot[0], other[1] - spot[1])
+    start = complex(*spot) + RING * way / (abs(way) or 1.0)
+    return start.real, start.imag
+
+
+def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect) -> Rect:
+    """The cheapest of many places on the panel: the fewer strokes and letters it covers, and the nearer, the better."""
+    boxes = _grid(wide, high, rect)
+    gaps = np.hypot(*np.maximum(np.maximum(boxes[:, :2] - spot, spot - boxes[:, 2:]), 0.0).T)
+    if (gaps >= CLEAR).any():
+        boxes, gaps = boxes[gaps >= CLEAR], gaps[gaps >= CLEAR]
+    touched, _ = STRtree([_outline(item) for item in items]).query(shapely.box(*boxes.T), "intersects")
+    cost = np.bincount(touched, minlength=len(boxes)) + FAR * gaps
+    left, bottom, right, top = map(float, boxes[int(np.argmin(cost))])
+    return Rect(left, bottom, right, top)
+
+
+def _grid(wide: float, high: float, rect: Rect) -> Array:
+    """Boxes of this size all over a panel; one, at its corner, where it is hardly larger."""
+    lefts = np.arange(rect.left + PAD, max(rect.right - PAD - wide, rect.left + PAD) + PITCH / 2, PITCH)
+    lows = np.arange(rect.bottom + PAD, max(rect.top - PAD - high, rect.bottom + PAD) + PITCH / 2, PITCH)
+    x, y = (part.ravel() for part in np.meshgrid(lefts, lows))
+    return np.stack([x, y, x + wide, y + high], axis=1)
+
+
+def _outline(item: Item) -> Geometry:
+    """Where an item has ink; lettering is as solid as its box."""
+    match item:
+        case Polyline(spots=spots) | Polygon(spots=spots):
+            return LineString(spots)
+        case Arc():
+            return LineString(item.spots())
+        case Arrow(start=start, end=end):
+            return LineString((start, end))
+        case Circle(centre=centre, radius=radius):
+            return Point(centre).buffer(radius)
+        case Text(box=rect):
+            return shapely.box(rect.left, rect.bottom, rect.right, rect.top)
+    return LineString()

@@ -10,7 +10,6 @@ from graphplan.marking.judge.findings import (
     OFF,
     called,
     counted,
-    judged,
     lacking,
     miss,
     opinion,
@@ -88,7 +87,7 @@ class Remarks(Words):
     def _wrong(self, wide: float, judgement: Judgement) -> Iterator[Row]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
         drawn = judgement.drawing.drawn
-        wrong = [verdict for verdict in judged(judgement) if verdict.state == WRONG]
+        wrong = [verdict for verdict in judgement.judged if verdict.state == WRONG]
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:

@@ -9,7 +9,6 @@ from dataclasses import dataclass, fields
 from graphplan.accuracy.settings import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
-from graphplan.marking.judge.findings import judged
 from graphplan.marking.judge.verdict import UNSEEN, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
@@ -106,7 +105,7 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
 def _counted(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:
     """Group, state and count of everything that is to be judged."""
     groups = served(judgement.drawing)
-    for verdict in judged(judgement):
+    for verdict in judgement.judged:
         if verdict.state != UNSEEN:
             yield groups[verdict.step], verdict.state, 1.0
     for number in judgement.numbers:

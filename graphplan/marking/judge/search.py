@@ -1,8 +1,8 @@
 """The mistakes that a drawing shows: those that make what is seen likelier than it is without them.
 
-Every slip of the table is tried at every step that is not clearly right. At a glance it is seen what would follow
-from it; the most promising ones are gone through mark by mark, and the likeliest way is kept.
-"""
+Every mistake of the table is tried at every step that is not clearly right, and every trace that no step needs. At a
+glance it is seen what would follow from it; the most promising ones are gone through mark by mark, and the likeliest
+way is kept."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.program import Step
 from graphplan.marking.judge.evidence import FILED, THERE
-from graphplan.marking.judge.matching import UNMARKED, Match, Matching
+from graphplan.marking.judge.matching import ASTRAY, UNMARKED, Match, Matching
 from graphplan.marking.judge.mistakes import Mistake, mistakes
 from graphplan.marking.judge.quick_score import ROUGH, QuickScore
-from graphplan.marking.judge.student_sheet import plain
-from graphplan.marking.judge.unmatched import unmatched
+from graphplan.marking.judge.student_sheet import apart, plain
 from graphplan.marking.judge.verdict import WRONG
 
 TRIED = 16  # how many whole ways are gone through, to try the most promising mistakes
@@ -152,3 +152,29 @@ def clear(match: Match) -> bool:
     """Whether a step is so clearly right that no mistake is thought of."""
     off = match.residual
     return off is not None and match.weight >= CLEAR and off.square - len(off.off) < SQUARE
+
+
+KEPT = 4.0  # standard deviations within which a claim is kept
+
+
+def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
+    """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
+    lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
+    sheet, kind = matching.sheet, step.op.gives
+    mm = sheet.mm(sheet.plan_of_step[step.index])
+    on = [plain(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
+    for place in matching.unlabelled.of(kind) if kind in (POINT, LINE) else ():
+        if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
+            continue
+        spots = sheet.spots(step.index, matching.traces[place])
+        value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
+        off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
+        far = apart(POINT, value, [complex(*plain(matching.own[step.index]))]) * mm if kind == POINT else 0.0
+        if off < KEPT * max(sheet.pencil.point, sheet.pencil.edge) and far < ASTRAY:
+            yield place, value
+
+
+def _off(kind: str, value: Sequence[float], thing: Sequence[float]) -> float:
+    """How far a point and a line, one of which is a step's, are from each other."""
+    line, point = (value, thing) if kind == LINE else (thing, value)
+    return apart(LINE, line, [complex(*point[:2])])

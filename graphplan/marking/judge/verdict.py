@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 
+from graphplan.kernel.kinds import Movement
 from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, phrase
@@ -53,6 +55,11 @@ class Verdict:
     kind: str = ""
     guilty: int | None = None
 
+    @property
+    def blamed(self) -> int | None:
+        """The earlier step that is probably to blame for a wrong one; None where it is its own mistake."""
+        return None if self.guilty == self.step else self.guilty
+
 
 @dataclass(frozen=True)
 class NumberVerdict:
@@ -81,6 +88,22 @@ class Judgement:
     verdicts: tuple[Verdict, ...]
     spare: tuple[Trace, ...] = ()
     numbers: tuple[NumberVerdict, ...] = ()
+
+    @property
+    def judged(self) -> list[Verdict]:
+        """The verdicts that count: what is given counts only where it is wrong, and a plan may begin anywhere."""
+        steps = self.drawing.drawn.steps
+        return [verdict for verdict in self.verdicts if verdict.state == WRONG or not steps[verdict.step].op.free]
+
+    @property
+    def counts(self) -> dict[str, int]:
+        """How many steps there are of each verdict."""
+        found = Counter(verdict.state for verdict in self.judged)
+        return {state: found[state] for state in STATES}
+
+    def measured(self, verdict: Verdict) -> bool:
+        """Whether a step can be seen and has a place of its own: a plan may begin anywhere."""
+        return verdict.trace is not None and self.drawing.drawn.steps[verdict.step].op.movement is not Movement.BEGUN
 
     @property
     def first(self) -> Verdict | None:

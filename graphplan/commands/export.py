@@ -75,10 +75,8 @@ def _more(name: str, library: str | None) -> Mapping[str, str]:
         raise Refused(f"--library {library}", f"cannot be read ({why})", "name a copy of jsxgraphcore.js") from None
 
 
-def _figure(on_sheet: Drafted) -> Any:
-    from graphplan.output.exports.figure import figure
-
-    return figure(on_sheet.drawing, on_sheet.composition, on_sheet.composition.plans.tongue)
+def _plates(on_sheet: Drafted) -> Any:
+    return on_sheet.composition.plates
 
 
 def _sheet(on_sheet: Drafted) -> Any:
@@ -88,7 +86,7 @@ def _sheet(on_sheet: Drafted) -> Any:
 
 
 READ: dict[str, Callable[[Drafted], Any]] = {  # what back ends read
-    "figure": _figure,
+    "plates": _plates,
     "sheet": _sheet,
     "sheets": lambda on_sheet: [_sheet(on_sheet)],
     "steps": lambda on_sheet: as_json(data(on_sheet)),

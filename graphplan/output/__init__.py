@@ -25,11 +25,11 @@ class Format(NamedTuple):
 
 
 FORMATS = {
-    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "exports.geogebra", "geogebra", "figure"),
-    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "exports.jsxgraph", "jsxgraph", "figure"),
-    "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "figure"),
-    "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "figure"),
-    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "figure"),
+    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "exports.geogebra", "geogebra", "plates"),
+    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "exports.jsxgraph", "jsxgraph", "plates"),
+    "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "plates"),
+    "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "plates"),
+    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "plates"),
     "json": Format(".json", "the steps as data", "", "", "steps"),
     "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
     "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),

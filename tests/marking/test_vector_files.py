@@ -20,12 +20,12 @@ from graphplan.marking.spelling import spelled
 from graphplan.marking.submission import read
 from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
 from graphplan.output.dxf import dxf
-from graphplan.output.exports.figure import Figure, figure
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Polyline, Sheet
+from graphplan.sheet.plates.plate import Plates
 
 CSV = """mark,x,y,x2,y2,r
 A,20,30,,,
@@ -209,12 +209,12 @@ def test_parts_of_the_view(tmp_path: Path) -> None:
 
 
 @lru_cache(maxsize=3)
-def own(scene: str) -> tuple[Sheet, Figure, dict[str, Spot]]:
+def own(scene: str) -> tuple[Sheet, Plates, dict[str, Spot]]:
     """A scene's sheet, the same as objects, and where its lettered points lie."""
     drawing = gp.construct(gp.load(scene))
     composition = compose(drawing, None, None)
-    found = figure(drawing, composition)
-    points = [object for object in found.objects if object.kind == POINT and object.plan.rect.holds(object.at)]
+    found = composition.plates
+    points = [mark for mark in found.drawn if mark.kind == POINT and mark.view.rect.holds(mark.at)]
     named = {spelled(point.name): point.at for point in points if point.name and not point.name.isdigit()}
     return layout(drawing, composition=composition), found, named
 
@@ -282,7 +282,7 @@ def test_own_geogebra_files_are_read_back(tmp_path: Path, scene: str) -> None:
     arcs = [trace for trace in shown(sheet) if trace.kind == CIRCLE]
     assert max((apart(traces, trace) for trace in arcs), default=0.0) < 1e-3
     strokes = [trace.spots for trace in traces if trace.kind == LINE]
-    for line in (object.line for object in drawn.steps if object.kind == LINE and drawn.stretch(object)):
+    for line in (stretch.of.line for plate in drawn for stretch in plate.stretches.values()):
         assert min(max(off(line, spot) for spot in ends) for ends in strokes) < 1e-3
 
 

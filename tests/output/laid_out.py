@@ -3,23 +3,21 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from types import SimpleNamespace
-from typing import Any, cast
+from typing import Any
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
-from graphplan.output.exports.figure import Figure, figure
-from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.plans import Plans, around
+from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import view
 
 SIDE = 150.0  # mm of paper for each plan
 
 
 @lru_cache(maxsize=4)
-def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Construction, Figure]:
-    """A packaged scene constructed, and its figure; with `times` the plans are so much too large for their windows."""
+def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Construction, Plates]:
+    """A packaged scene constructed, and as it is drawn; its plans are so many `times` too large for their windows."""
     drawing = gp.construct(gp.load(name), strict=strict)
     plans = Plans(drawing)
     boxes = {panel: around([plans.spot(index) for index in plans.points(panel)]) for panel in plans.panels}
@@ -27,4 +25,4 @@ def laid_out(name: str, strict: bool = False, times: float = 1.0) -> tuple[Const
     for place, (panel, box) in enumerate(boxes.items()):
         rect = Rect(SIDE * place + 5, 5, SIDE * (place + 1) - 5, SIDE - 5)
         views[panel] = view(box, rect, (max(box.width, box.height) / (SIDE - 20) or 1.0) / times)
-    return drawing, figure(drawing, cast(Composition, SimpleNamespace(views=views)))
+    return drawing, Plates(plans, views)

@@ -1,15 +1,17 @@
-"""Objects for tests of the exports: any operation of the table on plans of different scale, and packaged scenes."""
+"""What is drawn, for tests of exports: any operation of the table on plans of different scale, and packaged scenes."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from functools import lru_cache
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import cached_property, lru_cache
 from itertools import islice
 from random import Random
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, cast
 
 import figures
+import pytest
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -18,16 +20,22 @@ from graphplan.check.report import report
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Panel, Program
 from graphplan.methods.construction import Construction
-from graphplan.output.exports.figure import Figure, Object, Plan, figure
+from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.view import View
 
 NAMES = sorted(TABLE)
 TRIES = 2  # random figures for each operation
-ONE = Plan("one", "Plan one", 2.0, (110.0, 70.0), Rect(10, 10, 210, 130))
-TWO = Plan("two", "Plan two", 0.75, (330.0, 60.0), Rect(220, 10, 430, 130))
+TWO = Panel("two", said("plan two"))
+VIEWS: dict[str, View] = {MECHANISM: View(Rect(10, 10, 210, 130), 2.0, (110.0, 70.0)),
+                          TWO: View(Rect(220, 10, 430, 130), 0.75, (330.0, 60.0))}
 
 
 def programs(name: str) -> Iterator[tuple[Program, list[Any]]]:
@@ -39,70 +47,84 @@ def programs(name: str) -> Iterator[tuple[Program, list[Any]]]:
     yield from good
 
 
-def objects(program: Program, values: Sequence[Any], apart: bool, called: str = "X") -> tuple[Object, ...]:
-    """A program as objects: on one plan, or every third point, and what is drawn there, on another."""
-    found: list[Object] = []
-    for step, value in zip(program.steps, values, strict=True):
-        args = tuple(found[arg] for arg in step.args)
-        plan = args[step.op.where].plan if args else TWO if apart and step.index % 3 == 1 else ONE
-        found.append(Object(step.index, max(0, program.number(step.index)), f"{called}{step.index}", step, plan, args,
-                            tuple(map(float, value)), program.sentence(step.index)))
-    return tuple(found)
+class Placed(Plans):
+    """A program's plans: `place` says where the points that are given lie, and what is drawn there."""
+
+    place: Callable[[int], Panel]
+
+    @cached_property
+    def plan_of_step(self) -> list[Panel]:
+        found: list[Panel] = []
+        for step in self.drawing.drawn.steps:
+            found.append(found[step.args[step.op.where]] if step.args else self.place(step.index))
+        return found
 
 
-def loose(program: Program, values: Sequence[Any], apart: bool) -> Figure:
-    """A program as a figure without vectors and links."""
-    found = objects(program, values, apart)
-    return Figure("A figure", "", (ONE, TWO), found, (), (), dict.fromkeys(found, ()))
+def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel],
+          views: Mapping[str, View] = VIEWS) -> Plates:
+    """A program as it is drawn, without vectors and links."""
+    scene = SimpleNamespace(title="A figure", source="", points={}, links={}, moving=(), slides=(), drives=(),
+                            joints=(), motions={}, links_of={})  # fmt: skip
+    sentences = [program.sentence(step.index) for step in program.steps]
+    drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), sentences=lambda: sentences)
+    plans = Placed(cast(Drawing, drawing))
+    plans.__dict__["place"] = place
+    return Plates(plans, views)
 
 
-def all_operations(apart: bool) -> Figure:
-    """A program for each operation of the table, all in one figure."""
-    found = [object for place, name in enumerate(NAMES)
-             for object in objects(*next(programs(name)), apart, f"X{place}n")]
-    return Figure("All operations", "", (ONE, TWO), tuple(found), (), (), dict.fromkeys(found, ()))
+def together(_: int) -> Panel:
+    """All on one plan."""
+    return MECHANISM
+
+
+def apart(index: int) -> Panel:
+    """Every third point, and what is drawn there, on another plan."""
+    return TWO if index % 3 == 1 else MECHANISM
+
+
+PLACES = pytest.mark.parametrize("place", [together, apart], ids=["one plan", "several plans"])
 
 
 @lru_cache(maxsize=8)
-def drafted_figure(name: str, strict: bool = False) -> tuple[Construction, Figure, Composition]:
-    """A packaged scene constructed, as objects, on its sheet."""
+def drafted_plates(name: str, strict: bool = False) -> tuple[Construction, Plates, Composition]:
+    """A packaged scene constructed, as it is drawn, on its sheet."""
     found = report(gp.load(name), strict=strict)
     composition = drafted(found.drawing, pencil(""), None, found.check).composition
-    return found.drawing, figure(found.drawing, composition), composition
+    return found.drawing, composition.plates, composition
 
 
-def moved(drawing: Construction, figure: Figure) -> tuple[Object, tuple[float, float], list[Any]]:
+def moved(drawing: Construction, plates: Plates) -> tuple[DrawnStep, tuple[float, float], list[Any]]:
     """The last joint of the pose that steps read, elsewhere: where in mm, and the values of the program there."""
-    point = [object for object in figure.objects if not object.number and object.index >= 0][-1]
-    x, y = (part + 0.002 * figure.box.width / point.plan.scale for part in point.value)
-    return point, point.plan((x, y)), evaluate(drawing.drawn, Floats(), {point.name: {"x": x, "y": y}})
+    point = [mark for mark in plates.drawn if not mark.number and mark.index >= 0][-1]
+    x, y = (part + 0.002 * plates.box.width / point.view.scale for part in point.value)
+    return point, point.view((x, y)), evaluate(drawing.drawn, Floats(), {point.name: {"x": x, "y": y}})
 
 
-def coordinates(object: Object) -> list[float]:
-    """An object by what stands in a formula."""
-    if object.kind == OPENING:
-        return [object.radius]
-    if object.kind == CIRCLE:
-        return [*object.at, object.radius]
-    if object.kind != LINE:
-        return list(object.at)
-    a, b, c = object.line
+def coordinates(mark: DrawnStep) -> list[float]:
+    """A mark by what stands in a formula."""
+    if mark.kind == OPENING:
+        return [mark.radius]
+    if mark.kind == CIRCLE:
+        return [*mark.at, mark.radius]
+    if mark.kind != LINE:
+        return list(mark.at)
+    a, b, c = mark.line
     return [-a * c / (a * a + b * b), -b * c / (a * a + b * b), b, -a]
 
 
-def gap(object: Object, found: Sequence[float]) -> float:
-    """How far coordinates lie from an object's, beside the size of its figure; a line's must run the same way."""
-    size = 1.0 + math.hypot(*object.plan.origin) + max(map(abs, coordinates(object)))
-    if object.kind != LINE:
-        return max(abs(one - two) for one, two in zip(found, coordinates(object), strict=True)) / size
-    (a, b, c), (x, y, dx, dy) = object.line, found
+def gap(mark: DrawnStep, found: Sequence[float]) -> float:
+    """How far coordinates lie from a mark's, beside the size of its figure; a line's must run the same way."""
+    size = 1.0 + math.hypot(*mark.view.origin) + max(map(abs, coordinates(mark)))
+    if mark.kind != LINE:
+        return max(abs(one - two) for one, two in zip(found, coordinates(mark), strict=True)) / size
+    (a, b, c), (x, y, dx, dy) = mark.line, found
     off, turn = abs(a * x + b * y + c) / math.hypot(a, b), math.atan2(a * dx + b * dy, b * dx - a * dy)
     return off / size + abs(turn)
 
 
-def farthest(figure: Figure, found: Mapping[Object, complex], values: Sequence[Any]) -> float:
+def farthest(plates: Plates, found: Mapping[DrawnStep, complex], values: Sequence[Any]) -> float:
     """How far points lie from the program's values, beside the size of the paper."""
-    points = [object for object in figure.objects if object in found and object.index >= 0]
+    points = [mark for mark in plates.drawn if mark in found and mark.index >= 0]
     assert points
-    spots = {point: complex(*point.plan(values[point.index][:2])) for point in points}
-    return max(abs(found[point] - spots[point]) for point in points) / figure.box.width
+    spots = {point: complex(*point.view(values[point.index][:2])) for point in points}
+    return max(abs(found[point] - spots[point]) for point in points) / plates.box.width

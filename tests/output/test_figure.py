@@ -3,27 +3,32 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 
 import pytest
-from objects import NAMES, ONE, TWO, coordinates, drafted_figure, gap, objects, programs
+from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, apart, coordinates, drafted_plates, gap, loose, programs
 
 import graphplan as gp
-from graphplan.output.exports.figure import figure
+from graphplan.kernel.program import Panel
 from graphplan.output.exports.formula import Language, formula, operations
+from graphplan.output.exports.walk import corners, identifiers
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.plates.display import Arrow, Polygon, Polyline
+from graphplan.sheet.plates.linkage import Linkage
+from graphplan.sheet.plates.pens import LINK
 from graphplan.sheet.plates.symbols import turn
 
 PYTHON = Language(repr, operations("sqrt({})", "abs({})", "(0.0 if abs({0}) <= {2} * {1} else copysign(1.0, {0}))"))
 
 
 @pytest.mark.parametrize("shared", ["t", ""], ids=["terms by name", "written in full"])
-@pytest.mark.parametrize("apart", [False, True], ids=["one plan", "several plans"])
+@PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_rule_can_be_written_out(name: str, apart: bool, shared: str) -> None:
+def test_every_rule_can_be_written_out(name: str, place: Callable[[int], Panel], shared: str) -> None:
     """The formula of every operation of the table gives its value in mm, wherever its operands lie."""
     for program, values in programs(name):
-        last = objects(program, values, apart)[-1]
+        last = loose(program, values, place).steps[-1]
         written = formula(last, [[repr(part) for part in coordinates(arg)] for arg in last.args], PYTHON, shared)
         known = {"sqrt": math.sqrt, "abs": abs, "copysign": math.copysign}
         for term, text in written.terms:
@@ -34,7 +39,7 @@ def test_every_rule_can_be_written_out(name: str, apart: bool, shared: str) -> N
 
 def test_terms_are_written_once() -> None:
     """A term that is used more than once has a name, and the formula is shorter for it."""
-    last = objects(*next(programs("circles_meet")), apart=True)[-1]
+    last = loose(*next(programs("circles_meet")), apart).steps[-1]
     texts = [[f"P{i}{part}" for part, _ in enumerate(coordinates(arg))] for i, arg in enumerate(last.args)]
     long, short = formula(last, texts, PYTHON), formula(last, texts, PYTHON, "t")
     assert 2 * sum(map(len, map(str, short.terms))) < sum(map(len, long.results))
@@ -43,9 +48,10 @@ def test_terms_are_written_once() -> None:
 @pytest.mark.parametrize("name", ["jaanimets-10", "rosenauer-basic"])
 def test_marks_stand_where_the_sheet_has_them(name: str) -> None:
     """Every vector of the figure begins and ends where the sheet's does, to the hundredth of a millimetre."""
-    drawing, figure, composition = drafted_figure(name)
+    drawing, plates, composition = drafted_plates(name)
     on_sheet = {item.label: item for item in layout(drawing, composition=composition).items if getattr(item, "head", 0)}
-    found = {f"{arrow.kind} {arrow.point}": arrow for arrow in figure.arrows}
+    arrows = [stroke for plate in plates for stroke in plate.vectors if stroke.vector]
+    found = {f"{arrow.vector.kind} {arrow.vector.point}": arrow for arrow in arrows}
     common = [label for label in on_sheet if label in found and label.split()[0] in ("velocity", "acceleration")]
     assert common
     for label in common:
@@ -56,48 +62,65 @@ def test_marks_stand_where_the_sheet_has_them(name: str) -> None:
 @pytest.mark.parametrize("name", ["rosenauer-basic", "jaanimets-10", "slider-crank"])
 def test_identifiers_are_safe_and_unique(name: str) -> None:
     """Letters and digits alone, each once, whatever the marks are called; and every operand stands before its use."""
-    _, figure, _ = drafted_figure(name)
-    ids = [object.id for object in figure.objects]
-    assert len(set(ids)) == len(ids)
-    assert all(id.isascii() and id.isalnum() and id[0].isalpha() for id in ids)
+    _, plates, _ = drafted_plates(name)
+    ids = identifiers(plates.drawn)
+    assert len(set(ids.values())) == len(ids) == len(plates.drawn)
+    assert all(id.isascii() and id.isalnum() and id[0].isalpha() for id in ids.values())
     seen: set[str] = set()
-    for object in figure.objects:
-        assert all(arg.id in seen for arg in object.args)
-        seen.add(object.id)
+    for mark in plates.drawn:
+        assert all(ids[arg] in seen for arg in mark.args)
+        seen.add(ids[mark])
 
 
 def test_links_have_points_that_no_step_reads() -> None:
     """A point of a link that the construction does not need is part of the pose all the same."""
-    _, figure, _ = drafted_figure("slider-crank")
-    assert all(point in figure.objects for link in figure.links for point in link.points)
+    _, plates, _ = drafted_plates("slider-crank")
+    assert {point for points in plates.scene.links.values() for point in points} <= set(plates.pose)
+    assert set(plates.pose.values()) <= set(plates.drawn)
 
 
-def test_plates_have_their_inner_points_tied_to_a_corner() -> None:
+@pytest.mark.parametrize("name", ["walschaerts-loaded", "jaanimets-10"])
+def test_plates_have_their_inner_points_tied_to_a_corner(name: str) -> None:
     """A link is a bar between its ends or a plate with a convex outline; what lies within a plate has a rib to it."""
-    for name in ("walschaerts-loaded", "jaanimets-10"):
-        for link in drafted_figure(name)[1].links:
-            corners, inner = [point.at for point in link.corners], [point.at for _, point in link.ribs]
-            turns = [turn(a, b, c) for a, b, c in zip(corners, corners[1:] + corners[:1], corners[2:] + corners[:2],
-                                                      strict=True)]
-            assert len(corners) < 3 or min(turns) > 0
-            assert len(corners) < 3 or {*corners, *inner} == {point.at for point in link.points}
-    assert [len(link.ribs) for link in drafted_figure("walschaerts-loaded")[1].links if link.ribs]
+    _, plates, composition = drafted_plates(name)
+    joints = {point.at: point.name for point in plates.pose.values()}
+    items = list(Linkage(plates.scene, composition.views[MECHANISM]).items())
+    hulls = [item.spots for item in items if isinstance(item, Polygon) and item.layer == "plates"]
+    ribs = [item.spots for item in items if isinstance(item, Polyline) and item.pen == LINK and len(item.spots) == 2]
+    for hull in hulls:
+        assert min(turn(a, b, c) for a, b, c in zip(hull, hull[1:] + hull[:1], hull[2:] + hull[:2], strict=True)) > 0
+        tied = {joints[end] for corner, end in ribs if corner in hull}
+        assert any({joints[corner] for corner in hull} | tied >= set(points) for points in plates.scene.links.values())
+    assert bool(ribs) == bool(hulls) == (name == "walschaerts-loaded")
 
 
 def test_a_length_is_carried_over_by_the_scales() -> None:
     """The factor between two plans is the ratio of their mm per unit."""
-    *_, last = objects(*next(programs("transfer")), apart=True)
-    assert (last.plan, last.args[1].plan) == (ONE, TWO)
-    assert last.factor(last.args[1]) == ONE.scale / TWO.scale
+    *_, last = loose(*next(programs("transfer")), apart).steps
+    assert (last.panel, last.args[1].panel) == (MECHANISM, TWO)
+    assert last.factor(last.args[1]) == VIEWS[MECHANISM].scale / VIEWS[TWO].scale
+
+
+@pytest.mark.parametrize("name", ["slider-crank", "slotted-link", "jaanimets-10"])
+def test_strokes_told_by_marks_are_those_of_the_sheet(name: str) -> None:
+    """Every straight stroke of the construction and every vector on the sheet is a part of the way between marks."""
+    _, plates, composition = drafted_plates(name)
+    sheet = layout(plates.plans.drawing, composition=composition)
+    on_sheet = [item for item in sheet.items if item.layer in ("construction", "vectors")]
+    there = {(item.step, item.spots) for item in on_sheet if isinstance(item, Polyline) and len(item.spots) == 2}
+    there |= {(item.step, (item.start, item.end)) for item in on_sheet if isinstance(item, Arrow)}
+    strokes = [one for plate in plates for drawn in plate.steps for one in plate.strokes(drawn)]
+    strokes += [vector for plate in plates for vector in plate.vectors]
+    assert {(stroke.of.index, stroke.ends) for stroke in strokes} == there
 
 
 @pytest.mark.parametrize("name", ["slider-crank", "slotted-link"])
 def test_the_symbols_are_those_of_the_sheet(name: str) -> None:
-    """Ground, blocks and the sense of the drive are decoration of the figure: as many strokes as on the sheet."""
+    """Ground, blocks and the sense of the drive are told as on the sheet: as many strokes, all on its panel."""
     drawing = gp.construct(gp.load(name))
     composition = compose(drawing)
-    found, sheet = figure(drawing, composition).symbols, layout(drawing, composition=composition)
+    found, sheet = composition.plates[MECHANISM].mechanism, layout(drawing, composition=composition)
     for layer in ("ground", "blocks", "drive"):
         there = [item for item in sheet.items if item.layer == layer]
-        assert len(there) == len([symbol for symbol in found if symbol.layer == layer]) > 0
-    assert all(sheet.panels["mechanism"].holds(spot) for symbol in found for spot in symbol.spots)
+        assert len(there) == len([item for item in found if item.layer == layer]) > 0
+    assert all(sheet.panels["mechanism"].holds(spot) for item in found for spot in corners(item))

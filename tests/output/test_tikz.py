@@ -12,14 +12,16 @@ from pathlib import Path
 
 import pytest
 from laid_out import laid_out
-from objects import NAMES, ONE, loose, programs
+from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, loose, programs
 
 from graphplan.kernel.kinds import POINT
-from graphplan.output.exports.figure import Figure
+from graphplan.kernel.program import Panel
 from graphplan.output.exports.tikz import tikz
 from graphplan.output.exports.tkz import tkz_euclide
+from graphplan.output.exports.walk import identifiers
+from graphplan.sheet.plates.plate import Plates
 
-Export = Callable[[Figure], str]
+Export = Callable[[Plates], str]
 POINT_MM = 2.845275590551  # TeX's points in a millimetre
 BOTH = pytest.mark.parametrize("export", [tikz, tkz_euclide])
 MADE = re.compile(r"coordinate ?\((\w+)\)|tkzGetPoint\{(\w+)\}|tkzGetPoints\{(\w+)\}\{(\w+)\}"
@@ -27,9 +29,10 @@ MADE = re.compile(r"coordinate ?\((\w+)\)|tkzGetPoint\{(\w+)\}|tkzGetPoints\{(\w
 READ = re.compile(r"[(,{ ]([A-Za-z]\w*)(?=[),}$]|--)|--([A-Za-z]\w*)")
 
 
-def compiled(source: str, figure: Figure, folder: Path) -> dict[str, tuple[float, float]]:
-    """The points of a figure in mm, as pdflatex tells them."""
-    points = [object.id for object in figure.objects if object.kind == POINT and f"({object.id})" in source]
+def compiled(source: str, plates: Plates, folder: Path) -> dict[str, tuple[float, float]]:
+    """The points of a plates in mm, as pdflatex tells them."""
+    names = identifiers(plates.drawn)
+    points = [names[mark] for mark in plates.drawn if mark.kind == POINT and f"({names[mark]})" in source]
     probe = "".join(rf"\path ({id}); \pgfgetlastxy{{\X}}{{\Y}}\typeout{{AT {id} \X\space\Y}}" + "\n" for id in points)
     (folder / "figure.tex").write_text(source.replace(r"\end{tikzpicture}", probe + r"\end{tikzpicture}"))
     run = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
@@ -52,14 +55,14 @@ def available(export: Export) -> bool:
 @pytest.mark.parametrize("name", ["slider-crank", "jaanimets-10", "double-butterfly"])
 def test_every_step_is_said_and_nothing_used_before_it_is_made(export: Export, name: str) -> None:
     """Sentences stand in order; braces are balanced; each coordinate is made before it is read, and made once."""
-    _, figure = laid_out(name)
-    source = export(figure)
-    places = [source.index(f"\n% {object.number}. {object.sentence}\n") for object in figure.steps]
+    _, plates = laid_out(name)
+    source = export(plates)
+    places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.drawn if mark.number]
     assert places == sorted(places)
     body = re.sub(r"(?<!\\)%.*", "", source[source.index(r"\begin{tikzpicture}") :])
     bare = body.replace(r"\{", "").replace(r"\}", "")
     assert bare.count("{") == bare.count("}")
-    assert body.count(r"\begin{scope}") == len(figure.plans)
+    assert body.count(r"\begin{scope}") == len(plates.plans.panels)
     made = [name for found in MADE.findall(body) for name in found if name]
     assert len(set(made)) == len(made)
     known: set[str] = set()
@@ -67,36 +70,36 @@ def test_every_step_is_said_and_nothing_used_before_it_is_made(export: Export, n
         read = {one or two for one, two in READ.findall(re.sub(r"\{\$.*?\$\}", "", MADE.sub("", line)))}
         assert (read & set(made)) <= known, line
         known |= {name for found in MADE.findall(line) for name in found if name}
-    assert export(figure) == source
+    assert export(plates) == source
 
 
 @BOTH
-@pytest.mark.parametrize("apart", [False, True], ids=["one plan", "several plans"])
+@PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_operation_is_translated(export: Export, name: str, apart: bool) -> None:
+def test_every_operation_is_translated(export: Export, name: str, place: Callable[[int], Panel]) -> None:
     """Each operation of the table gives coordinates under its sentence, a line through two points apart."""
     for program, values in programs(name):
-        figure = loose(program, values, apart)
-        last = figure.objects[-1]
-        said = export(figure).partition(f"\n% {last.number}. {last.sentence}\n" if last.number else "tikzpicture}")[2]
+        plates = loose(program, values, place)
+        last = plates.steps[-1]
+        said = export(plates).partition(f"\n% {last.number}. {last.sentence}\n" if last.number else "tikzpicture}")[2]
         made = {name for found in MADE.findall(said) for name in found if name}
-        needless = name == "line" and all(arg.plan is last.plan for arg in last.args)
-        assert needless or made & {last.id, f"{last.id}_to"}
+        called = identifiers(plates.drawn)[last]
+        needless = name == "line" and all(arg.panel == last.panel for arg in last.args)
+        assert needless or made & {called, f"{called}_to"}
 
 
 @BOTH
 def test_what_tex_cannot_hold_is_left_out_and_told(export: Export) -> None:
     """A mark too far out for TeX's dimensions gets no coordinate; what rests on it stands as it lies, and says so."""
     program, values = next(programs("midpoint"))
-    figure = loose(program, values, apart=False)
-    far = replace(ONE, origin=(ONE.origin[0] + 6000.0, 0.0))
-    first, *others = figure.objects
-    moved = replace(first, plan=far)
-    rest = [replace(o, args=tuple(moved if arg is first else arg for arg in o.args)) for o in others]
-    source = export(replace(figure, objects=(moved, *rest), marks={}))
-    assert f"({first.id})" not in source
+    out = VIEWS[MECHANISM].origin[0] + 6000.0, 0.0
+    plates = loose(program, values, lambda index: MECHANISM if index else TWO,
+                   {**VIEWS, TWO: replace(VIEWS[MECHANISM], origin=out)})  # fmt: skip
+    first, last, names = plates.steps[0], plates.steps[-1], identifiers(plates.drawn)
+    source = export(plates)
+    assert f"({names[first]})" not in source
     assert "too far out for TeX's dimensions" in source
-    assert re.search(rf"given as it lies: .*\n\\coordinate \({rest[-1].id}\) at \([-\d.]+,[-\d.]+\);", source)
+    assert re.search(rf"given as it lies: .*\n\\coordinate \({names[last]}\) at \([-\d.]+,[-\d.]+\);", source)
 
 
 @BOTH
@@ -105,11 +108,11 @@ def test_tex_puts_every_point_where_it_lies(export: Export, name: str, tmp_path:
     """Compiled by pdflatex without an error, every point stands within a fifth of a millimetre of its place."""
     if not available(export):
         pytest.skip("there is no pdflatex with what this file needs")
-    _, figure = laid_out(name)
-    found = compiled(export(figure), figure, tmp_path)
-    points = [object for object in figure.objects if object.kind == POINT]
+    _, plates = laid_out(name)
+    found, names = compiled(export(plates), plates, tmp_path), identifiers(plates.drawn)
+    points = [mark for mark in plates.drawn if mark.kind == POINT]
     assert len(found) == len(points)
-    assert max(math.dist(found[object.id], object.at) for object in points) < 0.2
+    assert max(math.dist(found[names[mark]], mark.at) for mark in points) < 0.2
 
 
 @BOTH
@@ -117,7 +120,7 @@ def test_tex_takes_plans_that_reach_metres_off_the_paper(export: Export, tmp_pat
     """Plans far too large for their windows are compiled without an error, with what of them TeX can hold."""
     if not available(export):
         pytest.skip("there is no pdflatex with what this file needs")
-    _, figure = laid_out("slider-crank", times=40.0)
-    source = export(figure)
+    _, plates = laid_out("slider-crank", times=40.0)
+    source = export(plates)
     assert "too far out for TeX's dimensions" in source
-    assert 0 < len(compiled(source, figure, tmp_path)) < len(figure.objects)
+    assert 0 < len(compiled(source, plates, tmp_path)) < len(plates.drawn)

@@ -22,7 +22,8 @@ from typing import Any, NamedTuple
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING
 from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import LEAVES, Symbols, Tape, operands
-from graphplan.output.exports.figure import Object, Plan
+from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.view import View
 
 SHAPELESS = frozenset({"side", "way", "turn"})  # parameters that stay what they are when everything grows
 
@@ -45,44 +46,44 @@ class Formula:
     results: tuple[str, ...]
 
 
-def formula(object: Object, coordinates: Sequence[Sequence[str]], language: Language, term: str = "",
+def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: Language, term: str = "",
             deepest: float = math.inf) -> Formula:
-    """The coordinates of an object, in mm, from those of its operands.
+    """The coordinates of a mark, in mm, from those of its operands.
 
     A term that is used more than once, or holds as many operations within each other as are `deepest`, gets the name
     `term` with a number; without a `term` it stands where it is used.
     """
-    domain, similar = Symbols(), _similar(object)
-    read = [_local(domain, arg, texts, similar) for arg, texts in zip(object.args, coordinates, strict=True)]
-    value = object.step.op.rule(domain, *read, **object.step.params)
-    told = [domain.tape.place(part) for part in _told(domain, object, value, similar)]
+    domain, similar = Symbols(), _similar(drawn)
+    read = [_local(domain, arg, texts, similar) for arg, texts in zip(drawn.args, coordinates, strict=True)]
+    value = drawn.step.op.rule(domain, *read, **drawn.step.params)
+    told = [domain.tape.place(part) for part in _told(domain, drawn, value, similar)]
     return _Writer(domain.tape, told, language, term, deepest).formula()
 
 
-def _similar(object: Object) -> bool:
+def _similar(drawn: DrawnStep) -> bool:
     """Whether the rule may be taken in mm as it is: on one plan, with no length given."""
-    return all(arg.plan is object.plan for arg in object.args) and SHAPELESS.issuperset(object.step.op.params)
+    return all(arg.view is drawn.view for arg in drawn.args) and SHAPELESS.issuperset(drawn.step.op.params)
 
 
-def _local(d: Symbols, arg: Object, texts: Sequence[str], similar: bool) -> tuple[Any, ...]:
+def _local(d: Symbols, arg: DrawnStep, texts: Sequence[str], similar: bool) -> tuple[Any, ...]:
     """The value that a rule reads, from coordinates in mm."""
     parts = [d.tape.input(text) for text in texts]
     if arg.kind == OPENING:
-        return (_square(_divided(parts[0], arg.plan, similar)),)
-    x, y = _at(parts, arg.plan, similar)
+        return (_square(_divided(parts[0], arg.view, similar)),)
+    x, y = _at(parts, arg.view, similar)
     if arg.kind == CIRCLE:
-        return x, y, _square(_divided(parts[2], arg.plan, similar))
+        return x, y, _square(_divided(parts[2], arg.view, similar))
     return _through(x, y, *parts[2:]) if arg.kind == LINE else (x, y)
 
 
-def _at(parts: Sequence[Any], plan: Plan, similar: bool) -> tuple[Any, Any]:
+def _at(parts: Sequence[Any], plan: View, similar: bool) -> tuple[Any, Any]:
     """A place on the plan."""
     if similar:
         return parts[0], parts[1]
     return (parts[0] - plan.origin[0]) / plan.scale, (parts[1] - plan.origin[1]) / plan.scale
 
 
-def _divided(part: Any, plan: Plan, similar: bool) -> Any:
+def _divided(part: Any, plan: View, similar: bool) -> Any:
     return part if similar else part / plan.scale
 
 
@@ -94,18 +95,18 @@ def _through(x: Any, y: Any, dx: Any, dy: Any) -> tuple[Any, Any, Any]:
     return -dy, dx, dy * x - dx * y
 
 
-def _told(d: Symbols, object: Object, value: Any, similar: bool) -> list[Any]:
+def _told(d: Symbols, drawn: DrawnStep, value: Any, similar: bool) -> list[Any]:
     """A rule's answer in mm."""
-    plan, scale = object.plan, 1.0 if similar else object.plan.scale
-    if object.kind == OPENING:
+    plan, scale = drawn.view, 1.0 if similar else drawn.view.scale
+    if drawn.kind == OPENING:
         return [scale * _root(d, value[0])]
-    if object.kind == LINE:
+    if drawn.kind == LINE:
         return [*_placed(_foot(plan, value, similar), plan, similar), value[1], -value[0]]
     centre = _placed(value, plan, similar)
-    return [*centre, scale * _root(d, value[2])] if object.kind == CIRCLE else centre
+    return [*centre, scale * _root(d, value[2])] if drawn.kind == CIRCLE else centre
 
 
-def _placed(spot: Sequence[Any], plan: Plan, similar: bool) -> list[Any]:
+def _placed(spot: Sequence[Any], plan: View, similar: bool) -> list[Any]:
     return list(spot[:2]) if similar else [plan.origin[i] + plan.scale * spot[i] for i in (0, 1)]
 
 
@@ -113,7 +114,7 @@ def _root(d: Symbols, square: Any) -> Any:
     return d.sqrt(square, "not-rational", "a length is never imaginary")
 
 
-def _foot(plan: Plan, line: Any, similar: bool) -> tuple[Any, Any]:
+def _foot(plan: View, line: Any, similar: bool) -> tuple[Any, Any]:
     """The point of a line that is next to the middle of its window."""
     x, y = plan.rect.centre if similar else _at(plan.rect.centre, plan, similar)
     a, b, c = line

@@ -10,20 +10,21 @@ whichever way the figure lies; the procedures at the top pick by side instead, s
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from decimal import Decimal
 from itertools import pairwise
 
-from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT
-from graphplan.output.exports.figure import Figure, Object, Plan
+from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movement
 from graphplan.output.exports.formula import Language, formula, operations
-from graphplan.output.exports.live_strokes import REACH, Letter, Stroke, Traced, at_home
 from graphplan.output.exports.tex import formulated
+from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import CAPS
 from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plate import Plates
 
 COORDINATES = {POINT: ("x", "y"), LINE: ("x", "y", "dx", "dy"), OPENING: ("r",), CIRCLE: ("x", "y", "r")}
 
@@ -84,26 +85,44 @@ PROCEDURES = {
     "vector": ("P Q", "draws the vector PQ", """
   drawsegment P Q
   drawarrow P Q 1"""),
+    "arrow": ("P Q s t", "draws an arrow from s to t of the way from P to Q", """
+  towards S P Q s
+  towards T P Q t
+  drawsegment S T
+  drawarrow S T 1"""),
 }
 
-# The language's own commands, by the step that they make.
+# What makes a mark of its coordinates.
+RECKONED = {
+    POINT: ("point {0} {0}_x {0}_y",),
+    OPENING: ("number {0} {0}_r",),
+    CIRCLE: ("point {0}_at {0}_x {0}_y", "call struck {{ {0}_at {0}_r 1 {0} }}"),
+    LINE: (f"expression {{0}}_u {{{{ {{0}}_x+{{0}}_dx*{REACH:g}/sqrt({{0}}_dx*{{0}}_dx+{{0}}_dy*{{0}}_dy) }}}}",
+           f"expression {{0}}_v {{{{ {{0}}_y+{{0}}_dy*{REACH:g}/sqrt({{0}}_dx*{{0}}_dx+{{0}}_dy*{{0}}_dy) }}}}",
+           "point {0}_at {0}_x {0}_y", "point {0}_to {0}_u {0}_v", "line {0} {0}_at {0}_to"),
+}  # fmt: skip
+# The language's own commands, and calls of the procedures, by the movement that they are.
 COMMANDS = {
-    "line": "line {out} {0} {1}",
-    "parallel": "parallel {out} {1} {0}",
-    "perpendicular": "perp {out} {1} {0}",
-    "meet": "intersec {out} {0} {1}",
-    "opening": "distance {out} {0} {1}",
-    "bisector": "med {out} {0} {1}",
-    "midpoint": "midpoint {out} {0} {1}",
-    "foot": "foot {out} {1} {0}",
+    Movement.RULED: "line {out} {0} {1}",
+    Movement.PARALLEL: "parallel {out} {1} {0}",
+    Movement.PERPENDICULAR: "perp {out} {1} {0}",
+    Movement.MET: "intersec {out} {0} {1}",
+    Movement.OPENED: "distance {out} {0} {1}",
+    Movement.BISECTED: "med {out} {0} {1}",
+    Movement.HALVED: "midpoint {out} {0} {1}",
+    Movement.DROPPED: "foot {out} {1} {0}",
+    Movement.LAID_OFF: "call laid_off {{ {0} {1} {k} {2} {out} }}",
+    Movement.TURNED: "call across {{ {0} {1} {k} {2} {out} }}",
+    Movement.STRUCK: "call struck {{ {0} {1} {k} {out} }}",
+    Movement.CUT: "call farther {{ {0} {1} {P} {Q} {out} }}",
+    Movement.ARCS_MET: "call left {{ {left} {right} {out} }}",
 }
-VECTORS = {"transfer": "laid_off", "step_off": "laid_off", "quarter": "across", "step_across": "across"}
 SIDES = "r", "rt", "t", "lt", "l", "lb", "b", "rb"  # where a letter stands off its mark, every 45 degrees
 
 
-def gclc(figure: Figure) -> str:
-    """The figure as a GCLC source (.gcl): points, steps with their sentences, strokes and letters."""
-    return _Writer(figure).text()
+def gclc(plates: Plates) -> str:
+    """The construction as a GCLC source (.gcl): points, steps with their sentences, strokes and letters."""
+    return _Writer(plates).text()
 
 
 def decimal(number: float) -> str:
@@ -125,217 +144,158 @@ SIGN = "ite(abs({0})<={2}*({1}),0,ite({0}>0,1,-1))"
 EXPRESSIONS = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", SIGN))
 
 
-@dataclass
-class _Writer:
-    """Writes one figure: the commands of each step, with what they need written where it is first needed."""
+class _Writer(Source):
+    """Writes the commands of each step, with what they need written where it is first needed."""
 
-    figure: Figure
-    lines: list[str] = field(default_factory=list)
-    called: set[str] = field(default_factory=set)
-    measured: set[str] = field(default_factory=set)
-    held: list[str] = field(default_factory=list)
+    commands, whole = COMMANDS, {Movement.LAID_OFF: "translate {out} {0} {1} {2}"}
 
     def text(self) -> str:
-        for object in self.figure.objects:
-            self._step(object)
-        self._drawing()
-        title = [f"% {line}" for line in (self.figure.title, self.figure.source) if line]
-        box = self.figure.box
+        self.made: set[str] = set()  # marks that only serve others, and coordinates that are measured
+        self.held: list[str] = []  # the pen that is taken up
+        self.steps()
+        for plate in self.plates:
+            self.lines += ["", f"% {self.say(said('drawing: {0}', plate.caption))}"]
+            self.drawing(plate)
+        title, box = [f"% {line}" for line in (self.title, self.source) if line], self.plates.box
         head = [*title, "", f"dim {decimal(math.ceil(box.right + 5))} {decimal(math.ceil(box.top + 5))}", ""]
         return "\n".join([*head, *self._procedures(), *self.lines]) + "\n"
 
     def _procedures(self) -> Iterator[str]:
         """The definitions of the procedures that are called."""
+        called = {line.split()[1] for line in self.lines if line.startswith("call ")}
         for name, (arguments, does, block) in PROCEDURES.items():
-            if name in self.called:
+            if name in called:
                 yield f"% {name}: {does}\nprocedure {name} {{ {arguments} }}\n{{{block}\n}}\n"
-
-    def _call(self, name: str, *arguments: str) -> None:
-        self.called.add(name)
-        self.lines.append(f"call {name} {{ {' '.join(arguments)} }}")
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
-    def _step(self, object: Object) -> None:
-        """What is said of a step, under what conditions, and its commands."""
-        if object is self.figure.firsts.get(object.plan.name):
-            self.lines += ["", f"% {self.figure.tongue(said('plan: {0}', object.plan.caption))}"]
-        if object.number:
-            self.lines += ["", f"% {object.number}. {object.sentence}"]
-            self.lines += [f"% {self.figure.tongue(said('drawable unless {0}', FAILURES[code][0]))}"
-                           for code in object.step.op.fails]
-        self._made(object)
+    def step(self, drawn: DrawnStep) -> None:
+        """The commands of a mark, after what it is drawable under."""
+        if drawn.number:
+            self.lines += [f"% {self.say(said('drawable unless {0}', FAILURES[code][0]))}"
+                           for code in drawn.step.op.fails]  # fmt: skip
+        super().step(drawn)
 
-    def _made(self, object: Object) -> None:
-        """The commands that make a mark: the language's own where it has them, else what its formula says."""
-        op, names = object.step.op.name, [arg.id for arg in object.args]
-        if object.free:
-            self.lines.append(f"point {object.id} {' '.join(map(decimal, object.at))}")
-        elif not at_home(object):
-            self._reckoned(object)
-        elif op in COMMANDS:
-            self.lines.append(COMMANDS[op].format(*names, out=object.id))
-        elif op in VECTORS:
-            self._laid_off(object)
-        elif op == "circle":
-            opened = object.args[1]
-            self._call("struck", object.args[0].id, opened.id, decimal(object.factor(opened)), object.id)
-        elif op == "line_meets_circle":
-            ends = self._way(object.args[0])
-            self._call("farther", *names, *(ends if object.step.params["way"] == "on" else ends[::-1]), object.id)
-        elif op == "circles_meet":
-            self._call("left", *(names if object.step.params["side"] == "left" else names[::-1]), object.id)
-        else:
-            self._reckoned(object)
+    def told(self, drawn: DrawnStep) -> dict[str, str]:
+        """The number that vectors are multiplied by; of two crossings, which is meant."""
+        told = {"k": decimal(parameters(drawn)["k"])}
+        if drawn.step.op.movement is Movement.CUT:
+            told |= zip("QP" if turned_back(drawn) else "PQ", self._way(drawn.args[0]), strict=True)
+        if drawn.step.op.movement is Movement.ARCS_MET:
+            sides = ("right", "left") if turned_back(drawn) else ("left", "right")
+            told |= zip(sides, map(self.names.__getitem__, drawn.args), strict=True)
+        return told
 
-    def _laid_off(self, object: Object) -> None:
-        """A multiple of a vector, from whatever plan, straight or turned a quarter."""
-        P, Q, R = object.args
-        times = float(object.step.params.get("ratio", 1)) * object.factor(P)
-        if times == 1.0 and VECTORS[object.step.op.name] == "laid_off":
-            self.lines.append(f"translate {object.id} {P.id} {Q.id} {R.id}")
-        else:
-            self._call(VECTORS[object.step.op.name], P.id, Q.id, decimal(times), R.id, object.id)
+    def put(self, drawn: DrawnStep) -> None:
+        self.lines.append(f"point {self.names[drawn]} {' '.join(map(decimal, drawn.at))}")
 
-    def _reckoned(self, object: Object) -> None:
-        """A mark by the arithmetic of its rule."""
-        coordinates = [self._coordinates(arg) for arg in object.args]
-        found = formula(object, coordinates, EXPRESSIONS, f"{object.id}_n")
-        numbers = [f"{object.id}_{part}" for part in COORDINATES[object.kind]]
+    def reckon(self, drawn: DrawnStep) -> None:
+        name, coordinates = self.names[drawn], [self._coordinates(arg) for arg in drawn.args]
+        found = formula(drawn, coordinates, EXPRESSIONS, f"{name}_n")
+        numbers = [f"{name}_{part}" for part in COORDINATES[drawn.kind]]
         told = [*found.terms, *zip(numbers, found.results, strict=True)]
-        self.lines += [f"expression {name} {{ {text} }}" for name, text in told]
-        if object.kind == OPENING:
-            self.lines.append(f"number {object.id} {object.id}_r")
-        elif object.kind == POINT:
-            self.lines.append(f"point {object.id} {object.id}_x {object.id}_y")
-            self.measured.add(f"{object.id}_x")
-        elif object.kind == CIRCLE:
-            self.lines.append(f"point {object.id}_at {object.id}_x {object.id}_y")
-            self._call("struck", f"{object.id}_at", f"{object.id}_r", "1", object.id)
-        else:
-            self._through(object.id)
-
-    def _through(self, line: str) -> None:
-        """A line from a point of it and the way that it runs."""
-        far = f"{decimal(REACH)}/sqrt({line}_dx*{line}_dx+{line}_dy*{line}_dy)"
-        self.lines += [f"expression {line}_u {{ {line}_x+{line}_dx*{far} }}",
-                       f"expression {line}_v {{ {line}_y+{line}_dy*{far} }}", f"point {line}_at {line}_x {line}_y",
-                       f"point {line}_to {line}_u {line}_v", f"line {line} {line}_at {line}_to"]  # fmt: skip
+        self.lines += [f"expression {term} {{ {text} }}" for term, text in told]
+        self.lines += [line.format(name) for line in RECKONED[drawn.kind]]
+        if drawn.kind == POINT:
+            self.made.add(f"{name}_x")
 
     # ---- operands --------------------------------------------------------------------------------------------------
 
-    def _coordinates(self, object: Object) -> list[str]:
+    def _coordinates(self, drawn: DrawnStep) -> list[str]:
         """The coordinates of an operand, as a formula reads them."""
-        if object.kind == OPENING:
-            return [object.id]
-        if object.kind == CIRCLE:
-            centre, opened = object.args
-            if not at_home(object):
-                return [f"{object.id}_{part}" for part in COORDINATES[CIRCLE]]
-            return [*self._place(centre.id), f"({opened.id}*{decimal(object.factor(opened))})"]
-        if object.kind == POINT:
-            return self._place(object.id)
-        (a, b), (c, d) = (self._place(end) for end in self._way(object))
-        return [*self._place(self._foothold(object)), f"({c}-{a})", f"({d}-{b})"]
+        name = self.names[drawn]
+        if drawn.kind == OPENING:
+            return [name]
+        if drawn.kind == POINT:
+            return self._place(name)
+        if drawn.kind == CIRCLE:
+            if not at_home(drawn):
+                return [f"{name}_{part}" for part in COORDINATES[CIRCLE]]
+            centre, opened = map(self.names.__getitem__, drawn.args)
+            return [*self._place(centre), f"({opened}*{decimal(parameters(drawn)['k'])})"]
+        (a, b), (c, d) = (self._place(end) for end in self._way(drawn))
+        return [*self._place(self._foothold(drawn)), f"({c}-{a})", f"({d}-{b})"]
 
     def _place(self, point: str) -> list[str]:
         """The coordinates of a point, measured once."""
-        if f"{point}_x" not in self.measured:
-            self.measured.add(f"{point}_x")
-            self.lines += [f"getx {point}_x {point}", f"gety {point}_y {point}"]
+        self._once(f"{point}_x", f"getx {point}_x {point}", f"gety {point}_y {point}")
         return [f"{point}_x", f"{point}_y"]
 
-    def _centre(self, circle: Object) -> str:
-        """The centre of a circle."""
-        return circle.args[0].id if at_home(circle) else f"{circle.id}_at"
-
-    def _foothold(self, line: Object) -> str:
+    def _foothold(self, line: DrawnStep) -> str:
         """A point of a line."""
-        match line.step.op.name if at_home(line) else "":
-            case "line":
-                return line.args[0].id
-            case "parallel" | "perpendicular":
-                return line.args[1].id
-            case "bisector":
-                self._once(f"{line.id}_at", f"midpoint {line.id}_at {line.args[0].id} {line.args[1].id}")
-        return f"{line.id}_at"
+        movement, ends = line.step.op.movement, [self.names[arg] for arg in line.args]
+        if movement not in COMMANDS or not at_home(line):
+            return f"{self.names[line]}_at"
+        if movement is Movement.BISECTED:
+            self._once(f"{self.names[line]}_at", f"midpoint {self.names[line]}_at {ends[0]} {ends[1]}")
+            return f"{self.names[line]}_at"
+        return ends[0] if movement is Movement.RULED else ends[1]
 
-    def _way(self, line: Object) -> tuple[str, str]:
+    def _way(self, line: DrawnStep) -> tuple[str, str]:
         """Two points from one of which to the other a line runs, on it or beside it."""
-        match line.step.op.name if at_home(line) else "":
-            case "line":
-                return line.args[0].id, line.args[1].id
-            case "parallel":
-                return self._way(line.args[0])
-            case "perpendicular":
-                return self._turned(line, *self._way(line.args[0]))
-            case "bisector":
-                return self._turned(line, line.args[0].id, line.args[1].id)
-        return f"{line.id}_at", f"{line.id}_to"
+        movement, name = line.step.op.movement, self.names[line]
+        if movement not in COMMANDS or not at_home(line):
+            return f"{name}_at", f"{name}_to"
+        if movement is Movement.PARALLEL:
+            return self._way(line.args[0])
+        ends = [self.names[arg] for arg in line.args]
+        P, Q = self._way(line.args[0]) if movement is Movement.PERPENDICULAR else (ends[0], ends[1])
+        if movement is Movement.RULED:
+            return P, Q
+        self._once(f"{name}_to", f"call across {{ {P} {Q} 1 {P} {name}_to }}")
+        return P, f"{name}_to"
 
-    def _turned(self, line: Object, P: str, Q: str) -> tuple[str, str]:
-        """The way of a line that runs a quarter turn counter-clockwise of PQ."""
-        if f"{line.id}_to" not in self.measured:
-            self.measured.add(f"{line.id}_to")
-            self._call("across", P, Q, "1", P, f"{line.id}_to")
-        return P, f"{line.id}_to"
+    def _once(self, name: str, *commands: str) -> None:
+        """A mark that only serves others, or a number, made where it is first needed."""
+        if name not in self.made:
+            self.made.add(name)
+            self.lines += commands
 
     # ---- the drawing -----------------------------------------------------------------------------------------------
 
-    def _drawing(self) -> None:
-        """The strokes, plan by plan, in the widths and colours of the sheet."""
-        for plan in self.figure.plans:
-            self.lines += ["", f"% {self.figure.tongue(said('drawing: {0}', plan.caption))}"]
-            traced = Traced(self.figure, plan)
-            self._symbols(plan, "ground")
-            self._pen(pens.LINK)
-            self.lines += [f"drawsegment {one.id} {other.id}" for one, other in traced.sides]
-            self._symbols(plan, "blocks", "drive")
-            for stroke in traced.strokes:
-                self._pen(stroke.pen)
-                self._stroke(stroke)
-            for swing in traced.swings:
-                self._pen(pens.ARC)
-                self._call("swing", self._centre(swing.made), swing.mark.id, _short(swing.before), _short(swing.after))
-            self._vectors(traced)
-            self._pen(pens.DOT)
-            self.lines += [f"cmark {point.id}" for point in traced.dots]
-            self.lines += map(self._letter, traced.letters)
-
-    def _symbols(self, plan: Plan, *layers: str) -> None:
-        """Symbols of the mechanism as they lie; nothing is filled."""
-        for symbol in self.figure.drawn_symbols(plan, *layers):
-            self._pen(symbol.pen)
-            names = [f"s_{self.figure.symbols.index(symbol)}_{i}" for i in range(len(symbol.spots))]
-            self.lines += [f"point {name} {_short(x)} {_short(y)}"
-                           for name, (x, y) in zip(names, symbol.spots, strict=True)]
-            ends = pairwise([*names, names[0]] if symbol.closed else names)
-            self.lines += [f"drawsegment {one} {other}" for one, other in ends]
-
-    def _stroke(self, stroke: Stroke) -> None:
-        """A straight stroke along its marks, or from its one mark the way the line runs."""
-        name, parts = "dashes" if stroke.pen.dash else "stroke", (_short(stroke.low), _short(stroke.high))
-        if stroke.end is not None:
-            self._call(name, stroke.start.id, stroke.end.id, *parts)
+    def stroke(self, stroke: Stroke) -> None:
+        """Along its marks, or from one mark the way the line runs."""
+        self._pen(stroke.pen)
+        start, end, low, high = self.names[stroke.start], self.names[stroke.end], stroke.low, stroke.high
+        if stroke.head and (low, high) == (0.0, 1.0):
+            self.lines.append(f"call vector {{ {start} {end} }}")
             return
-        P, Q = self._way(stroke.made)
-        self._once(f"{stroke.made.id}_on", f"translate {stroke.made.id}_on {P} {Q} {stroke.start.id}")
-        self._call(name, stroke.start.id, f"{stroke.made.id}_on", *parts)
+        if stroke.in_mm:
+            (P, Q), long, end = self._way(stroke.of), math.hypot(*heading(stroke.of)), f"{self.names[stroke.of]}_on"
+            self._once(end, f"translate {end} {P} {Q} {start}")
+            low, high = low / long, high / long
+        name = "arrow" if stroke.head else "dashes" if stroke.pen.dash else "stroke"
+        self.lines.append(f"call {name} {{ {start} {end} {_short(low)} {_short(high)} }}")
 
-    def _vectors(self, traced: Traced) -> None:
-        """Given vectors, then those that were asked for."""
-        for end, start in traced.given.items():
-            self._pen(pens.GIVEN[traced.quantity])
-            self._call("vector", start.id, end.id)
-        for arrow in traced.arrows:
-            self._pen(pens.VECTORS[arrow.kind])
-            self._call("vector", arrow.start.id, arrow.end.id)
+    def arc(self, arc: StruckArc) -> None:
+        self._pen(pens.ARC)
+        centre = self.names[arc.of.args[0]] if at_home(arc.of) else f"{self.names[arc.of]}_at"
+        self.lines.append(f"call swing {{ {centre} {self.names[arc.mark]} {_short(arc.before)} {_short(arc.after)} }}")
 
-    def _letter(self, letter: Letter) -> str:
-        """Lettering on the side of its mark where it stands on the sheet."""
+    def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
+        """Nothing is filled."""
+        if not pen.width:
+            return
+        self._pen(pen)
+        names = []
+        for x, y in spots:
+            joint = self.joints.get((x, y))
+            names.append(self.names[joint] if joint else f"s_{len(self.lines)}")
+            if not joint:
+                self.lines.append(f"point {names[-1]} {_short(x)} {_short(y)}")
+        self.lines += [f"drawsegment {one} {other}" for one, other in pairwise([*names, *names[:closed]])]
+
+    def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
+        self._pen(pen)
+        self.lines.append(f"cmark {self.names[mark]}")
+
+    def letter(self, letter: Letter) -> None:
+        """Letters on the side of their mark where they stand on the sheet; numbers are in the sentences alone."""
+        if letter.ringed or letter.text.pen == pens.FAINT:
+            return
         angle = math.atan2(letter.off[1] + letter.text.size * CAPS / 2, letter.off[0])
         side = SIDES[round(angle / (math.pi / 4)) % 8]
-        return f"printat_{side} {letter.mark.id} {{{formulated(letter.text.runs)}}}"
+        self.lines.append(f"printat_{side} {self.names[letter.mark]} {{{formulated(letter.text.runs)}}}")
 
     def _pen(self, pen: Pen) -> None:
         """Width and colour, where they change."""
@@ -344,9 +304,3 @@ class _Writer:
         if taken != self.held:
             self.lines += taken
             self.held = taken
-
-    def _once(self, name: str, command: str) -> None:
-        """A mark that only serves others, made where it is first needed."""
-        if name not in self.measured:
-            self.measured.add(name)
-            self.lines.append(command)

@@ -10,21 +10,25 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from functools import cached_property
+from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.output.exports.figure import Arrow, Figure, Link, Object, Plan, Symbol
 from graphplan.output.exports.geogebra_commands import number, written
+from graphplan.output.exports.walk import BACK, FRONT, Page
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Polygon, Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plate import Plate, Plates
 
 WIDE, HIGH = 1400, 900  # pixels of the drawing pad
 TYPES = {POINT: "point", LINE: "line", OPENING: "numeric", CIRCLE: "conic"}
 RESERVED = {"x", "y", "z", "e", "i", "π"}  # letters that mean something else in GeoGebra
-OWN = ("number", "arc", "stroke", "laid", "vector", "link", "side", "caption", *TYPES)  # so begin labels made here
+OWN = {"segment": "stroke", "vector": "vector", "conicpart": "arc", "polygon": "link"}  # so begin labels made here
+TAKEN = ("number", "side", "caption", *OWN.values(), *TYPES)
 LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
 SOLID, DASHED = 0, 15  # GeoGebra's types of line
 LINKS, CURVES, VECTORS, POINTS = 0, 2, 5, 8  # its layers
@@ -32,9 +36,9 @@ NAME, CAPTION = 0, 3  # what it shows as a label
 STAMP = (1980, 1, 1, 0, 0, 0)  # of the file in the archive: a construction has no date
 
 
-def geogebra(figure: Figure) -> bytes:
-    """The figure as a .ggb file, the same bytes in every run."""
-    root = _Writer(figure).document()
+def geogebra(plates: Plates) -> bytes:
+    """The construction as a .ggb file, the same bytes in every run."""
+    root = _Writer(plates).document()
     indent(root, " ")
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -50,25 +54,26 @@ def letters(name: str) -> str:
         "″", "''")
 
 
-def labels(figure: Figure) -> dict[Object, str]:
-    """The label of every object: its letters where GeoGebra allows them, else its kind and place."""
-    found: dict[Object, str] = {}
+def labels(plates: Plates) -> dict[DrawnStep, str]:
+    """The label of every mark: its letters where GeoGebra allows them, else its kind and place."""
+    found: dict[DrawnStep, str] = {}
     taken = set(RESERVED)
-    for place, object in enumerate(figure.objects):
-        letter = letters(object.name)
-        fits = LABEL.fullmatch(letter) and not letter.startswith(OWN) and letter not in taken
-        found[object] = letter if fits else f"{object.kind}_{{{place}}}"
-        taken.add(found[object])
+    for place, drawn in enumerate(plates.drawn):
+        letter = letters(drawn.name)
+        fits = LABEL.fullmatch(letter) and not letter.startswith(TAKEN) and letter not in taken
+        found[drawn] = letter if fits else f"{drawn.kind}_{{{place}}}"
+        taken.add(found[drawn])
     return found
 
 
-class _Writer:
-    """Writes one figure, object by object."""
+class _Writer(Page):
+    """Writes one construction, mark by mark."""
 
-    def __init__(self, figure: Figure):
-        self.figure, self.labels = figure, labels(figure)
-        self.firsts = set(figure.firsts.values())
-        self.construction = Element("construction", {"title": figure.title, "author": "", "date": ""})
+    part, along = "Translate[{0}, {part} * Vector[{0}, {1}]]", "Translate[{0}, {part} * UnitVector[{2}]]"
+    number = staticmethod(number)
+
+    def named(self) -> Mapping[DrawnStep, str]:
+        return labels(self.plates)
 
     # ---- the document ------------------------------------------------------------------------------------------
 
@@ -85,13 +90,13 @@ class _Writer:
         _empty(kernel, "continuous", val=False)
         _empty(kernel, "decimals", val=4)
         _empty(kernel, "angleUnit", val="degree")
-        self._write()
+        self.write()
         root.append(self.construction)
         return root
 
     def _view(self, view: Element) -> None:
         """All plans, with no axes and one scale."""
-        box = self.figure.box
+        box = self.plates.box
         scale = min(WIDE / box.width, HIGH / box.height) * 0.94
         (x, y), middle = box.centre, (WIDE / 2, HIGH / 2)
         _empty(view, "size", width=WIDE, height=HIGH)
@@ -101,82 +106,73 @@ class _Writer:
         for axis in (0, 1):
             _empty(view, "axis", id=axis, show=False, label="", unitLabel="", tickStyle=1, showNumbers=False)
 
-    def _write(self) -> None:
+    def write(self) -> None:
         """The pose and its links, then step by step; vectors and strokes as soon as their marks are there."""
-        figure = self.figure
-        pose = [object for object in figure.objects if not object.number]
-        for object in pose:
-            self._object(object)
-        for place, symbol in enumerate(figure.symbols):
-            self._symbol(symbol, place)
-        for link in figure.links:
-            self._link(link)
-        for plan in figure.plans:
-            self._caption(plan)
-        for object in pose:
-            self._after(object)
-        for object in figure.steps:
-            self._object(object)
-            self._after(object)
+        self.construction, self.count = Element("construction", {"title": self.title, "author": "", "date": ""}), 0
+        pose = [drawn for drawn in self.plates.drawn if not drawn.number]
+        for drawn in pose:
+            self._mark(drawn)
+        for plate in self.plates:
+            for item, spots in self.mechanism(plate, *BACK, *FRONT):
+                if not isinstance(item, Circle) and item.pen != pens.HOLLOW:
+                    self._shape(pens.LINK if item.pen == pens.BAR else item.pen, spots, isinstance(item, Polygon))
+            self._caption(plate)
+        for drawn in [*pose, *self.plates.drawn[len(pose):]]:
+            if drawn.number:
+                self._mark(drawn)
+            for one in self.due.get(drawn, ()):
+                self._arc(one) if isinstance(one, StruckArc) else self._stroke(one)
 
-    def _after(self, object: Object) -> None:
-        """What can be drawn once a mark is there."""
-        for curve, place in self._waiting.get(object, ()):
-            self._stroke(curve, place)
-        if object.root and not any(object is arrow.end for arrow in self.figure.arrows):
-            self._laid_off(object.root, object)
-        for arrow in self.figure.arrows:
-            if object is max(arrow.start, arrow.end, key=lambda mark: mark.index):
-                self._vector(arrow)
+    # ---- marks -------------------------------------------------------------------------------------------------
 
-    @cached_property
-    def _waiting(self) -> dict[Object, list[tuple[Object, Object]]]:
-        """For each mark the lines whose last it is, and the circles that it lies on, each with itself."""
-        found: dict[Object, list[tuple[Object, Object]]] = {}
-        for curve, marks in self.figure.marks.items():
-            last = marks if curve.kind == CIRCLE else sorted(marks, key=lambda mark: mark.index)[-1:]
-            for mark in last:
-                found.setdefault(max(mark, curve, key=lambda one: one.index), []).append((curve, mark))
-        return found
-
-    # ---- objects -----------------------------------------------------------------------------------------------
-
-    def _object(self, object: Object) -> None:
-        label = self.labels[object]
-        if not object.free:
-            self._made(object, label)
-        lettered = object.kind == POINT and not object.auxiliary
-        shown = lettered or (object.kind == POINT and object.plan.rect.holds(object.at))
-        element = self._element(TYPES[object.kind], label, shown, lettered, object.pen,
-                                POINTS if object.kind == POINT else CURVES)
-        if object.kind == POINT:
-            _empty(element, "coords", x=object.at[0], y=object.at[1], z=1.0)
-            _empty(element, "pointSize", val=3 if object.name else 1)
+    def _mark(self, drawn: DrawnStep) -> None:
+        label, point = self.names[drawn], drawn.kind == POINT
+        if not drawn.free:
+            self._made(drawn, label)
+        lettered = point and bool(drawn.name)
+        shown = lettered or (point and drawn.view.rect.holds(drawn.at))
+        pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
+        element = self._element(TYPES[drawn.kind], label, shown, lettered, pen, POINTS if point else CURVES)
+        if point:
+            _empty(element, "coords", x=drawn.at[0], y=drawn.at[1], z=1.0)
+            _empty(element, "pointSize", val=3 if drawn.name else 1)
             _empty(element, "pointStyle", val=0)
-        if object.kind == OPENING:
-            _empty(element, "value", val=object.radius)
-        if lettered and label != letters(object.name):
-            self._lettered(element, object.name)
+        if drawn.kind == OPENING:
+            _empty(element, "value", val=drawn.radius)
+        if lettered and label != letters(drawn.name):
+            self._lettered(element, drawn.name)
         else:
-            _empty(element, "caption", val=object.sentence)
-        if object in self.firsts:
+            _empty(element, "caption", val=drawn.sentence)
+        if drawn in self.plates.firsts:
             _empty(element, "breakpoint", val=True)
 
-    def _made(self, object: Object, label: str) -> None:
+    def _made(self, drawn: DrawnStep, label: str) -> None:
         """The command or expression by which it depends on others."""
-        made = written(object, self.labels)
+        made = written(drawn, self.names)
         for term, text in made.terms:
             _empty(self.construction, "expression", label=term, exp=text)
-            self._element("numeric", term, False, False, object.pen, CURVES)
+            self._element("numeric", term, False, False, pens.THIN, CURVES)
         if made.name:
             self._command(made.name, made.inputs, [label])
         else:
-            _empty(self.construction, "expression", label=label, exp=made.inputs[0], type=TYPES[object.kind])
+            _empty(self.construction, "expression", label=label, exp=made.inputs[0], type=TYPES[drawn.kind])
 
-    def _command(self, name: str, inputs: list[str], outputs: list[str]) -> None:
+    def _command(self, name: str, inputs: Sequence[str], outputs: Sequence[str]) -> None:
         command = SubElement(self.construction, "command", {"name": name})
         SubElement(command, "input", {f"a{i}": text for i, text in enumerate(inputs)})
         SubElement(command, "output", {f"a{i}": text for i, text in enumerate(outputs)})
+
+    def _drawn(self, kind: str, command: str, inputs: Sequence[str], pen: Pen, layer: int, letter: str = "") -> None:
+        """What is seen of marks: a shape by its command."""
+        self.count += 1
+        label = f"{OWN[kind]}_{{{self.count}}}"
+        sides = [f"side_{{{self.count},{i}}}" for i in range(len(inputs))] if kind == "polygon" else []
+        self._command(command, inputs, [label, *sides])
+        element = self._element(kind, label, True, bool(letter), pen, layer)
+        for side in sides:
+            self._element("segment", side, False, False, pen, layer)
+        if letter:
+            self._lettered(element, letter)
 
     def _element(self, type: str, label: str, shown: bool, lettered: bool, pen: Pen, layer: int) -> Element:
         element = SubElement(self.construction, "element", {"type": type, "label": label})
@@ -199,61 +195,36 @@ class _Writer:
 
     # ---- what is seen of them ----------------------------------------------------------------------------------
 
-    def _stroke(self, curve: Object, mark: Object) -> None:
-        """As much of a line or a circle as serves its marks."""
-        name = self.labels[curve]
-        if curve.kind == CIRCLE:
-            at, label, turn = self.labels[mark], f"arc_{{{curve.index},{mark.index}}}", number(curve.struck)
-            ends = [f"Rotate[{at}, {sign}{turn}°, Center[{name}]]" for sign in ("-", "")]
-            self._command("CircleArc", [f"Center[{name}]", *ends], [label])
-            self._element("conicpart", label, True, False, curve.pen, CURVES)
-        elif stretch := self.figure.stretch(curve):
-            start, end, beyond = self.labels[stretch[0]], self.labels[stretch[1]], stretch[2]
-            along, label = f"{number(beyond)} * UnitVector[{name}]", f"stroke_{{{curve.index}}}"
-            ends = [f"Translate[{start}, -{along}]", f"Translate[{end}, {along}]"] if beyond else [start, end]
-            self._command("Segment", ends, [label])
-            self._lettered(self._element("segment", label, True, bool(curve.name), curve.pen, CURVES), curve.name)
+    def _stroke(self, stroke: Stroke) -> None:
+        """A stroke or a vector between its marks, or parts of the way."""
+        letter = (stroke.letter or stroke.of.name) if stroke in self.lettered else ""
+        kind, layer = ("vector", VECTORS) if stroke.head else ("segment", CURVES)
+        self._drawn(kind, kind.capitalize(), self.ends(stroke), stroke.pen, layer, letter)
 
-    def _laid_off(self, root: Object, object: Object) -> None:
-        """The stroke along which a point was laid off."""
-        label = f"laid_{{{object.index}}}"
-        self._command("Segment", [self.labels[root], self.labels[object]], [label])
-        self._element("segment", label, True, False, pens.THIN, CURVES)
+    def _arc(self, arc: StruckArc) -> None:
+        """As much of a circle as serves its mark."""
+        centre, mark = f"Center[{self.names[arc.of]}]", self.names[arc.mark]
+        turns = (f"Rotate[{mark}, {number(turn)}°, {centre}]" for turn in (-arc.before, arc.after))
+        self._drawn("conicpart", "CircleArc", [centre, *turns], pens.ARC, CURVES)
 
-    def _vector(self, arrow: Arrow) -> None:
-        label = f"vector_{{{arrow.start.index},{arrow.end.index},{self.figure.arrows.index(arrow)}}}"
-        self._command("Vector", [self.labels[arrow.start], self.labels[arrow.end]], [label])
-        said = bool(arrow.label) and arrow.label != arrow.end.name
-        element = self._element("vector", label, True, said, pens.VECTORS[arrow.kind], VECTORS)
-        self._lettered(element, arrow.label)
+    def _shape(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
+        """A shape of the mechanism, on its joints or as it lies; only plates are filled."""
+        places = [self.names[self.joints[spot]] if spot in self.joints else
+                  f"({number(round(spot[0], 3))}, {number(round(spot[1], 3))})" for spot in spots]
+        if pen == pens.PLATE:
+            self._drawn("polygon", "Polygon", places, pens.LINK, LINKS)
+            return
+        for ends in pairwise([*places, *places[:closed]]):
+            self._drawn("segment", "Segment", ends, pen, LINKS)
 
-    def _link(self, link: Link) -> None:
-        """A bar, or the plate of three points and more."""
-        corners, place = [self.labels[point] for point in link.corners], self.figure.links.index(link)
-        if len(corners) > 2:
-            sides = [f"side_{{{place},{i}}}" for i in range(len(corners))]
-            self._command("Polygon", corners, [f"link_{{{place}}}", *sides])
-            for type, label in (("polygon", f"link_{{{place}}}"), *(("segment", side) for side in sides)):
-                self._element(type, label, True, False, pens.LINK, LINKS)
-        bars = [(self.labels[corner], self.labels[inner]) for corner, inner in link.ribs]
-        for i, ends in enumerate([(corners[0], corners[1])] if len(corners) == 2 else bars):
-            self._command("Segment", list(ends), [f"link_{{{place},{i}}}"])
-            self._element("segment", f"link_{{{place},{i}}}", True, False, pens.LINK, LINKS)
-
-    def _symbol(self, symbol: Symbol, place: int) -> None:
-        """A symbol of the mechanism as it lies; nothing is filled."""
-        spots = [f"({number(round(x, 3))}, {number(round(y, 3))})" for x, y in symbol.spots]
-        for i, ends in enumerate(pairwise([*spots, spots[0]] if symbol.closed else spots)):
-            self._command("Segment", list(ends), [f"symbol_{{{place},{i}}}"])
-            self._element("segment", f"symbol_{{{place},{i}}}", True, False, symbol.pen, LINKS)
-
-    def _caption(self, plan: Plan) -> None:
+    def _caption(self, plate: Plate) -> None:
         """What a plan is, at the top of its window."""
-        label = f"caption_{{{self.figure.plans.index(plan)}}}"
-        _empty(self.construction, "expression", label=label, exp=f'"{plan.caption}"')
+        self.count += 1
+        label, rect = f"caption_{{{self.count}}}", plate.view.rect
+        _empty(self.construction, "expression", label=label, exp=f'"{plate.caption}"')
         element = self._element("text", label, True, False, pens.LETTERS, POINTS)
         _empty(element, "font", serif=False, size=0, style=1)
-        _empty(element, "startPoint", x=plan.rect.left, y=plan.rect.top, z=1.0)
+        _empty(element, "startPoint", x=rect.left, y=rect.top, z=1.0)
 
 
 def _empty(parent: Element, name: str, **attributes: object) -> None:

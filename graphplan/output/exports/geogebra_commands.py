@@ -9,30 +9,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from typing import NamedTuple
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.output.exports.figure import Object
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.output.exports.formula import Language, formula, operations
-
-
-class Command(NamedTuple):
-    """A command of the operands {0}, {1}, ...; those that may lie on another plan than the result are `afar`.
-
-    {k} is what lengths from afar are multiplied by, {sign} that of the side declared, {dx} and {dy} are in mm;
-    {centre0} and {radius0} are those of the circle {0}.
-    """
-
-    name: str
-    inputs: tuple[str, ...]
-    afar: tuple[int, ...] = ()
-
-
-def _laid(vector: str) -> Command:
-    """A vector laid off from the third operand."""
-    return Command("Translate", ("{2}", vector), (0, 1))
+from graphplan.output.exports.walk import at_home, parameters, turned_back
+from graphplan.sheet.plates.drawn_step import DrawnStep
 
 
 class Written(NamedTuple):
-    """The numbers that an object needs, by label, and its command; without a name its one input is an expression."""
+    """The numbers that a mark needs, by label, and its command; without a name its one input is an expression."""
 
     terms: Sequence[tuple[str, str]]
     name: str
@@ -44,29 +28,27 @@ CENTRES = "Vector[{centre0}, {centre1}]"
 APART = "Distance[{centre0}, {centre1}]"
 ALONG = f"({APART}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {APART})"  # on the line of centres, to the chord
 
+# The command of each movement, and its inputs: {k} is what lengths from another plan are multiplied by, {sign} that of
+# the side declared, {dx} and {dy} are in mm; {centre0} and {radius0} are those of the circle {0}.
 COMMANDS = {
-    "line": Command("Line", ("{0}", "{1}")),
-    "guide": Command("Line", ("{0}", "Vector[({dx}, {dy})]")),
-    "parallel": Command("Line", ("{1}", "{0}"), (0,)),
-    "perpendicular": Command("OrthogonalLine", ("{1}", "{0}"), (0,)),
-    "bisector": Command("LineBisector", ("{0}", "{1}")),
-    "meet": Command("Intersect", ("{0}", "{1}")),
-    "opening": Command("Distance", ("{0}", "{1}")),
-    "circle": Command("Circle", ("{0}", "{k} * {1}"), (1,)),
-    "midpoint": Command("Midpoint", ("{0}", "{1}")),
-    "foot": Command("Intersect", ("{0}", "OrthogonalLine[{1}, {0}]")),
-    "transfer": _laid("{k} * Vector[{0}, {1}]"),
-    "step_off": _laid("{k} * Vector[{0}, {1}]"),
-    "quarter": _laid("{k} * OrthogonalVector[Vector[{0}, {1}]]"),
-    "step_across": _laid("{k} * OrthogonalVector[Vector[{0}, {1}]]"),
-    "lay_off": Command("Translate", ("{0}", "Vector[({dx}, {dy})]")),
-    "line_meets_circle": Command("Translate", (
-        "Intersect[{0}, OrthogonalLine[{centre1}, {0}]]",
-        "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]")),
-    "circles_meet": Command("Translate", (
-        f"Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]",
-        f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]")),
-}
+    Movement.RULED: ("Line", "{0}", "{1}"),
+    Movement.GUIDED: ("Line", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.PARALLEL: ("Line", "{1}", "{0}"),
+    Movement.PERPENDICULAR: ("OrthogonalLine", "{1}", "{0}"),
+    Movement.BISECTED: ("LineBisector", "{0}", "{1}"),
+    Movement.MET: ("Intersect", "{0}", "{1}"),
+    Movement.OPENED: ("Distance", "{0}", "{1}"),
+    Movement.STRUCK: ("Circle", "{0}", "{k} * {1}"),
+    Movement.HALVED: ("Midpoint", "{0}", "{1}"),
+    Movement.DROPPED: ("Intersect", "{0}", "OrthogonalLine[{1}, {0}]"),
+    Movement.LAID_OFF: ("Translate", "{2}", "{k} * Vector[{0}, {1}]"),
+    Movement.TURNED: ("Translate", "{2}", "{k} * OrthogonalVector[Vector[{0}, {1}]]"),
+    Movement.LAID_BY_COMPONENTS: ("Translate", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.CUT: ("Translate", "Intersect[{0}, OrthogonalLine[{centre1}, {0}]]",
+                   "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]"),
+    Movement.ARCS_MET: ("Translate", f"Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]",
+                        f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]"),
+}  # fmt: skip
 
 
 def number(value: float) -> str:
@@ -87,56 +69,35 @@ RESULTS = {
 }
 
 
-def written(object: Object, labels: Mapping[Object, str]) -> Written:
-    """What makes an object in GeoGebra."""
-    command = COMMANDS.get(object.step.op.name)
-    if command is not None and _stands(object, command.afar):
-        named = [labels[arg] for arg in object.args]
-        sizes = _sizes(object, command.afar) | _circles(object, labels)
-        return Written((), command.name, [text.format(*named, **sizes) for text in command.inputs])
-    read = [_coordinates(arg, labels) for arg in object.args]
-    found = formula(object, read, LANGUAGE, f"number{object.index}n", DEEPEST)
-    name, texts = RESULTS[object.kind]
+def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> Written:
+    """What makes a mark in GeoGebra."""
+    movement = drawn.step.op.movement
+    if movement in COMMANDS and at_home(drawn):
+        name, *inputs = COMMANDS[movement]
+        told = {name: number(value) for name, value in parameters(drawn).items()}
+        for place, arg in enumerate(drawn.args):
+            if arg.kind == CIRCLE:
+                told[f"centre{place}"], told[f"radius{place}"] = _circle(arg, labels)
+        told["sign"] = "-" if turned_back(drawn) else ""
+        return Written((), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs])
+    read = [_coordinates(arg, labels) for arg in drawn.args]
+    found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
+    name, texts = RESULTS[drawn.kind]
     return Written(found.terms, name, [text.format(*found.results) for text in texts])
 
 
-def _stands(object: Object, afar: Sequence[int]) -> bool:
-    """Whether all operands lie on the object's plan, those from afar together on any."""
-    near = {arg.plan.name for place, arg in enumerate(object.args) if place not in afar}
-    return near <= {object.plan.name} and len({object.args[place].plan.name for place in afar}) < 2
-
-
-def _sizes(object: Object, afar: Sequence[int]) -> dict[str, str]:
-    """The numbers of a command: what is given, in mm, and how lengths are carried over."""
-    params, scale = object.step.params, object.plan.scale
-    factor = object.factor(object.args[afar[0]]) if afar else 1.0
-    sizes: dict[str, str] = {name: number(scale * float(params[name])) for name in {"dx", "dy"} & params.keys()}
-    sizes["k"] = number(factor * float(params.get("ratio", 1)))
-    sizes["sign"] = "-" if params.get("side") == "right" or params.get("way") == "back" else ""
-    return sizes
-
-
-def _circles(object: Object, labels: Mapping[Object, str]) -> dict[str, str]:
-    """The centres and radii of the circles that an object reads."""
-    found = {}
-    for place, arg in enumerate(object.args):
-        if arg.kind == CIRCLE:
-            found[f"centre{place}"], found[f"radius{place}"] = _circle(arg, labels)
-    return found
-
-
-def _circle(circle: Object, labels: Mapping[Object, str]) -> tuple[str, str]:
+def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:
     """The centre and the radius of a circle: the marks that it was struck with, where they are as large here."""
-    if circle.step.op.name == "circle" and _stands(circle, (1,)):
-        centre, opening = circle.args
-        factor = circle.factor(opening)
-        return labels[centre], labels[opening] if factor == 1 else f"({number(factor)} * {labels[opening]})"
+    if circle.step.op.movement is Movement.STRUCK and at_home(circle):
+        centre, opening = (labels[arg] for arg in circle.args)
+        factor = parameters(circle)["k"]
+        return centre, opening if factor == 1 else f"({number(factor)} * {opening})"
     return f"Center[{labels[circle]}]", f"Radius[{labels[circle]}]"
 
 
-def _coordinates(object: Object, labels: Mapping[Object, str]) -> list[str]:
+def _coordinates(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> list[str]:
     """An operand of a formula by its coordinates."""
-    if object.kind == CIRCLE:
-        centre, radius = _circle(object, labels)
+    if drawn.kind == CIRCLE:
+        centre, radius = _circle(drawn, labels)
         return [*(text.format(centre) for text in POINTS), radius]
-    return [text.format(labels[object]) for text in {POINT: POINTS, LINE: LINES, OPENING: ("{0}",)}[object.kind]]
+    return [text.format(labels[drawn]) for text in {POINT: POINTS, LINE: LINES, OPENING: ("{0}",)}[drawn.kind]]

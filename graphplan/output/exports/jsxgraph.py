@@ -8,17 +8,20 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from html import escape
+from importlib.resources import files
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.output.exports.figure import Arrow, Figure, Link, Object, Plan, Symbol
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.output.exports.formula import Language, formula, operations
-from graphplan.output.exports.jsxgraph_page import page
+from graphplan.output.exports.walk import BACK, FRONT, Page, at_home, identifiers, parameters
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Item, Polygon, Spot
+from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plate import Plate, Plates
 
 LIBRARY = "jsxgraphcore.js"  # what the page looks for beside itself
 TITLES = {"back": said("Previous step"), "next": said("Next step"), "step": said("Step")}
@@ -33,13 +36,13 @@ LINKS, CURVES, VECTORS, POINTS = 2, 4, 6, 9  # JSXGraph's layers
 MARGIN = 0.02  # of the paper, around it
 JAVASCRIPT = Language(repr, operations(
     "Math.sqrt({})", "Math.abs({})", "(Math.abs({0}) <= {2} * {1} ? 0 : Math.sign({0}))"))
-NATIVE: dict[str, tuple[str, tuple[str, ...], tuple[int, ...]]] = {  # by parents; those that may lie on any plan
-    "line": ("line", ("{0}", "{1}"), ()),
-    "parallel": ("line", ("{1}", "() => by({1}, {0}, 100, 0)"), (0,)),
-    "perpendicular": ("line", ("{1}", "() => by({1}, {0}, 0, 100)"), (0,)),
-    "meet": ("intersection", ("{0}", "{1}", "0"), ()),
-    "midpoint": ("midpoint", ("{0}", "{1}"), ()),
-    "circle": ("circle", ("{0}", "() => {k} * {1}()"), (1,)),
+NATIVE = {  # an element, and its parents
+    Movement.RULED: ("line", "{0}", "{1}"),
+    Movement.PARALLEL: ("line", "{1}", "() => by({1}, {0}, 100, 0)"),
+    Movement.PERPENDICULAR: ("line", "{1}", "() => by({1}, {0}, 0, 100)"),
+    Movement.MET: ("intersection", "{0}", "{1}", "0"),
+    Movement.HALVED: ("midpoint", "{0}", "{1}"),
+    Movement.STRUCK: ("circle", "{0}", "() => {k!r} * {1}()"),
 }
 Look = dict[str, object]  # attributes of an element
 HIDDEN: Look = {"visible": False, "name": "", "withLabel": False}
@@ -57,21 +60,18 @@ RESULTS = {
 }
 
 
-def jsxgraph(figure: Figure, script: str | None = None) -> str:
-    """The figure as an HTML page: with the text of the library inside where it is given, else with its name."""
+def jsxgraph(plates: Plates, script: str | None = None) -> str:
+    """The construction as an HTML page: with the text of the library inside where it is given, else with its name."""
     library = f"<script>\n{_inside(script)}\n</script>" if script else f'<script src="{LIBRARY}"></script>'
-    sentences = [object.sentence for object in figure.steps]
-    return page(
-        language=figure.tongue.code, title=escape(figure.title), source=escape(figure.source), library=library,
-        box=_json(_box(figure)), sentences=_json(sentences), steps=str(len(sentences)),
-        elements="\n".join(f"  {line}" for line in _Writer(figure).lines()),
-        **_words(figure))
-
-
-def _words(figure: Figure) -> dict[str, str]:
-    """What the page says beside the steps: in its elements, and as data in its script."""
-    spoken = {name: figure.tongue(word) for name, word in WORDS.items()}
-    return {name: escape(text) if name in TITLES else _json(text) for name, text in spoken.items()}
+    sentences = [drawn.sentence for drawn in plates.drawn if drawn.number]
+    box, margin, say = plates.box, MARGIN * plates.box.width, plates.plans.tongue
+    corners = [box.left - margin, box.top + margin, box.right + margin, box.bottom - margin]
+    parts = {name: escape(say(word)) if name in TITLES else _json(say(word)) for name, word in WORDS.items()}
+    parts |= {"language": say.code, "title": escape(plates.scene.title), "source": escape(plates.scene.source),
+              "library": library, "box": _json(corners), "sentences": _json(sentences), "steps": str(len(sentences)),
+              "elements": "\n".join(f"  {line};" for line in _Writer(plates).elements())}  # fmt: skip
+    page = files("graphplan.output").joinpath("jsxgraph.html").read_text("utf-8")
+    return re.sub(r"\{\{(\w+)\}\}", lambda word: parts[word[1]], page)
 
 
 def _inside(script: str) -> str:
@@ -84,128 +84,96 @@ def _json(value: object) -> str:
     return re.sub("<(?=[/!])", r"\\u003c", json.dumps(value, ensure_ascii=False))
 
 
-def _box(figure: Figure) -> list[float]:
-    """Left, top, right, bottom of the board."""
-    box, margin = figure.box, MARGIN * figure.box.width
-    return [box.left - margin, box.top + margin, box.right + margin, box.bottom - margin]
-
-
 def _letters(name: str) -> str:
     """A mark's name in HTML."""
     return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in name_runs(name))
 
 
-class _Writer:
-    """Writes one figure as statements, element by element."""
+class _Writer(Page):
+    """Writes one construction as statements, element by element."""
 
-    def __init__(self, figure: Figure):
-        self.figure = figure
+    part, along = "() => part({0}, {1}, {part})", "() => by({0}, {2}, {part}, 0)"
 
-    def lines(self) -> Iterator[str]:
-        """The pose and its links, then step by step with the strokes and vectors that belong to each."""
-        for plan in self.figure.plans:
-            yield self._caption(plan)
-        for object in self.figure.objects:
-            yield self._object(object)
-        for link in self.figure.links:
-            yield from self._link(link)
-        for symbol in self.figure.symbols:
-            yield self._symbol(symbol)
-        for object in self.figure.objects:
-            yield from self._strokes(object)
-        for arrow in self.figure.arrows:
-            yield self._vector(arrow)
+    def named(self) -> Mapping[DrawnStep, str]:
+        """Marks are properties in the script, since names may be words of the language."""
+        return {drawn: f"M.{name}" for drawn, name in identifiers(self.plates.drawn).items()}
 
-    # ---- objects -----------------------------------------------------------------------------------------------
+    def elements(self) -> Iterator[str]:
+        """The captions and the marks, then the links and what is drawn of each mark; seen from its step on."""
+        yield from map(self._caption, self.plates)
+        yield from map(self._mark, self.plates.drawn)
+        for plate in self.plates:
+            for item, spots in self.mechanism(plate, *BACK, *FRONT):
+                if not isinstance(item, Circle):
+                    yield _seen(0, self._shape(item, spots))
+        for one in (one for drawn in self.plates.drawn for one in self.due.get(drawn, ())):
+            yield _seen(one.of.number, self._arc(one) if isinstance(one, StruckArc) else self._stroke(one))
 
-    def _object(self, object: Object) -> str:
-        """One mark, with what it depends on."""
-        if object.free:
-            return self._mark(object, "point", [repr(part) for part in object.at])
-        element, texts, afar = NATIVE.get(object.step.op.name, ("", (), ()))
-        if element and all(arg.plan is object.plan for place, arg in enumerate(object.args) if place not in afar):
-            called, k = [_called(arg) for arg in object.args], object.factor(object.args[-1])
-            return self._mark(object, element, [text.format(*called, k=repr(k)) for text in texts])
-        return self._formulated(object)
+    # ---- marks -------------------------------------------------------------------------------------------------
 
-    def _formulated(self, object: Object) -> str:
-        """A mark where its formula says."""
-        read = [[text.format(_called(arg)) for text in COORDINATES[arg.kind]] for arg in object.args]
-        found = formula(object, read, JAVASCRIPT, "t")
+    def _mark(self, drawn: DrawnStep) -> str:
+        """One mark, with what it depends on; curves are not seen but by their strokes, nor what leaves the paper."""
+        native, called = NATIVE.get(drawn.step.op.movement), [self.names[arg] for arg in drawn.args]
+        shown = drawn.kind == POINT and (drawn.name or drawn.view.rect.holds(drawn.at))
+        if drawn.free:
+            element, parents = "point", [repr(part) for part in drawn.at]
+        elif native and at_home(drawn):
+            element, parents = native[0], [text.format(*called, **parameters(drawn)) for text in native[1:]]
+        else:
+            element, parents = self._formulated(drawn)
+        if not element:
+            return f"{self.names[drawn]} = {parents[0]}"
+        made = _create(element, parents, _point_look(drawn) if shown else HIDDEN)
+        return f"{self.names[drawn]} = {_seen(drawn.number, made) if shown else made}"
+
+    def _formulated(self, drawn: DrawnStep) -> tuple[str, list[str]]:
+        """An element where its formula says, with its parents."""
+        read = [[text.format(self.names[arg]) for text in COORDINATES[arg.kind]] for arg in drawn.args]
+        found = formula(drawn, read, JAVASCRIPT, "t")
         terms = "".join(f"const {name} = {text}; " for name, text in found.terms)
-        element, texts = RESULTS[object.kind]
-        parents = [f"() => {{ {terms}return {text.format(*found.results)}; }}" for text in texts]
-        return self._mark(object, element, parents) if element else f"{_called(object)} = {parents[0]};"
-
-    def _mark(self, object: Object, element: str, parents: Sequence[str]) -> str:
-        """The statement that makes a mark; curves are not seen but by their strokes, nor what leaves the paper."""
-        shown = object.kind == POINT and (object.name or object.plan.rect.holds(object.at))
-        look = self._point_look(object) if shown else HIDDEN
-        made = _create(element, parents, look)
-        return f"{_called(object)} = {_seen(object.number, made) if shown else made};"
-
-    def _point_look(self, object: Object) -> Look:
-        filled = pens.INK if object.number else pens.PAPER
-        return {"name": _letters(object.name), "withLabel": not object.auxiliary, "size": 2 if object.name else 0.7,
-                "strokeColor": pens.INK, "fillColor": filled, "layer": POINTS, "fixed": not object.free,
-                "label": {"offset": [5, 8]}}
+        element, texts = RESULTS[drawn.kind]
+        return element, [f"() => {{ {terms}return {text.format(*found.results)}; }}" for text in texts]
 
     # ---- what is seen of them ----------------------------------------------------------------------------------
 
-    def _strokes(self, object: Object) -> Iterator[str]:
-        """As much of a line or a circle as serves its marks, and the stroke along which a point was laid off."""
-        here, vectors = _called(object), [arrow.end for arrow in self.figure.arrows]
-        if object.kind == POINT and object.root and object not in vectors:
-            yield self._stroke(object, "segment", [_called(object.root), here], _look(pens.THIN, CURVES))
-        elif object.kind == LINE and (stretch := self.figure.stretch(object)):
-            start, end, beyond = _called(stretch[0]), _called(stretch[1]), stretch[2]
-            ends = [f"() => by({start}, {here}, {-beyond!r}, 0)", f"() => by({end}, {here}, {beyond!r}, 0)"]
-            yield self._stroke(object, "segment", ends, _look(object.pen, CURVES, object.name))
-        elif object.kind == CIRCLE:
-            for mark in map(_called, self.figure.marks[object]):
-                ends = [f"() => turned({mark}, {here}.center, {turn!r})" for turn in (-object.struck, object.struck)]
-                hidden: Look = {"radiusPoint": HIDDEN, "anglePoint": HIDDEN}
-                yield self._stroke(object, "arc", [f"{here}.center", *ends], _look(object.pen, CURVES) | hidden)
+    def _stroke(self, stroke: Stroke) -> str:
+        letter = (stroke.letter or stroke.of.name) if stroke in self.lettered else ""
+        element, layer = ("arrow", VECTORS) if stroke.head else ("segment", CURVES)
+        return _create(element, self.ends(stroke), _look(stroke.pen, layer, letter))
 
-    def _stroke(self, object: Object, element: str, parents: Sequence[str], look: Look) -> str:
-        return _seen(object.number, _create(element, parents, look)) + ";"
+    def _arc(self, arc: StruckArc) -> str:
+        """As much of a circle as serves its mark."""
+        mark, centre = self.names[arc.mark], f"{self.names[arc.of]}.center"
+        ends = [f"() => turned({mark}, {centre}, {turn!r})" for turn in (-arc.before, arc.after)]
+        hidden: Look = {"radiusPoint": HIDDEN, "anglePoint": HIDDEN}
+        return _create("arc", [centre, *ends], _look(pens.ARC, CURVES) | hidden)
 
-    def _vector(self, arrow: Arrow) -> str:
-        label = "" if arrow.label == arrow.end.name else arrow.label
-        look = _look(pens.VECTORS[arrow.kind], VECTORS, label)
-        made = _create("arrow", [_called(arrow.start), _called(arrow.end)], look)
-        return _seen(max(arrow.start.number, arrow.end.number), made) + ";"
+    def _shape(self, item: Item, spots: Sequence[Spot]) -> str:
+        """A shape of the mechanism, on its joints or as it lies."""
+        closed, layer = isinstance(item, Polygon), LINKS + (item.layer in FRONT) - (item.layer in BACK[:2])
+        filled: Look = {"fillColor": item.pen.fill, "fillOpacity": 1} if closed else {}
+        joints = [self.names[self.joints[spot]] for spot in spots if spot in self.joints]
+        if len(joints) < len(spots):
+            chain = [*spots, spots[0]] if closed else spots
+            parents = [_json([round(spot[axis], 3) for spot in chain]) for axis in (0, 1)]
+            return _create("curve", parents, _look(item.pen, layer) | filled)
+        if closed:
+            return _create("polygon", joints, HIDDEN | {"visible": True, **filled, "layer": layer, "borders": HIDDEN,
+                                                        "vertices": {"visible": True}})
+        return _create("polygonalchain", joints, _look(item.pen, layer) | {"borders": _look(item.pen, layer)})
 
-    def _link(self, link: Link) -> Iterator[str]:
-        """A bar, or the plate of three points and more."""
-        corners = [_called(point) for point in link.corners]
-        bars = [(_called(corner), _called(inner)) for corner, inner in link.ribs]
-        for ends in [(corners[0], corners[1])] if len(corners) == 2 else bars:
-            yield _seen(0, _create("segment", ends, _look(pens.LINK, LINKS))) + ";"
-        if len(corners) > 2:
-            look = {**HIDDEN, "visible": True, "fillColor": pens.TINT, "fillOpacity": 1, "layer": LINKS - 1,
-                    "borders": _look(pens.LINK, LINKS), "vertices": {"visible": True}}
-            yield _seen(0, _create("polygon", corners, look)) + ";"
-
-    def _symbol(self, symbol: Symbol) -> str:
-        """A symbol of the mechanism as it lies."""
-        spots = [*symbol.spots, symbol.spots[0]] if symbol.closed else symbol.spots
-        look = _look(symbol.pen, LINKS - 1 if symbol.layer == "ground" else LINKS + 1)
-        if symbol.closed:
-            look |= {"fillColor": symbol.pen.fill, "fillOpacity": 1}
-        parents = [_json([round(spot[axis], 3) for spot in spots]) for axis in (0, 1)]
-        return _seen(0, _create("curve", parents, look)) + ";"
-
-    def _caption(self, plan: Plan) -> str:
+    def _caption(self, plate: Plate) -> str:
         """What a plan is, at the top of its window."""
-        parents = [repr(plan.rect.left), repr(plan.rect.top), _json(plan.caption)]
+        parents = [repr(plate.view.rect.left), repr(plate.view.rect.top), _json(plate.caption)]
         look: Look = {"fontSize": 13, "fixed": True, "anchorY": "top", "cssStyle": "font-weight: bold"}
-        return _create("text", parents, look) + ";"
+        return _create("text", parents, look)
 
 
-def _called(object: Object) -> str:
-    """An object in the script of the page: a property, since names may be words of the language."""
-    return f"M.{object.id}"
+def _point_look(drawn: DrawnStep) -> Look:
+    filled = pens.INK if drawn.number else pens.PAPER
+    return {"name": _letters(drawn.name), "withLabel": bool(drawn.name), "size": 2 if drawn.name else 0.7,
+            "strokeColor": pens.INK, "fillColor": filled, "layer": POINTS, "fixed": not drawn.free,
+            "label": {"offset": [5, 8]}}
 
 
 def _create(element: str, parents: Sequence[str], look: Look) -> str:

@@ -8,12 +8,12 @@ lies to the left on the way to the second: which of them is meant is told for th
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
 
-from graphplan.output.exports.figure import Figure, Object
-from graphplan.output.exports.live_strokes import Stroke, Swing, at_home
-from graphplan.output.exports.tikz import LAID_OFF, MEETING, NAMES, Writer, spot
+from graphplan.kernel.kinds import Movement
+from graphplan.output.exports import tikz
+from graphplan.output.exports.walk import turned_back
+from graphplan.sheet.plates.drawn_step import DrawnStep, StruckArc
+from graphplan.sheet.plates.plate import Plates
 
 PREAMBLE = r"""\documentclass[border=4mm]{standalone}
 \usepackage{amsbsy,xfp,tkz-euclide}
@@ -21,84 +21,74 @@ PREAMBLE = r"""\documentclass[border=4mm]{standalone}
 """
 
 COMMANDS = {
-    "meet": r"\tkzInterLL({A},{B})({C},{D}) \tkzGetPoint{{{out}}}",
-    "midpoint": r"\tkzDefMidPoint({0},{1}) \tkzGetPoint{{{out}}}",
-    "foot": r"\tkzDefPointBy[projection=onto {A}--{B}]({1}) \tkzGetPoint{{{out}}}",
-    "parallel": r"\tkzDefLine[parallel=through {1}]({A},{B}) \tkzGetPoint{{{out}_to}}",
-    "perpendicular": r"\tkzDefLine[orthogonal=through {1}]({A},{B}) \tkzGetPoint{{{out}_to}}",
-    "transfer": r"\tkzDefPointBy[translation=from {0} to {1}]({2}) \tkzGetPoint{{{out}}}",
-    "laid off": r"\tkzDefPointWith[colinear=at {2},K={times}]({0},{1}) \tkzGetPoint{{{out}}}",
-    "circles_meet": r"\tkzInterCC({centre},{0})({other},{1}) \tkzGetPoints{{{first}}}{{{second}}}",
-    "line_meets_circle": r"\tkzInterLC({A},{B})({centre},{1}) \tkzGetPoints{{{first}}}{{{second}}}",
+    Movement.MET: r"\tkzInterLL({A},{B})({C},{D}) \tkzGetPoint{{{out}}}",
+    Movement.HALVED: r"\tkzDefMidPoint({0},{1}) \tkzGetPoint{{{out}}}",
+    Movement.DROPPED: r"\tkzDefPointBy[projection=onto {A}--{B}]({1}) \tkzGetPoint{{{out}}}",
+    Movement.PARALLEL: r"\tkzDefLine[parallel=through {1}]({A},{B}) \tkzGetPoint{{{out}_to}}",
+    Movement.PERPENDICULAR: r"\tkzDefLine[orthogonal=through {1}]({A},{B}) \tkzGetPoint{{{out}_to}}",
+    Movement.LAID_OFF: r"\tkzDefPointWith[colinear=at {2},K={k}]({0},{1}) \tkzGetPoint{{{out}}}",
+    Movement.ARCS_MET: r"\tkzInterCC({centre},{0})({other},{1}) \tkzGetPoints{{{first}}}{{{second}}}",
+    Movement.CUT: r"\tkzInterLC({A},{B})({centre},{1}) \tkzGetPoints{{{first}}}{{{second}}}",
 }
+WHOLE = {Movement.LAID_OFF: r"\tkzDefPointBy[translation=from {0} to {1}]({2}) \tkzGetPoint{{{out}}}"}
 CLEAR = 0.05, 0.95  # how far from a circle's centre a line passes, in radii, where its crossings are told apart well
 
 
-def tkz_euclide(figure: Figure) -> str:
-    """The figure as a standalone LaTeX file that draws with tkz-euclide."""
-    return _Writer(figure).text()
+def tkz_euclide(plates: Plates) -> str:
+    """The construction as a standalone LaTeX file that draws with tkz-euclide."""
+    return _Writer(plates).text()
 
 
-@dataclass
-class _Writer(Writer):
-    """Writes one figure with the macros of tkz-euclide."""
+class _Writer(tikz.Writer):
+    """Writes with the macros of tkz-euclide, where it has them."""
 
-    preamble = PREAMBLE + MEETING
+    commands, whole, preamble = {**tikz.COMMANDS, **COMMANDS}, WHOLE, PREAMBLE + tikz.MEETING
 
-    def made(self, object: Object) -> Iterator[str]:
-        """The coordinates of a mark by the package's macros, where it has them."""
-        op = object.step.op.name
-        told = self._told(object)
-        if op in LAID_OFF and (op != "transfer" or told["times"] != "1"):
-            op = LAID_OFF[op]
-        if object.free:
-            yield rf"\tkzDefPoint{spot(object.at)}{{{object.id}}}"
-        elif op in COMMANDS and at_home(object) and (op != "line_meets_circle" or _clear(object)):
-            yield COMMANDS[op].format(*(arg.id for arg in object.args), out=object.id, **told)
+    def command(self, drawn: DrawnStep) -> str | None:
+        unclear = drawn.step.op.movement is Movement.CUT and not CLEAR[0] < abs(_passing(drawn)) < CLEAR[1]
+        return tikz.COMMANDS[Movement.CUT] if unclear else super().command(drawn)
+
+    def put(self, drawn: DrawnStep) -> None:
+        if drawn.free and drawn not in self.literal:
+            self.lines.append(rf"\tkzDefPoint{tikz.spot(drawn.at)}{{{self.names[drawn]}}}")
         else:
-            yield from super().made(object)
+            super().put(drawn)
 
-    def _told(self, object: Object) -> dict[str, str]:
-        """What a command says beside the names of the operands: of two crossings, which is meant."""
-        told, names = super()._told(object), (object.id, f"{object.id}_other")
-        if object.step.op.name == "circles_meet":
-            told["first"], told["second"] = names if object.step.params["side"] == "left" else names[::-1]
-        elif object.step.op.name == "line_meets_circle":
-            ahead = (object.step.params["way"] == "on") == (_passing(object) > 0)
-            told["second"], told["first"] = names if ahead else names[::-1]
+    def told(self, drawn: DrawnStep) -> dict[str, str]:
+        """Of two crossings, which is meant."""
+        told, names = super().told(drawn), (self.names[drawn], f"{self.names[drawn]}_other")
+        second = turned_back(drawn)
+        if drawn.step.op.movement is Movement.CUT:
+            second = turned_back(drawn) != (_passing(drawn) > 0)
+        told["first"], told["second"] = names[::-1] if second else names
         return told
 
     # ---- the drawing -----------------------------------------------------------------------------------------------
 
-    def segment(self, style: str, one: str, other: str) -> str:
-        """A stroke from one mark to another."""
-        return rf"\tkzDrawSegment[{style}]({one},{other})"
+    def segment(self, style: str, one: str, other: str) -> None:
+        self.lines.append(rf"\tkzDrawSegment[{style}]({one},{other})")
 
-    def stroke(self, stroke: Stroke) -> str:
-        """A line by what is added to the way between two marks."""
-        if stroke.end is None or (stroke.low, stroke.high) == (0.0, 1.0):
-            return super().stroke(stroke)
-        add = f"{-stroke.low:.4f} and {stroke.high - 1:.4f}"
-        return rf"\tkzDrawLine[{NAMES[stroke.pen]}, add={add}]({stroke.start.id},{stroke.end.id})"
+    def part(self, style: str, start: str, end: str, low: float, high: float) -> None:
+        """A line by what is added to the way between two marks; a head could point back."""
+        if "head" in style:
+            super().part(style, start, end, low, high)
+        else:
+            self.lines.append(rf"\tkzDrawLine[{style}, add={-low:.4f} and {high - 1:.4f}]({start},{end})")
 
-    def swing(self, swing: Swing) -> str:
+    def arc(self, arc: StruckArc) -> None:
         """The mark that compasses leave about a point."""
-        if swing.half:
-            return super().swing(swing)
-        return rf"\tkzCompass[compasses, delta={swing.before:.0f}]({self.centre(swing.made)},{swing.mark.id})"
+        if arc.half or self.lost.intersection((arc.of, arc.mark, *arc.of.args)):
+            super().arc(arc)
+        else:
+            ends = f"{self.centre(arc.of)},{self.names[arc.mark]}"
+            self.lines.append(rf"\tkzCompass[compasses, delta={arc.before:.0f}]({ends})")
 
-    def label(self, mark: str, off: str, text: str) -> str:
-        """Words so far off a mark."""
-        return rf"\tkzLabelPoint[letter, shift={{{off}}}]({mark}){{{text}}}"
+    def label(self, style: str, mark: str, off: str, text: str) -> None:
+        self.lines.append(rf"\tkzLabelPoint[{style}, shift={{{off}}}]({mark}){{{text}}}")
 
 
-def _passing(object: Object) -> float:
+def _passing(drawn: DrawnStep) -> float:
     """How far to the left of a line a circle's centre lies, in radii."""
-    line, circle = object.args
+    line, circle = drawn.args
     a, b, c = line.line
     return (a * circle.at[0] + b * circle.at[1] + c) / (math.hypot(a, b) * circle.radius)
-
-
-def _clear(object: Object) -> bool:
-    """Whether the crossings of a line and a circle are told apart well."""
-    return CLEAR[0] < abs(_passing(object)) < CLEAR[1]

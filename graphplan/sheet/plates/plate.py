@@ -17,11 +17,11 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import sentence as spoken
 from graphplan.sheet.plates import clip, pens
-from graphplan.sheet.plates.display import Circle, Item, Spot
+from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Plans, corner
+from graphplan.sheet.plates.plans import Plans, around, corner
 from graphplan.sheet.plates.symbols import turn
 from graphplan.sheet.plates.view import View
 
@@ -68,15 +68,31 @@ class Plates:
                 found[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y), self.plans.tongue(told))
         return found
 
+    @property
+    def drawn(self) -> list[DrawnStep]:
+        """All marks, each after those that it depends on: the pose, then the steps."""
+        return [*self.pose.values(), *(drawn for drawn in self.steps if drawn.number)]
+
+    @property
+    def firsts(self) -> dict[DrawnStep, Plate]:
+        """The first step that is drawn on each plan, with the plan."""
+        found = {drawn.panel: drawn for drawn in reversed(self.steps) if drawn.number}
+        return {drawn: self[panel] for panel, drawn in found.items()}
+
+    @property
+    def box(self) -> Rect:
+        """The paper that the plans take up."""
+        return around([spot for view in self.views.values() for spot in view.rect.corners])
+
     def __iter__(self) -> Iterator[Plate]:
         """The plans in drawing order, the mechanism's first."""
         return iter(self._plates.values())
 
-    def __getitem__(self, panel: str) -> Plate:
+    def __getitem__(self, panel: Panel) -> Plate:
         return self._plates[panel]
 
     @cached_property
-    def _plates(self) -> dict[str, Plate]:
+    def _plates(self) -> dict[Panel, Plate]:
         return {panel: Plate(self, panel) for panel in self.plans.panels}
 
 
@@ -128,7 +144,7 @@ class Plate:
             for arc in self.arcs(drawn):
                 yield from clip.clipped(arc.item, self.view.rect)
             if pen := self.dot(drawn):
-                yield Circle(pen, LAYER, drawn.index, drawn.at, 0.5 if drawn.name else 0.4)
+                yield Circle(pen, LAYER, drawn.index, drawn.at, self.size(drawn))
         yield from (stroke.item for stroke in self.vectors)
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
@@ -136,6 +152,10 @@ class Plate:
         if not (drawn.number and self.shown(drawn)) or corner(drawn.step) or drawn in self._force_heads:
             return None
         return pens.ORIGIN if drawn.free else pens.DOT
+
+    def size(self, drawn: DrawnStep) -> float:
+        """The radius of its dot."""
+        return 0.5 if drawn.name else 0.4
 
     # ---- vectors ---------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,278 @@
+"""One walk over what is drawn, for targets that keep the construction alive: every mark from those that it depends on.
+
+Every plan stands where it stands on the sheet. A target language is a table of commands by movement, with {0}, {1} for
+the operands and {out} for what is made, and the few shapes that are drawn: strokes, arcs, dots and letters, each of
+which hangs on marks.
+"""
+
+from __future__ import annotations
+
+import math
+import string
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from functools import cached_property
+
+from graphplan.kernel.kinds import LINE, Movement
+from graphplan.phrases import said
+from graphplan.sheet.lettering.lettering import ANCHORS, width
+from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
+from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.picture import picture
+from graphplan.sheet.plates.plate import Plate, Plates
+
+SAFE = string.ascii_letters + string.digits
+BACK, FRONT = ("plates", "ground", "links"), ("blocks", "drive", "pairs")  # layers behind the strokes, and over them
+RIDING = ("plates", "links")  # layers that go where the links go
+REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks give
+
+
+def identifiers(drawn: Iterable[DrawnStep]) -> dict[DrawnStep, str]:
+    """For every mark the letters and digits of its name, else the initial of its kind and its place; each but once."""
+    found: dict[DrawnStep, str] = {}
+    taken: set[str] = set()
+    for mark in drawn:
+        letters = "".join(char for char in mark.name if char in SAFE)
+        name = letters if letters[:1].isalpha() else f"{mark.kind[0].upper()}{mark.index}"
+        while name in taken:
+            name += f"n{abs(mark.index)}"
+        found[mark] = name
+        taken.add(name)
+    return found
+
+
+def at_home(drawn: DrawnStep) -> bool:
+    """Whether a mark is drawn on its own plan from what lies there, but for openings, directions and whole vectors.
+
+    What is not is reckoned by its formula: on the draughtsman's paper the plans lie on each other, here they do not.
+    """
+    afar = drawn.step.op.afar
+    near = {arg.panel for place, arg in enumerate(drawn.args) if place not in afar}
+    return near <= {drawn.panel} and len({drawn.args[place].panel for place in afar}) < 2
+
+
+def heading(line: DrawnStep) -> Spot:
+    """How far, in mm, the two ends of a line stand apart: its own two points', or as the line that it follows."""
+    movement, args = line.step.op.movement if at_home(line) else Movement.OTHER, line.args
+    if movement in (Movement.RULED, Movement.BISECTED):
+        (x, y), (u, v) = args[0].at, args[1].at
+        return (u - x, v - y) if movement is Movement.RULED else (y - v, u - x)
+    if movement in (Movement.PARALLEL, Movement.PERPENDICULAR):
+        dx, dy = heading(args[0])
+        return (dx, dy) if movement is Movement.PARALLEL else (-dy, dx)
+    return REACH * line.along[0], REACH * line.along[1]
+
+
+def parameters(drawn: DrawnStep) -> dict[str, float]:
+    """The numbers of a command: what is given, in mm, and {k}, by which lengths from another plan are multiplied."""
+    params, afar = drawn.step.params, drawn.step.op.afar
+    factor = drawn.factor(drawn.args[afar[0]]) if afar else 1.0
+    lengths = {part: drawn.view.scale * float(params[part]) for part in params if part in ("dx", "dy")}
+    return {**lengths, "k": factor * float(params.get("ratio", 1))}
+
+
+def turned_back(drawn: DrawnStep) -> bool:
+    """Whether of two crossings that to the right or back is meant."""
+    return "right" in drawn.step.params.values() or "back" in drawn.step.params.values()
+
+
+class Letter:
+    """Lettering that stands off a mark: the middle of its base line so many mm from it, right and up.
+
+    `leader` is the stroke that ties it to where it belongs, `ringed` the middle of the circle that it stands in.
+    """
+
+    def __init__(self, mark: DrawnStep, text: Text, *before: Item):
+        self.mark, self.text = mark, text
+        across = width(text.runs, text.size, text.bold) * (0.5 - ANCHORS[text.anchor])
+        self.off = self._from_mark((text.at[0] + across, text.at[1]))
+        self.leader = [self._from_mark(spot) for item in before if isinstance(item, Polyline) for spot in item.spots]
+        self.ringed = next((self._from_mark(item.centre) for item in before if isinstance(item, Circle)), None)
+
+    def _from_mark(self, spot: Spot) -> Spot:
+        return spot[0] - self.mark.at[0], spot[1] - self.mark.at[1]
+
+
+class Walk:
+    """Walks over one construction."""
+
+    live = True  # whether marks may be moved: then what does not hang on them must not ride on links
+
+    def __init__(self, plates: Plates):
+        self.plates, self.say = plates, plates.plans.tongue
+        self.title, self.source = plates.scene.title, plates.scene.source
+        self.names = self.named()
+        self.joints: Mapping[Spot, DrawnStep] = {point.at: point for point in reversed(plates.pose.values())}
+        self.lines: list[str] = []
+
+    def named(self) -> Mapping[DrawnStep, str]:
+        """What the marks are called in the target."""
+        return identifiers(self.plates.drawn)
+
+    # ---- the mechanism and the letters -----------------------------------------------------------------------------
+
+    def mechanism(self, plate: Plate, *layers: str) -> Iterator[tuple[Item, tuple[Spot, ...]]]:
+        """The items of some layers of the mechanism, each with its corners or its middle."""
+        for item in sorted(plate.mechanism, key=lambda item: layers.index(item.layer) if item.layer in layers else -1):
+            spots = corners(item)
+            hung = all(spot in self.joints for spot in spots)
+            if item.layer in layers and (hung or not self.live or item.layer not in RIDING):
+                yield item, spots
+
+    def letters(self, plate: Plate) -> Iterator[Letter]:
+        """The letters of a plan where the sheet has them, each off the mark that it hangs on."""
+        before: list[Item] = []  # its leader and its ring
+        for item in picture(plate):
+            if isinstance(item, Text):
+                yield Letter(self._hung(plate, item), item, *before)
+            before = [*before, item] if item.layer == "letters" and not isinstance(item, Text) else []
+
+    def _hung(self, plate: Plate, text: Text) -> DrawnStep:
+        """The mark that lettering hangs on: its own, or the next of its line or of the pose."""
+        if text.step is None:
+            pose = self.plates.pose
+            name = text.label.partition(",")[0]
+            return pose[name] if name in pose else min(pose.values(), key=lambda mark: math.dist(mark.at, text.at))
+        drawn = self.plates.steps[text.step]
+        return min(plate.marks(drawn), key=lambda mark: math.dist(mark.at, text.at)) if drawn.kind == LINE else drawn
+
+
+class Source(Walk):
+    """Writes a source of commands: the steps under their sentences, then the drawing, plan by plan."""
+
+    commands: Mapping[Movement, str]  # an empty one makes nothing
+    whole: Mapping[Movement, str] = {}  # in their place where a vector is carried over as long as it is
+
+    def steps(self) -> None:
+        """What is said of each step, and its commands."""
+        firsts = self.plates.firsts
+        for drawn in self.plates.drawn:
+            if drawn in firsts:
+                self.lines += ["", f"% {self.say(said('plan: {0}', firsts[drawn].caption))}"]
+            if drawn.number:
+                self.lines += ["", f"% {drawn.number}. {drawn.sentence}"]
+            self.step(drawn)
+
+    def step(self, drawn: DrawnStep) -> None:
+        """The commands of a mark: the language's own where it has them, else what its formula says."""
+        command = self.command(drawn) if at_home(drawn) else None
+        if drawn.free:
+            self.put(drawn)
+        elif command is None:
+            self.reckon(drawn)
+        elif command:
+            names = [self.names[arg] for arg in drawn.args]
+            self.lines.append(command.format(*names, out=self.names[drawn], **self.told(drawn)))
+
+    def command(self, drawn: DrawnStep) -> str | None:
+        """The language's own command for a mark, if it has one."""
+        found = self.whole.get(drawn.step.op.movement) if parameters(drawn)["k"] == 1 else None
+        return found or self.commands.get(drawn.step.op.movement)
+
+    def drawing(self, plate: Plate) -> None:
+        """What is drawn on one plan, from back to front."""
+        self.items(plate, *BACK)
+        for drawn in plate.steps:
+            for stroke in plate.strokes(drawn):
+                self.stroke(stroke)
+        for arc in (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.shown(arc.mark)):
+            self.arc(arc)
+        for vector in plate.vectors:
+            self.stroke(vector)
+        self.items(plate, *FRONT)
+        for drawn in plate.steps:
+            if pen := plate.dot(drawn):
+                self.dot(drawn, pen, plate.size(drawn))
+        for letter in self.letters(plate):
+            self.letter(letter)
+
+    def items(self, plate: Plate, *layers: str) -> None:
+        """The mechanism: what hangs on its joints, and its symbols as they lie."""
+        for item, spots in self.mechanism(plate, *layers):
+            if isinstance(item, Circle) and spots[0] in self.joints:
+                self.dot(self.joints[spots[0]], item.pen, item.radius)
+            else:
+                self.chain(item.pen, spots, isinstance(item, Polygon))
+
+    # ---- what a target writes --------------------------------------------------------------------------------------
+
+    def told(self, drawn: DrawnStep) -> dict[str, str]:
+        """What a command says beside the names of the operands."""
+        raise NotImplementedError
+
+    def put(self, drawn: DrawnStep) -> None:
+        """A mark that stands where it is put."""
+        raise NotImplementedError
+
+    def reckon(self, drawn: DrawnStep) -> None:
+        """A mark by the arithmetic of its rule."""
+        raise NotImplementedError
+
+    def stroke(self, stroke: Stroke) -> None:
+        """A straight stroke or a vector."""
+        raise NotImplementedError
+
+    def arc(self, arc: StruckArc) -> None:
+        """An arc about its mark."""
+        raise NotImplementedError
+
+    def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
+        """Strokes from spot to spot, which are joints or lie where they lie."""
+        raise NotImplementedError
+
+    def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
+        """The circle of a joint, or the dot of a mark."""
+        raise NotImplementedError
+
+    def letter(self, letter: Letter) -> None:
+        """Lettering off its mark."""
+        raise NotImplementedError
+
+
+class Page(Walk):
+    """Writes elements that depend on each other; a stroke hangs on its marks as soon as the last of them is there."""
+
+    part, along = "", ""  # {part} of the way from {0} to {1}; so many mm from {0} along the line {2}
+
+    @cached_property
+    def due(self) -> dict[DrawnStep, list[Stroke | StruckArc]]:
+        """The strokes and arcs by the last of the marks that they hang on."""
+        found: dict[DrawnStep, list[Stroke | StruckArc]] = {}
+        for plate in self.plates:
+            strokes = [*(stroke for drawn in plate.steps for stroke in plate.strokes(drawn)), *plate.vectors]
+            arcs = (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.shown(arc.mark))
+            hung: list[tuple[Stroke | StruckArc, tuple[DrawnStep, ...]]]
+            hung = [*((stroke, (stroke.of, stroke.start, stroke.end)) for stroke in strokes),
+                    *((arc, (arc.of, arc.mark)) for arc in arcs)]  # fmt: skip
+            for one, marks in hung:
+                found.setdefault(max(marks, key=lambda mark: mark.index), []).append(one)
+        return found
+
+    def ends(self, stroke: Stroke) -> list[str]:
+        """Where a stroke begins and ends: its marks, or what is made of them."""
+        return [self._end(stroke, part) for part in (stroke.low, stroke.high)]
+
+    def _end(self, stroke: Stroke, part: float) -> str:
+        marks = [self.names[stroke.start], self.names[stroke.end]]
+        if stroke.in_mm:
+            return self.along.format(*marks, self.names[stroke.of], part=self.number(part))
+        return marks[int(part)] if part in (0.0, 1.0) else self.part.format(*marks, part=self.number(part))
+
+    def number(self, value: float) -> str:
+        """A number in the target."""
+        return repr(value)
+
+    @cached_property
+    def lettered(self) -> set[Stroke]:
+        """What bears a letter: the first stroke of each line that has one, and vectors that their ends do not name."""
+        strokes = {one.of: one for ones in reversed(self.due.values()) for one in reversed(ones)
+                   if isinstance(one, Stroke) and one.of.kind == LINE and one.of.name and not one.head}
+        vectors = (one for ones in self.due.values() for one in ones if isinstance(one, Stroke) and one.vector)
+        return {*strokes.values(), *(one for one in vectors if one.letter not in ("", one.end.name))}
+
+
+def corners(item: Item) -> tuple[Spot, ...]:
+    """The spots of an item of the mechanism: its corners, a chain along an arc, or the middle of a circle."""
+    if isinstance(item, Polyline | Polygon):
+        return item.spots
+    return item.spots() if isinstance(item, Arc) else (item.centre,) if isinstance(item, Circle) else ()

@@ -25,6 +25,7 @@ SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
 )
 
 Claim = tuple[Any, ...]
+Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose
 
 
 class Movement(Enum):
@@ -93,7 +94,7 @@ class Primitive:
     described: str = ""
     weighed: bool = False
     method: str = ""
-    forms: dict[str, Callable[..., Any]] = field(default_factory=dict, repr=False)
+    forms: dict[str, Form] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
         """Copied and sent elsewhere by name: there is one table."""
@@ -185,15 +186,5 @@ def primitive(reads: tuple[str, ...], gives: str, instrument: str, sentence: str
             raise ValueError(f"the table already has {name}")
         TABLE[name] = Primitive(name, reads, gives, instrument, sentence, rule, **more)
         return rule
-
-    return enter
-
-
-def form(of: str, name: str) -> Callable[[Callable[..., Any]], Callable[..., Any]]:
-    """Enter the decorated expansion as one form of the compound `of`."""
-
-    def enter(expansion: Callable[..., Any]) -> Callable[..., Any]:
-        TABLE[of].forms[name] = expansion
-        return expansion
 
     return enter

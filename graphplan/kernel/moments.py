@@ -9,30 +9,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, primitive
+from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Form, Movement, primitive
+from graphplan.kernel.primitives import apart, cross, dot, size, vector
 
-
-def _vector(P: Any, Q: Any) -> Any:
-    return Q[0] - P[0], Q[1] - P[1]
-
-
-def _cross(u: Any, v: Any) -> Any:
-    return u[0] * v[1] - u[1] * v[0]
-
-
-def _square(u: Any) -> Any:
-    return u[0] * u[0] + u[1] * u[1]
-
-
-def _size(u: Any) -> Any:
-    return abs(u[0]) + abs(u[1])
-
-
-def _arm(d: Any, P: Any, Q: Any) -> Any:
-    """The vector of two points that must not coincide."""
-    u = _vector(P, Q)
-    d.nonzero(_size(u), _size(P) + _size(Q), "points-coincide", "the two points coincide: there is no arm")
-    return u
+NO_ARM = "the two points coincide: there is no arm"
 
 
 def _across(u: Any, part: Any, m: Any) -> Any:
@@ -44,24 +24,22 @@ def _across(u: Any, part: Any, m: Any) -> Any:
            "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
            "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
-           source="Ozols 1974, 10-2: tangential parts from moments",
-           movement=Movement.MEASURED)
+           source="Ozols 1974, 10-2: tangential parts from moments", movement=Movement.MEASURED)
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
-    arm = _arm(d, Y, X)
-    return _across(arm, -_cross(_vector(Y, C), _vector(p, q)) / _square(arm), m)
+    arm = apart(d, Y, X, NO_ARM)
+    return _across(arm, -cross(vector(Y, C), vector(p, q)) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
            "For the couple {moment} take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at "
            "{1}; mark {out}.",
            claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
-           source="Ozols 1974, 10-6",
-           movement=Movement.MEASURED)
+           source="Ozols 1974, 10-6", movement=Movement.MEASURED)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
     """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
-    arm = _arm(d, P, R)
-    return _across(arm, d.lift(moment) / _square(arm), m)
+    arm = apart(d, P, R, NO_ARM)
+    return _across(arm, d.lift(moment) / dot(arm, arm), m)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
@@ -69,32 +47,30 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
            "{0}{1}, take a "
            "pair of forces at {0} and {1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4",
-           movement=Movement.MEASURED)
+           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", movement=Movement.MEASURED)
 def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
     """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
-    arm = _arm(d, P, R)
-    square = _square(arm)
-    return _across(arm, -d.lift(ratio) * _cross(arm, _vector(a, b)) / square / square, m)
+    arm = apart(d, P, R, NO_ARM)
+    square = dot(arm, arm)
+    return _across(arm, -d.lift(ratio) * cross(arm, vector(a, b)) / square / square, m)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0}, of radius "
            "{radius}, so that it turns against the motion that the vector from {1} to {2} shows.",
            claims=(("touches", 0, 1, 2, 3, 4),), fails=("points-coincide",), where=0, params=("radius",),
-           source="Ozols 1974, 12-4, fig. 12-11",
-           movement=Movement.MEASURED)
+           source="Ozols 1974, 12-4, fig. 12-11", movement=Movement.MEASURED)
 def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> Any:
     """The point of the friction circle of a journal at P through which its force acts, as its last one pq says.
 
     Rw is the orthogonal velocity of R against the other link, which runs with PR where the link turns clockwise. Where
     the two links stand still on each other, and where there is no force, it is P.
     """
-    arm, force, slip = _arm(d, P, R), _vector(p, q), _vector(R, w)
-    sense = d.sign(arm[0] * slip[0] + arm[1] * slip[1], _square(arm)) * d.lift(radius)
-    acts = d.sign(_size(force), _size(p) + _size(q))
-    size = d.sqrt(_square(force) + (1 - acts), "not-rational", "the size of the reaction is irrational")
-    return P[0] + acts * sense * force[1] / size, P[1] - acts * sense * force[0] / size
+    arm, force, slip = apart(d, P, R, NO_ARM), vector(p, q), vector(R, w)
+    sense = d.sign(arm[0] * slip[0] + arm[1] * slip[1], dot(arm, arm)) * d.lift(radius)
+    acts = d.sign(size(force), size(p) + size(q))
+    long = d.sqrt(dot(force, force) + (1 - acts), "not-rational", "the size of the reaction is irrational")
+    return P[0] + acts * sense * force[1] / long, P[1] - acts * sense * force[0] / long
 
 
 @primitive((LINE, POINT, POINT, POINT, POINT), LINE, SET_SQUARES,
@@ -108,9 +84,9 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
     pq is its last reaction; Bw is the orthogonal velocity along the guide. Where the two links stand still on each
     other, and where there is no force, it does not lean.
     """
-    slip, force = _vector(B, w), _vector(p, q)
-    moves = d.sign(slip[0] * l[0] + slip[1] * l[1], (_size(B) + _size(w)) * _size(l))
-    side = d.sign(force[0] * l[0] + force[1] * l[1], (_size(p) + _size(q)) * _size(l))
+    slip, force = vector(B, w), vector(p, q)
+    moves = d.sign(slip[0] * l[0] + slip[1] * l[1], (size(B) + size(w)) * size(l))
+    side = d.sign(force[0] * l[0] + force[1] * l[1], (size(p) + size(q)) * size(l))
     k = moves * side * d.lift(coefficient)
     a, b = l[0] - k * l[1], l[1] + k * l[0]
     return a, b, -(a * B[0] + b * B[1])
@@ -120,13 +96,12 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
            "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at "
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",
            claims=(("across", (0, -1), (1, 2)), ("takes couple", 0, 1, 2, 3, 4, 5, 6)), fails=("couple-alone",),
-           where=0, source="Ozols 1974, 10-2: arms of slider reactions",
-           movement=Movement.MEASURED)
+           where=0, source="Ozols 1974, 10-2: arms of slider reactions", movement=Movement.MEASURED)
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
-    force = _vector(p, q)
-    d.nonzero(_size(force), _size(p) + _size(q), "couple-alone", "the force is nothing")
-    return _across(force, -_cross(_vector(P, R), _vector(a, b)) / _square(force), C)
+    force = vector(p, q)
+    d.nonzero(size(force), size(p) + size(q), "couple-alone", "the force is nothing")
+    return _across(force, -cross(vector(P, R), vector(a, b)) / dot(force, force), C)
 
 
 def _meeting(y: Any, z: Any) -> Any:
@@ -138,28 +113,59 @@ def _aimed(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The vector to X from where two lines meet, as long as it pleases."""
     Y = _meeting(y, z)
     u = Y[2] * X[0] - Y[0], Y[2] * X[1] - Y[1]
-    reach = _size(y) * (_size(z) * _size(X) + abs(z[2])) + abs(y[2]) * _size(z)
-    d.nonzero(_size(u), reach, "points-coincide", "the two lines meet in the point itself, or are one")
+    reach = size(y) * (size(z) * size(X) + abs(z[2])) + abs(y[2]) * size(z)
+    d.nonzero(size(u), reach, "points-coincide", "the two lines meet in the point itself, or are one")
     return u
+
+
+def _similar_triangles(one: float, two: float) -> Form:
+    """Two similar triangles between the lines: their third corners lie on a line to where the lines meet."""
+
+    def drawn(s: Any, y: Any, z: Any, X: Any) -> Any:
+        far = s.clear_of(X)
+        if far is None:
+            return None
+        P, R, P2 = s.pick(y, X, far, ratio=one), s.pick(z, X, far, ratio=one / 3), s.pick(y, X, far, ratio=two)
+        R2 = s.meet(s.parallel(s.line(P, R), P2), z)
+        return s.line(X, s.meet(s.parallel(s.line(P, X), P2), s.parallel(s.line(R, X), R2)))
+
+    return drawn
 
 
 @primitive((LINE, LINE, POINT), LINE, STRAIGHTEDGE, "Through {2} draw {out} to where {0} meets {1}.",
            claims=(("on", 2), ("concurrent", 0, 1)), fails=("points-coincide",),
-           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points")
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points", forms={
+               "along one of them": lambda s, y, z, X: y if s.lies_on(X, y) else z if s.lies_on(X, z) else None,
+               "auxiliary point": lambda s, y, z, X: s.line(s.meet(y, z, name="Q"), X),
+               "similar triangles": _similar_triangles(0.15, 0.5),
+               "similar triangles, backwards": _similar_triangles(-0.15, -0.5)})
 def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
     u = _aimed(d, y, z, X)
     return -u[1], u[0], u[1] * X[0] - u[0] * X[1]
 
 
+def _resolved(s: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
+    """The part of the force towards the distant point has no moment; the part towards X is moved there.
+
+    At X itself, or with both ways parallel, the part of the force across the way to the distant point counts.
+    """
+    part = s.meet(s.parallel(s.side(C, X), p), s.parallel(s.towards(y, z, C), q))
+    return s.foot(s.parallel(s.towards(y, z, X), s.transfer(part, p, m)), m)
+
+
 @primitive((LINE, LINE, POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
            "Take moments about the point where {0} meets {1}: from {6} lay off the force at {2}, square to the way to "
            "that point, that balances the force from {4} to {5} at {3}; mark {out}.",
            claims=(("counters afar", 0, 1, 2, 3, 4, 5, 6),), fails=("points-coincide",),
-           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points")
+           source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points", forms={
+               "auxiliary point": lambda s, y, z, X, C, p, q, m: s.balance(s.meet(y, z, name="Q"), X, C, p, q, m),
+               "resolution": _resolved,
+               "its part across": lambda s, y, z, X, C, p, q, m:
+                   s.transfer(q, s.foot(s.parallel(s.towards(y, z, X), p), q), m)})
 def weigh(d: Any, y: Any, z: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, laid off from m, that balances pq at C about the point where two lines meet."""
     Y = _meeting(y, z)
     arm = _aimed(d, y, z, X)
     reach = Y[2] * C[0] - Y[0], Y[2] * C[1] - Y[1]
-    return _across(arm, -_cross(reach, _vector(p, q)) / _square(arm), m)
+    return _across(arm, -cross(reach, vector(p, q)) / dot(arm, arm), m)

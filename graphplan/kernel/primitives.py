@@ -16,11 +16,36 @@ from graphplan.kernel.kinds import (
     PENCIL,
     POINT,
     SCALE,
-    SET_SQUARES,
     STRAIGHTEDGE,
     Movement,
     primitive,
 )
+
+
+def vector(P: Any, Q: Any) -> Any:
+    """From one point to another."""
+    return Q[0] - P[0], Q[1] - P[1]
+
+
+def dot(u: Any, v: Any) -> Any:
+    return u[0] * v[0] + u[1] * v[1]
+
+
+def cross(u: Any, v: Any) -> Any:
+    return u[0] * v[1] - u[1] * v[0]
+
+
+def size(u: Any) -> Any:
+    """How large a vector is, to a factor."""
+    return abs(u[0]) + abs(u[1])
+
+
+def apart(d: Any, P: Any, Q: Any, why: str = "the two points coincide") -> Any:
+    """The vector of two points that must not coincide."""
+    u = vector(P, Q)
+    d.nonzero(size(u), size(P) + size(Q), "points-coincide", why)
+    return u
+
 
 
 @primitive((), POINT, SCALE, "Mark {out} at ({x}, {y}), given by the pose.", claims=(("stands",),), params=("x", "y"),
@@ -31,8 +56,7 @@ def given(d: Any, /, *, x: Any, y: Any) -> Any:
 
 
 @primitive((), POINT, PENCIL, "Mark {out} where there is room: beginning {number} of the {plan}.",
-           claims=(("stands",),), params=("plan", "number"),
-           movement=Movement.BEGUN)
+           claims=(("stands",),), params=("plan", "number"), movement=Movement.BEGUN)
 def begin(d: Any, /, *, plan: str, number: int) -> Any:
     """The place where a plan begins, its origin; `number` tells several beginnings on one plan apart."""
     return d.lift(0), d.lift(0)
@@ -49,35 +73,15 @@ def guide(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((POINT, POINT), LINE, STRAIGHTEDGE, "Draw {out} through {0} and {1}.",
-           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",),
-           movement=Movement.RULED)
+           claims=(("on", 0), ("on", 1), ("runs", 0, 1)), fails=("points-coincide",), movement=Movement.RULED)
 def line(d: Any, P: Any, Q: Any) -> Any:
     """The line through two points, running from the first to the second."""
-    dx, dy = Q[0] - P[0], Q[1] - P[1]
-    size = abs(P[0]) + abs(P[1]) + abs(Q[0]) + abs(Q[1])
-    d.nonzero(abs(dx) + abs(dy), size, "points-coincide", "the two points coincide")
+    dx, dy = apart(d, P, Q)
     return -dy, dx, dy * P[0] - dx * P[1]
 
 
-@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
-           claims=(("on", 1), ("parallel", 0)),
-           movement=Movement.PARALLEL, afar=(0,), described="the parallel to {0} through {1}")
-def parallel(d: Any, l: Any, P: Any) -> Any:
-    """The parallel to a line through a point, running the same way."""
-    return l[0], l[1], -(l[0] * P[0] + l[1] * P[1])
-
-
-@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
-           claims=(("on", 1), ("perpendicular", 0)),
-           movement=Movement.PERPENDICULAR, afar=(0,), described="the perpendicular to {0} through {1}")
-def perpendicular(d: Any, l: Any, P: Any) -> Any:
-    """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
-    return -l[1], l[0], l[1] * P[0] - l[0] * P[1]
-
-
 @primitive((LINE, LINE), POINT, PENCIL, "Mark {out} where {0} meets {1}.",
-           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",), symmetric=True,
-           movement=Movement.MET)
+           claims=(("on", 0), ("on", 1)), fails=("lines-parallel",), symmetric=True, movement=Movement.MET)
 def meet(d: Any, k: Any, l: Any) -> Any:
     """The intersection of two lines."""
     one, two = k[0] * l[1], l[0] * k[1]
@@ -86,12 +90,11 @@ def meet(d: Any, k: Any, l: Any) -> Any:
 
 
 @primitive((POINT, POINT), OPENING, DIVIDERS, "Open the compasses from {0} to {1}: {out}.",
-           claims=(("span", 0, 1),),
-           movement=Movement.OPENED)
+           claims=(("span", 0, 1),), movement=Movement.OPENED)
 def opening(d: Any, P: Any, Q: Any) -> Any:
     """The distance of two points, in the compasses."""
-    dx, dy = Q[0] - P[0], Q[1] - P[1]
-    return (dx * dx + dy * dy,)
+    u = vector(P, Q)
+    return (dot(u, u),)
 
 
 @primitive((), OPENING, SCALE, "Open the compasses to {length}: {out}.", claims=(("measures",),), params=("length",))
@@ -102,8 +105,7 @@ def radius(d: Any, /, *, length: Any) -> Any:
 
 
 @primitive((POINT, OPENING), CIRCLE, COMPASSES, "About {0} strike {out} with {1}.",
-           claims=(("centre", 0), ("opened", 1)), where=0,
-           movement=Movement.STRUCK, afar=(1,))
+           claims=(("centre", 0), ("opened", 1)), where=0, movement=Movement.STRUCK, afar=(1,))
 def circle(d: Any, C: Any, o: Any) -> Any:
     """The circle about a centre with an opening."""
     return C[0], C[1], o[0]
@@ -114,8 +116,8 @@ def circle(d: Any, C: Any, o: Any) -> Any:
            movement=Movement.CUT, reversal="way")
 def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
     """One of the two intersections of a line with a circle: further `on` or further `back` along the line."""
-    n2 = l[0] * l[0] + l[1] * l[1]
-    off = (l[0] * c[0] + l[1] * c[1] + l[2]) / n2
+    n2 = dot(l, l)
+    off = (dot(l, c) + l[2]) / n2
     t = d.sqrt(c[2] / n2 - off * off, "line-misses-circle", "the line passes the circle by")
     t = t if way == "on" else -t
     return c[0] - l[0] * off + t * l[1], c[1] - l[1] * off - t * l[0]
@@ -123,19 +125,18 @@ def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
 
 @primitive((CIRCLE, CIRCLE), POINT, PENCIL, "Mark {out} where {0} meets {1}, on the {side} of the line of centres.",
            claims=(("on", 0), ("on", 1), ("side", 0, 1)), fails=("circles-miss", "circles-concentric"),
-           params=("side",),
-           movement=Movement.ARCS_MET, reversal="side")
+           params=("side",), movement=Movement.ARCS_MET, reversal="side")
 def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
     """One of the two intersections of two circles: left or right of the ray from the first centre to the second.
 
     The height over the line of centres is taken from both circles, each weighed by the other: the small one tells it
     well where the large one cannot.
     """
-    dx, dy = m[0] - k[0], m[1] - k[1]
-    d2 = d.nonzero(dx * dx + dy * dy, k[2] + m[2], "circles-concentric", "the two circles have the same centre")
+    dx, dy = u = vector(k, m)
+    d2 = d.nonzero(dot(u, u), k[2] + m[2], "circles-concentric", "the two circles have the same centre")
     both = d.nonzero(k[2] + m[2], d2, "circles-miss", "the two circles do not meet")
-    t, u = (d2 + k[2] - m[2]) / (2 * d2), (d2 + m[2] - k[2]) / (2 * d2)
-    h2 = (m[2] * (k[2] / d2 - t * t) + k[2] * (m[2] / d2 - u * u)) / both
+    t, s = (d2 + k[2] - m[2]) / (2 * d2), (d2 + m[2] - k[2]) / (2 * d2)
+    h2 = (m[2] * (k[2] / d2 - t * t) + k[2] * (m[2] / d2 - s * s)) / both
     h = d.sqrt(h2, "circles-miss", "the two circles do not meet")
     h = h if side == "left" else -h
     return k[0] + t * dx - h * dy, k[1] + t * dy + h * dx
@@ -162,18 +163,16 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
-           claims=(("laid", 0, 1),), params=("length",),
-           movement=Movement.LAID_ALONG, reversal="length")
+           claims=(("laid", 0, 1),), params=("length",), movement=Movement.LAID_ALONG, reversal="length")
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
-    unit = d.sqrt(l[0] * l[0] + l[1] * l[1], "not-rational", "a length along this line is irrational")
+    unit = d.sqrt(dot(l, l), "not-rational", "a length along this line is irrational")
     r = d.lift(length) / unit
     return P[0] + r * l[1], P[1] - r * l[0]
 
 
 @primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.",
-           claims=(("moved", (0, -1)),), params=("dx", "dy"),
-           movement=Movement.LAID_BY_COMPONENTS)
+           claims=(("moved", (0, -1)),), params=("dx", "dy"), movement=Movement.LAID_BY_COMPONENTS)
 def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """A vector given by its components, laid off from a point."""
     return P[0] + d.lift(dx), P[1] + d.lift(dy)
@@ -182,11 +181,10 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 @primitive((LINE, POINT, POINT), POINT, PENCIL,
            "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance "
            "from {1} to {2}.",
-           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0,
-           movement=Movement.PICKED, reversal="ratio")
+           claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0, movement=Movement.PICKED, reversal="ratio")
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""
-    n2 = l[0] * l[0] + l[1] * l[1]
-    off = (l[0] * P[0] + l[1] * P[1] + l[2]) / n2
-    t = d.lift(ratio) * (abs(Q[0] - P[0]) + abs(Q[1] - P[1])) / (abs(l[0]) + abs(l[1]))
+    n2 = dot(l, l)
+    off = (dot(l, P) + l[2]) / n2
+    t = d.lift(ratio) * size(vector(P, Q)) / size(l)
     return P[0] - l[0] * off + t * l[1], P[1] - l[1] * off - t * l[0]

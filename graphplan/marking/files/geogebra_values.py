@@ -17,9 +17,9 @@ from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.compounds import bisector, foot, midpoint
+from graphplan.kernel.elementary import bisector, foot, midpoint, parallel, perpendicular
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.primitives import guide, line, meet, parallel, perpendicular
+from graphplan.kernel.primitives import guide, line, meet
 from graphplan.marking.files.curves import NEAR
 from graphplan.marking.files.safe import number
 

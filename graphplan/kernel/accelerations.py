@@ -1,0 +1,68 @@
+"""Vectors of accelerations, drawn from those of velocities."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, Form, primitive
+from graphplan.kernel.primitives import apart, dot, vector
+
+
+def _semicircle(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    """v < KA: the velocity is a leg, KA the hypotenuse; the leg's projection on KA is v^2/KA."""
+    M = s.midpoint(K, A)
+    D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(A, s.opening(m, w)), side="left")
+    return s.transfer(s.foot(s.side(K, A), D), A, k)
+
+
+def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    """v > KA: the velocity is a leg, KA its projection; the hypotenuse is v^2/KA."""
+    KA, arc = s.side(K, A), s.circle(A, s.opening(m, w))
+    D = s.line_meets_circle(s.perpendicular(KA, K), arc, way="on")
+    E = s.meet(KA, s.perpendicular(s.side(A, D), D))
+    return s.transfer(E, A, k)
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, COMPASSES,
+           "Construct the relative normal acceleration of {1} about {0} by the relative velocity from {2} to {3}; "
+           "from {4} lay it off: mark {out}.",
+           claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22", forms={
+               "nothing to draw": lambda s, K, A, m, w, k: k if s.one(m, w) else None,
+               "semicircle": _semicircle,
+               "companion": _companion,
+               "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None})
+def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
+    """The end a of the vector ka = v^2/KA, parallel to KA and away from k, v being the length mw.
+
+    The relative normal acceleration of A about K is then the vector from a to k.
+    """
+    u, v = apart(d, K, A, "the two joints coincide"), vector(m, w)
+    s = dot(v, v) / dot(u, u)
+    return k[0] + s * u[0], k[1] + s * u[1]
+
+
+def _half(turned: bool) -> Form:
+    """Half the vector by similar triangles, on the way to the pole or, `turned`, to another point of the link."""
+
+    def drawn(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
+        D, T1 = (s.quarter(B, P, B), s.quarter(B, T, B)) if turned else (P, T)
+        half = s.meet(s.parallel(s.side(R, D), T1), s.side(B, R), name="K")
+        return s.transfer(half, B, s.transfer(half, B, b))
+
+    return drawn
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
+           "Construct half the Coriolis vector at {1} from the orthogonal relative velocity, from {1} to {3}, and "
+           "that of the guide's turning about {0}, from {1} to {2}; from {4} lay it off twice, reversed: mark {out}.",
+           claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
+           source="Ozols 1974, 5-3, fig. 5-24", weighed=True, forms={
+               "nothing to draw": lambda s, P, B, T, R, b: b if s.one(B, T) or s.one(B, R) else None,
+               "at the pair": _half(turned=False),
+               "at another point of the guide's link": _half(turned=True)})
+def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
+    """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
+    u = apart(d, B, P, "the pole of the guide lies in the pair")
+    s = 2 * dot(vector(B, T), u) / dot(u, u)
+    return b[0] - s * (R[0] - B[0]), b[1] - s * (R[1] - B[1])

@@ -1,0 +1,184 @@
+"""The elementary constructions: one movement with set squares or dividers, several with compasses and straightedge.
+
+A compound's `forms` are the ways to draw it, in the order in which a textbook would try them; `s` is the board. A form
+that needs a branch (which crossing of an arc, which side) stands once for each: the pose decides which of them gives
+the right value. A form that is not for this pose gives nothing; where a vector has no length, nothing is drawn.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, Form, Movement, primitive
+from graphplan.kernel.primitives import apart
+
+# ---- parallel and perpendicular: from a point that the line is known to pass through, or from any --------------------
+
+
+def _known(s: Any, l: Any, P: Any) -> Any:
+    return s.clear_of(P, s.points_on(l))
+
+
+def _any(s: Any, l: Any, P: Any) -> Any:
+    size = s.clear_of(P)
+    return None if size is None else s.pick(l, P, size, ratio=0.5)
+
+
+STARTS = (("", _known), (", from any point", _any))
+
+
+def _erected(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
+    """The perpendicular through P, by the arc about P through X, a point of the line."""
+    arc = s.circle(P, s.opening(P, X))
+    D, E = s.line_meets_circle(l, arc, way="on"), s.line_meets_circle(l, arc, way="back")
+    o = s.opening(D, E)
+    d, e = s.circle(D, o), s.circle(E, o)
+    ends = [s.circles_meet(e, d, side=side) for side in ("right", "left")]
+    return s.line(*ends) if left else s.line(*reversed(ends))
+
+
+def _arcs(start: Callable[..., Any]) -> Form:
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        X = start(s, l, P)
+        return None if X is None else _erected(s, l, P, X)
+
+    return drawn
+
+
+def _mirrored(side: str) -> Form:
+    """The perpendicular through P and its mirror image, by arcs through P about two points of the line."""
+
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        points = s.points_on(l)
+        if s.lies_on(P, l) or len(points) < 2 or s.one(points[0], points[-1]):
+            return None
+        one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
+        image = s.circles_meet(one, two, side=side)
+        return s.line(image, P) if side == "right" else s.line(P, image)
+
+    return drawn
+
+
+def _rhombus(start: Callable[..., Any], side: str) -> Form:
+    def drawn(s: Any, l: Any, P: Any) -> Any:
+        X = start(s, l, P)
+        if X is None or s.lies_on(P, l):
+            return None
+        o = s.opening(X, P)
+        Y = s.line_meets_circle(l, s.circle(X, o), way="on")
+        return s.line(P, s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side))
+
+    return drawn
+
+
+def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
+    across = s.perpendicular(l, P)
+    X = _known(s, across, P)
+    X = _any(s, across, P) if X is None else X
+    return None if X is None else _erected(s, across, P, X, left=False)
+
+
+@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} parallel to {0}.",
+           claims=(("on", 1), ("parallel", 0)), movement=Movement.PARALLEL, afar=(0,),
+           described="the parallel to {0} through {1}", forms={
+               "the line itself": lambda s, l, P: l if s.lies_on(P, l) else None,
+               **{f"rhombus on the {side}{words}": _rhombus(start, side)
+                  for words, start in STARTS for side in ("left", "right")},
+               "two perpendiculars": _two_perpendiculars})
+def parallel(d: Any, l: Any, P: Any) -> Any:
+    """The parallel to a line through a point, running the same way."""
+    return l[0], l[1], -(l[0] * P[0] + l[1] * P[1])
+
+
+@primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
+           claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=(0,),
+           described="the perpendicular to {0} through {1}", forms={
+               **{f"mirror image on the {side}": _mirrored(side) for side in ("right", "left")},
+               **{"arcs" + words: _arcs(start) for words, start in STARTS}})
+def perpendicular(d: Any, l: Any, P: Any) -> Any:
+    """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
+    return -l[1], l[0], l[1] * P[0] - l[0] * P[1]
+
+
+# ---- halves and feet -------------------------------------------------------------------------------------------------
+
+
+def _bisected(s: Any, P: Any, Q: Any) -> Any:
+    o = s.opening(P, Q)
+    p, q = s.circle(P, o), s.circle(Q, o)
+    return s.line(s.circles_meet(p, q, side="right"), s.circles_meet(p, q, side="left"))
+
+
+@primitive((POINT, POINT), LINE, COMPASSES, "Draw {out}, the perpendicular bisector of {0}{1}.",
+           claims=(("halfway", 0, 1),), fails=("points-coincide",), movement=Movement.BISECTED,
+           forms={"arcs": _bisected})
+def bisector(d: Any, P: Any, Q: Any) -> Any:
+    """The perpendicular bisector of two points, running a quarter turn counter-clockwise of the first to the second."""
+    u = apart(d, P, Q)
+    return -u[0], -u[1], (u[0] * (P[0] + Q[0]) + u[1] * (P[1] + Q[1])) / 2
+
+
+@primitive((POINT, POINT), POINT, COMPASSES, "Halve the distance from {0} to {1}: mark {out}.",
+           claims=(("same", (0, -1), (-1, 1)),), movement=Movement.HALVED, forms={
+               "one point": lambda s, P, Q: P if s.one(P, Q) else None,
+               "arcs": lambda s, P, Q: s.meet(s.line(P, Q), s.bisector(P, Q))})
+def midpoint(d: Any, P: Any, Q: Any) -> Any:
+    """The point halfway between two points."""
+    return (P[0] + Q[0]) / 2, (P[1] + Q[1]) / 2
+
+
+@primitive((LINE, POINT), POINT, SET_SQUARES, "From {1} drop the perpendicular on {0}: mark its foot {out}.",
+           claims=(("on", 0), ("upright", 0, 1)), movement=Movement.DROPPED, forms={
+               "the point itself": lambda s, l, P: P if s.lies_on(P, l) else None,
+               "perpendicular": lambda s, l, P: s.meet(l, s.perpendicular(l, P))})
+def foot(d: Any, l: Any, P: Any) -> Any:
+    """The foot of the perpendicular from a point to a line."""
+    off = (l[0] * P[0] + l[1] * P[1] + l[2]) / (l[0] * l[0] + l[1] * l[1])
+    return P[0] - l[0] * off, P[1] - l[1] * off
+
+
+# ---- vectors and lines carried over ----------------------------------------------------------------------------------
+
+
+def _with_dividers(turn: str) -> Form:
+    """The length taken along the parallel or the perpendicular to PQ."""
+    return lambda s, P, Q, R: s.line_meets_circle(
+        getattr(s, turn)(s.line(P, Q), R), s.circle(R, s.opening(P, Q)), way="on")
+
+
+def _fourth_corner(side: str) -> Form:
+    """The parallelogram on PQ and PR by two arcs."""
+    return lambda s, P, Q, R: s.circles_meet(s.circle(R, s.opening(P, Q)), s.circle(Q, s.opening(P, R)), side=side)
+
+
+@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}: mark {out}.",
+           claims=(("same", (0, 1), (2, -1)),), movement=Movement.LAID_OFF, afar=(0, 1), forms={
+               "nothing to draw": lambda s, P, Q, R: R if s.one(P, Q) else Q if s.one(P, R) else None,
+               "dividers": _with_dividers("parallel"),
+               "parallelogram": lambda s, P, Q, R: s.meet(s.parallel(s.line(P, Q), R), s.parallel(s.line(P, R), Q)),
+               "two arcs, left": _fourth_corner("left"),
+               "two arcs, right": _fourth_corner("right")})
+def transfer(d: Any, P: Any, Q: Any, R: Any) -> Any:
+    """The vector PQ laid off from R."""
+    return R[0] + (Q[0] - P[0]), R[1] + (Q[1] - P[1])
+
+
+@primitive((POINT, POINT, POINT), POINT, DIVIDERS, "From {2} lay off the vector from {0} to {1}, turned a quarter "
+           "counter-clockwise: mark {out}.", claims=(("quarter", (0, 1), (2, -1)),), movement=Movement.TURNED,
+           afar=(0, 1), forms={
+               "nothing to turn": lambda s, P, Q, R: R if s.one(P, Q) else None,
+               "dividers": _with_dividers("perpendicular")})
+def quarter(d: Any, P: Any, Q: Any, R: Any) -> Any:
+    """The vector PQ, turned a quarter counter-clockwise, laid off from R."""
+    return R[0] - (Q[1] - P[1]), R[1] + (Q[0] - P[0])
+
+
+@primitive((LINE, POINT, POINT), LINE, SET_SQUARES, "Shift {0} by the vector from {1} to {2}: draw {out}.",
+           claims=(("parallel", 0), ("shifted", 0, 1, 2)), where=0, forms={
+               "nothing to draw": lambda s, l, P, Q: l if s.one(P, Q) else None,
+               "through the end": lambda s, l, P, Q: s.parallel(l, Q),
+               "foot": lambda s, l, P, Q: s.parallel(l, s.transfer(P, Q, s.foot(l, P)))})
+def shift(d: Any, l: Any, P: Any, Q: Any) -> Any:
+    """A line moved by the vector PQ."""
+    return l[0], l[1], l[2] - (l[0] * (Q[0] - P[0]) + l[1] * (Q[1] - P[1]))

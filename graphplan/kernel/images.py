@@ -1,0 +1,222 @@
+"""Images of a link, and what is in proportion: the figures of the ends of a link's vectors.
+
+An image is parallel to its link on a plan of orthogonal velocities, a quarter turned on the plans of accelerations and
+of true velocities: `turn` says which, "parallel" or "perpendicular". A rule is one line of thought that holds in every
+pose; how the same thing is drawn is the matter of its forms. Names such as "Q" are letters that a recipe may give.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, primitive
+from graphplan.kernel.primitives import apart, dot, size, vector
+
+
+def _turned(u: Any, turn: str) -> Any:
+    return u if turn == "parallel" else (-u[1], u[0])
+
+
+# ---- figures in proportion -------------------------------------------------------------------------------------------
+
+
+def _ray(way: str) -> Form:
+    """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
+
+    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        if s.way(A, B, C) != way:
+            return None
+        PQ = s.side(P, Q)
+        ray = s.perpendicular(PQ, P)
+        B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
+        C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
+        return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
+
+    return drawn
+
+
+def _on_the_link(way: str) -> Form:
+    """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
+
+    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+        if s.way(A, B, C) != way:
+            return None
+        ray = s.perpendicular(s.side(A, B), A)
+        Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
+        P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)
+        return s.line_meets_circle(s.line(P, Q), s.circle(P, s.opening(A, P1)), way=way)
+
+    return drawn
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
+           "Divide {3}{4} in {out} as {2} divides {0}{1}.",
+           claims=(("along", (0, 2), (0, 1)), ("along", (3, -1), (3, 4)), ("proportion", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), forms={
+               "at an end": lambda s, A, B, C, P, Q:
+                   P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None,
+               "ray": _ray("on"),
+               "ray, beyond": _ray("back"),
+               "on the link": _on_the_link("on"),
+               "on the link, beyond": _on_the_link("back")})
+def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
+    """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
+    u = apart(d, A, B)
+    t = dot(vector(A, C), u) / dot(u, u)
+    return P[0] + t * (Q[0] - P[0]), P[1] + t * (Q[1] - P[1])
+
+
+def _sides(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    side = getattr(s, turn)
+    return s.meet(side(s.side(A, C), a), side(s.side(B, C), b))
+
+
+def _centre_of_similitude(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    S = s.meet(s.side(A, a), s.side(B, b))
+    return s.meet(s.side(S, C), s.side(a, b))
+
+
+def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str) -> Any:
+    f = s.divide(A, B, s.foot(s.side(A, B), C), a, b)
+    return s.meet(s.perpendicular(s.side(a, b), f), getattr(s, turn)(s.side(B, C), b))
+
+
+@primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
+           "On {3}{4} draw the figure similar to {0}{1}{2}, its sides {turn}: mark {out}.",
+           claims=(("image", 0, 1, 3, 4), ("image", 0, 2, 3, -1), ("image", 1, 2, 4, -1), ("likeness", 0, 1, 2, 3, 4)),
+           fails=("points-coincide",), params=("turn",),
+           source="Rosenauer 1939, No. 14; Ozols 1974, 5-2", forms={
+               "at a corner": lambda s, A, B, C, a, b, turn:
+                   a if s.one(A, C) or s.one(a, b) else b if s.one(B, C) else None,
+               "sides": _sides,
+               "centre of similitude": _centre_of_similitude,
+               "foot and side": _foot_and_side,
+               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b)})
+def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
+    """The image of a third point of a link of which two points' images are known."""
+    u = apart(d, A, B)
+    s = dot(vector(a, b), _turned(u, turn)) / dot(u, u)
+    w = _turned(vector(A, C), turn)
+    return a[0] + s * w[0], a[1] + s * w[1]
+
+
+# ---- loci of a link with two facts -----------------------------------------------------------------------------------
+
+
+def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
+    """The line of the link through A whose image is alpha: drawn already if alpha was made from it."""
+    op, args = s.made_by(alpha)
+    if op == turn:
+        op_home, through = s.made_by(args[0])
+        if op_home == "line" and any(P is A for P in through):
+            return args[0]
+    return getattr(s, turn)(alpha, A)
+
+
+def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+    Q = s.meet(_home(s, alpha, A, turn), _home(s, beta, B, turn), name="Q")
+    q = s.meet(alpha, beta, name="q")
+    return getattr(s, turn)(s.side(Q, C), q)
+
+
+def _trial(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, turn: str, ratio: float, mark: str) -> Any:
+    """The image of C in one trial figure, its side A'B' fitted between the loci."""
+    a = s.pick(alpha, A, B, ratio=ratio, name="A" + mark)
+    b = s.meet(getattr(s, turn)(s.side(A, B), a), beta, name="B" + mark)
+    return s.similar(A, B, C, a, b, turn=turn, name="C" + mark)
+
+
+def _trials(*ratios: float) -> Form:
+    """Two trial figures, or one and the figure of no size where the loci meet."""
+
+    def drawn(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
+        ends = [_trial(s, A, alpha, B, beta, C, turn, ratio, "'" * n) for n, ratio in enumerate(ratios, 1)]
+        return s.side(*ends) if len(ends) == 2 else s.side(s.meet(alpha, beta, name="U"), *ends)
+
+    return drawn
+
+
+@primitive((POINT, LINE, POINT, LINE, POINT), LINE, STRAIGHTEDGE,
+           "From the loci {1} of {0} and {3} of {2}, draw the locus {out} of the image of {4}, a "
+           "point of their link, the image's sides {turn}.",
+           claims=(("locus", 0, 1, 2, 3, 4),), fails=("locus-undetermined",), params=("turn",),
+           source="Rosenauer 1939, No. 14: auxiliary points Q, R and trial triangle", where=1, weighed=True,
+           described="the locus of the end of {4}", forms={
+               "the same point": lambda s, A, alpha, B, beta, C, turn:
+                   alpha if s.one(A, C) else beta if s.one(B, C) else None,
+               "auxiliary point": _auxiliary_point,
+               "trial figure": _trials(0.35),
+               "trial figure on the other side": _trials(-0.35),
+               "two trial figures": _trials(0.3, -0.3),
+               "two trial figures further out": _trials(0.7, 0.2)})
+def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
+    """The locus of a third point's image, where the images of two points of the link lie on known lines.
+
+    Image C' = A' + s CA (turned): eliminating s from both incidences leaves a line of the pencil of alpha and beta.
+    No intersection is formed, so it holds where the auxiliary point is far away or nowhere.
+    """
+    u, v = _turned(vector(C, A), turn), _turned(vector(C, B), turn)
+    one, two = dot(alpha, u), dot(beta, v)
+    a, b, c = (two * p - one * q for p, q in zip(alpha, beta, strict=True))
+    reach = (size(alpha) * size(beta)) * (size(u) + size(v))
+    whole = d.nonzero(abs(a) + abs(b), reach, "locus-undetermined", "the pole of the link lies in the point itself")
+    return a / whole, b / whole, c / whole
+
+
+def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
+    b = s.meet(getattr(s, turn)(s.side(C, B), c), beta)
+    return s.similar(C, B, A, c, b, turn=turn)
+
+
+@primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, SET_SQUARES,
+           "From {1}, the image of {0}, and the loci {3} of {2} and {5} of {4}, mark {out}, the image of {2}, "
+           "the image's sides {turn}.",
+           claims=(("on", 3), ("image", 0, 2, 1, -1), ("carried", 0, 2, 4, 1, 5)),
+           fails=("lines-parallel",), params=("turn",), forms={
+               "the same point": lambda s, C, c, A, alpha, B, beta, turn: c if s.one(C, A) else None,
+               "its own locus": lambda s, C, c, A, alpha, B, beta, turn:
+                   s.meet(getattr(s, turn)(s.side(C, A), c), alpha),
+               "the other locus": _other_locus})
+def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:
+    """The image of A, where the image of C is known and both A and B of the same link have a locus.
+
+    Either locus alone would do; weighing both by what they can tell keeps the value good where one of them cannot.
+    """
+    u, v = _turned(vector(C, A), turn), _turned(vector(C, B), turn)
+    m, n, p, q = dot(alpha, alpha), dot(beta, beta), dot(alpha, u), dot(beta, v)
+    e, f = dot(alpha, c) + alpha[2], dot(beta, c) + beta[2]
+    told = abs(p) / size(alpha) + abs(q) / size(beta)
+    d.nonzero(told, size(u) + size(v), "lines-parallel", "neither locus meets the line through the known image")
+    s = -(p * e / m + q * f / n) / (p * p / m + q * q / n)
+    return c[0] + s * u[0], c[1] + s * u[1]
+
+
+# ---- false position --------------------------------------------------------------------------------------------------
+
+
+def _ordinates(carry: str) -> Form:
+    """The errors of the trials, as ordinates over their points."""
+
+    def drawn(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
+        E1, E2 = (getattr(s, carry)(s.foot(l, Z), Z, A) for l, Z, A in ((l1, Z1, A1), (l2, Z2, A2)))
+        return s.meet(s.side(A1, A2), s.side(E1, E2))
+
+    return drawn
+
+
+@primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
+           "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
+           "nothing.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
+           fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0,
+           method="false position", forms={
+               "a trial that fits": lambda s, A1, A2, Z1, l1, Z2, l2:
+                   A1 if s.lies_on(Z1, l1) else A2 if s.lies_on(Z2, l2) else None,
+               "errors as ordinates": _ordinates("transfer"),
+               "errors as ordinates, turned": _ordinates("quarter")})
+def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
+    """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
+    u = apart(d, A1, A2, "both trials begin in one point")
+    e1 = dot(l1, Z1) + l1[2]
+    e2 = (dot(l2, Z2) + l2[2]) * (dot(l1, l2) / dot(l2, l2))
+    gap = d.nonzero(e1 - e2, abs(e1) + abs(e2), "trials-agree", "both trial figures miss by the same amount")
+    return A1[0] + e1 / gap * u[0], A1[1] + e1 / gap * u[1]

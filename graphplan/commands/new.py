@@ -14,20 +14,19 @@ import argparse
 
 from graphplan.commands.messages import Messages
 from graphplan.commands.output import STANDARD, kind, write
-from graphplan.commands.templates import STARTS
+from graphplan.commands.templates import KINDS, template
 
 ENDINGS = (".toml",)
 
 
 def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("file", metavar="FILE", help="the scene to write, such as scene.toml; - for standard output")
-    command.add_argument("--kind", choices=[*STARTS], default="four-bar", help="the mechanism to start from")
+    command.add_argument("--kind", choices=KINDS, default="four-bar", help="the mechanism to start from")
 
 
 def run(options: argparse.Namespace) -> int:
-    text = STARTS[options.kind].text
     kind(options.file, ENDINGS, "scene", "new")
-    write(text, options.file, new=True)
+    write(template(options.kind), options.file, new=True)
     if options.file != STANDARD:
         told = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
         Messages(options.quiet).remark(told)

@@ -1,4 +1,4 @@
-"""Print a JSON Schema: of scene files, or of what a command prints as JSON.
+"""Print a JSON Schema: of scene files, or of what a command prints as JSON; or the keys of a scene as a table.
 
 An editor with taplo (Even Better TOML) completes and checks a scene whose first line names the schema:
 #:schema ./scene.schema.json
@@ -8,6 +8,7 @@ examples:
   graphplan schema solve
   graphplan schema steps
   graphplan schema verify
+  graphplan schema keys > keys.md        the keys of a scene, as a table in Markdown
 """
 
 from __future__ import annotations
@@ -16,17 +17,21 @@ import argparse
 
 from graphplan.commands.output import as_json, write
 
+RESULTS = ("solve", "steps", "verify")
+
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "solve", "steps", "verify"),
-                         help="scene (default), solve, steps, or verify")
+    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", *RESULTS, "keys"),
+                         help="scene (default), solve, steps, or verify; keys for the table")
 
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.commands import result_schemas
-    from graphplan.mechanism.schema import scene
+    from graphplan.mechanism import schema
 
-    schemas = {"scene": scene, "solve": result_schemas.solve, "steps": result_schemas.steps,
-               "verify": result_schemas.verify}
-    write(as_json(schemas[options.of](), 2))
+    if options.of == "keys":
+        write(schema.reference())
+    else:
+        module = result_schemas if options.of in RESULTS else schema
+        write(as_json(getattr(module, options.of)(), 2))
     return 0

@@ -7,7 +7,7 @@ and tables by name are kinds as well, so that a whole scene is one table of fiel
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Hashable
+from collections.abc import Callable, Collection, Hashable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
@@ -224,6 +224,20 @@ class Named:
         return {name: value for name, value in found.items() if value is not None}
 
 
+def inner(value: Value) -> Iterator[Field]:
+    """The fields of all tables in a kind of value, each before those in it."""
+    match value:
+        case Table(fields=fields):
+            for field in fields:
+                yield field
+                yield from inner(field.kind)
+        case Either(forms=forms):
+            for form in forms:
+                yield from inner(form)
+        case Rows(entry=entry) | Named(entry=entry):
+            yield from inner(entry)
+
+
 # --- kinds of values -----------------------------------------------------------------------------------------------
 
 
@@ -253,7 +267,7 @@ TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema
 
 def choice(*words: str) -> Kind:
     """One of these words."""
-    return Kind(" ".join(words), lambda item, names: item.choice(words), {"enum": [*words]})
+    return Kind(" · ".join(words), lambda item, names: item.choice(words), {"enum": [*words]})
 
 
 def moving(fault: str) -> Kind:

@@ -70,7 +70,7 @@ _LINE = Table("a line", (
     Field("direction", "the line's direction: a vector, an angle in degrees, or two points", DIRECTION,
           "the line's direction, such as [1, 0]"),
 ))
-_WAYS = (
+WAYS = (
     _way("polar", "from a point, by distance and angle",
          Field("from", "the point to measure from", POINT, 'the point to measure from, such as from = "O"'),
          Field("distance", "the distance from that point", DISTANCE, "a length, such as distance = 250"),
@@ -94,14 +94,14 @@ _WAYS = (
          Field("distance", "how far from the first point towards the second", NUMBER,
                "a length from the first point towards the second, such as distance = 340")),
 )
-_COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
+COORDINATES = Kind("coordinates [x, y]", _coordinates, VECTOR.schema)
 
 
 def _form(item: Item) -> Value | None:
     """The way to place a point of which the most keys are there; coordinates where it is no table."""
     if not isinstance(item.value, dict):
-        return _COORDINATES
-    way = max(_WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
+        return COORDINATES
+    way = max(WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
     if item.value.keys() & {*way.keys}:
         return way
     item.fault(f"{described(item.value)} places no point",
@@ -115,7 +115,7 @@ def _named(point: str, item: Item, names: Names) -> None:
         item.fault("a point's name is empty or has blanks or commas", "a name without them, such as A2")
 
 
-POINTS = Named(Either((_COORDINATES, *_WAYS), _form), POINT, _named, least=1)
+POINTS = Named(Either((COORDINATES, *WAYS), _form), POINT, _named, least=1)
 
 
 def needs(placement: Placement) -> tuple[str, ...]:

@@ -5,7 +5,7 @@ What only the whole scene tells, such as names that nothing bears or drives that
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Collection, Iterable, Iterator
 
 from graphplan.mechanism.fields import Either, Field, Fragment, Kind, Named, Rows, Table, Value
 from graphplan.mechanism.scene import SCENE
@@ -56,3 +56,34 @@ def schema(value: Value) -> Fragment:
 
 def _default(field: Field) -> Fragment:
     return {} if field.default is None else {"default": field.default}
+
+
+def reference() -> str:
+    """All keys of a scene as a table in Markdown: each with what it takes and what it says, table after table."""
+    rows = ["| key | takes | what it says |", "|---|---|---|"]
+    for field in SCENE.fields:
+        match field.kind:
+            case Kind():
+                rows += _rows((field,))
+                continue
+            case Rows(entry=entry, single=single):
+                head = f"[[{field.name}]]" if not single else f"[{field.name}]` or `[[{field.name}]]"
+            case Named(entry=Table() as entry, key=key):
+                head = f"[{field.name}.{key.says.upper()}]"
+            case Named(entry=entry) | entry:
+                head = f"[{field.name}]"
+        rows.append(f"| **`{head}`** | {'required' if field.wanted else ''} | {field.words} |")
+        forms = entry.forms if isinstance(entry, Either) else (entry,)
+        for form in forms:
+            rows += [f"| | *{form.says}* | |"] if len(forms) > 1 else []
+            rows += _rows(form.fields) if isinstance(form, Table) else []
+    return "\n".join(rows) + "\n"
+
+
+def _rows(fields: Iterable[Field], path: str = "") -> Iterator[str]:
+    """The rows of keys, each before those below it."""
+    for name, words, kind, wanted, default in fields:
+        more = ["required"] if wanted else [] if default in (None, []) else [f"default {default}"]
+        yield f"| `{path}{name}` | {', '.join([kind.says, *more])} | {words} |"
+        if isinstance(kind, Table):
+            yield from _rows(kind.fields, f"{path}{name}.")

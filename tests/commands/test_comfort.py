@@ -17,7 +17,7 @@ import pytest
 from graphplan import __version__
 from graphplan.commands import main
 from graphplan.commands.catalogue import fitted
-from graphplan.commands.templates import LOADS, STARTS
+from graphplan.commands.templates import KINDS, LOADS, template
 from graphplan.mechanism.scene import load, packaged, parse
 from graphplan.mechanism.schema import scene
 
@@ -28,7 +28,7 @@ OPTIONAL = re.compile(r"(?m)^#(?=\S)")
 # --- new -----------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("kind", STARTS)
+@pytest.mark.parametrize("kind", KINDS)
 def test_a_new_scene_holds_as_it_stands(kind: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     """Every kind of new scene is checked and drawn without a fault, and asks for something."""
     path = tmp_path / "scene.toml"
@@ -38,33 +38,33 @@ def test_a_new_scene_holds_as_it_stands(kind: str, tmp_path: Path, capsys: pytes
     assert main(["draw", str(path), "-o", str(tmp_path / "sheet.svg")]) == 0
 
 
-@pytest.mark.parametrize("kind", STARTS)
+@pytest.mark.parametrize("kind", KINDS)
 def test_what_is_optional_holds_too(kind: str) -> None:
     """Each optional paragraph holds when its # are taken away, and so do all together."""
-    paragraphs = STARTS[kind].text.split("\n\n")
+    paragraphs = template(kind).split("\n\n")
     optional = [k for k, paragraph in enumerate(paragraphs) if OPTIONAL.search(paragraph)]
     assert len(optional) >= 3
     for chosen in [*([k] for k in optional), optional]:
         text = "\n\n".join(OPTIONAL.sub("", part) if k in chosen else part for k, part in enumerate(paragraphs))
-        assert tomllib.loads(text) != tomllib.loads(STARTS[kind].text)
+        assert tomllib.loads(text) != tomllib.loads(template(kind))
         parse(text, kind)
 
 
 @pytest.mark.parametrize("left_out", [load for load in LOADS if load != "balance"])
 def test_loads_may_be_left_out(left_out: str) -> None:
     """Of the paragraph of loads any table but the balance may be left out."""
-    text = OPTIONAL.sub("", STARTS["four-bar"].text)
+    text = OPTIONAL.sub("", template("four-bar"))
     shorter = re.sub(rf"(?m)^\[+{left_out}[^\n]*\n(?:\w[^\n]*\n)+", "", text)
     assert shorter != text
     parse(shorter, "four-bar")
 
 
-@pytest.mark.parametrize("kind", STARTS)
+@pytest.mark.parametrize("kind", KINDS)
 def test_every_section_is_explained(kind: str) -> None:
     """A new scene explains every section that a scene may have, in a line."""
     for name, section in scene()["properties"].items():
         assert re.search(rf"(?m)^#?{name}\b.* # {re.escape(section['description'])}|"
-                         rf"^# {name}: {re.escape(section['description'])}", STARTS[kind].text)
+                         rf"^# {name}: {re.escape(section['description'])}", template(kind))
 
 
 def test_nothing_is_overwritten(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -15,7 +15,7 @@ from jsonschema import Draft202012Validator
 
 import graphplan
 from graphplan.commands import main, result_schemas
-from graphplan.commands.templates import STARTS
+from graphplan.commands.templates import KINDS, template
 from graphplan.errors import SceneError
 from graphplan.mechanism.items import Item
 from graphplan.mechanism.scene import load, packaged, parse
@@ -28,7 +28,7 @@ Form = tuple[str, frozenset[str], frozenset[str]]  # a section, the keys of one 
 
 def whole(kind: str) -> str:
     """A start with all that is optional in it."""
-    return re.sub(r"(?m)^#(?=\S)", "", STARTS[kind].text)
+    return re.sub(r"(?m)^#(?=\S)", "", template(kind))
 
 
 def errors(schema: dict[str, Any], data: object) -> list[str]:
@@ -57,10 +57,10 @@ def test_packaged_scenes_are_valid(name: str) -> None:
     assert errors(scene(), tomllib.loads(text)) == []
 
 
-@pytest.mark.parametrize("kind", STARTS)
+@pytest.mark.parametrize("kind", KINDS)
 def test_starts_are_valid(kind: str) -> None:
     """A new scene is valid after the schema, with and without what is optional."""
-    assert errors(scene(), tomllib.loads(STARTS[kind].text)) == []
+    assert errors(scene(), tomllib.loads(template(kind))) == []
     assert errors(scene(), tomllib.loads(whole(kind))) == []
 
 
@@ -143,7 +143,7 @@ def test_schema_and_loader_know_the_same_keys(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(Item, "fields", recorded)
     for name in packaged():
         load(name)
-    for kind in STARTS:
+    for kind in KINDS:
         parse(whole(kind), kind)
     top = {form for form in read if form[0] == ""}
     assert {form[1] for form in top} == {frozenset(scene()["properties"])}

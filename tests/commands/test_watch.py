@@ -14,10 +14,10 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.templates import STARTS
+from graphplan.commands.templates import template
 
 ROOT = Path(__file__).parent.parent.parent
-SCENE = STARTS["four-bar"].text
+SCENE = template("four-bar")
 PATIENCE = 60.0  # seconds, for a machine that does much else
 
 

@@ -1,32 +1,55 @@
-"""The arithmetics in which a scene is reckoned with proven bounds: floats with their errors, and enclosures.
+"""The arithmetics in which both opinions are computed: floats with proven errors, enclosures, fractions.
 
-Both take the scene as it is written: a rational one is exact, and what is not is reckoned once more from its
-placements, angles and turns a minute.
+All take the scene as it is written: a rational one is exact, and what is not is computed once more from its placements,
+angles and turns a minute.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass, fields, is_dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning
+from graphplan.errors import Refused
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.mechanism.directions import Misfit, vector
+from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide, TurningDrive
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact
+from graphplan.mechanism.placements import placed_by
+from graphplan.solver.bounded import PI, Unproven, bounded, heading
+from graphplan.solver.bounds import Proven
 
 
 @dataclass(frozen=True)
-class Arithmetic:
+class Exact:
+    """Fractions: every number is what it is, and nothing is left in doubt."""
+
+    name: str = "fractions"
+    domain: Callable[[], Domain] = Fractions
+    doubt: type[Exception] = Unproven
+    working: Callable[[], AbstractContextManager[None]] = nullcontext
+
+
+@dataclass(frozen=True)
+class Bounds:
     """How numbers with bounds are made, and how linear systems are solved in them.
 
     `solve` reads rows, the scale of each unknown, and gives what solves for a right-hand side; `doubt` is the error
-    where the bounds are too wide to tell.
+    where the bounds are too wide to tell; `working` is the context in which it is computed.
     """
 
+    name: str
+    domain: Callable[[], Domain]
+    doubt: type[Exception]
     lift: Callable[[Any], Any]
     pi: Callable[[], Any]
     heading: Callable[[Fraction], tuple[Any, Any]]
     solve: Callable[[Sequence[Mapping[int, Any]], Sequence[float]], Callable[[Sequence[Any]], list[Any]]]
-    doubt: type[Exception]
+    working: Callable[[], AbstractContextManager[None]] = nullcontext
 
     def root(self, square: Any) -> Any:
         """The square root of a number that is not negative."""
@@ -48,16 +71,70 @@ class Arithmetic:
         return TO_A_FLOAT.heading(degrees) if degrees % 90 == 0 else (*self.heading(degrees), False)
 
 
-def floats() -> Arithmetic:
-    """Floats with proven errors."""
-    from graphplan.solver.bounded import PI, Unproven, bounded, heading
-    from graphplan.solver.bounds import Proven
-
-    return Arithmetic(bounded, lambda: PI, heading, lambda rows, scales: Proven(rows, scales).solve, Unproven)
+FLOATS = Bounds("floats", Floats, Unproven, bounded, lambda: PI, heading,
+                lambda rows, scales: Proven(rows, scales).solve)
 
 
-def enclosures() -> Arithmetic:
-    """Enclosures of the working precision."""
-    from graphplan.kernel.numbers.enclosures import Enclosure, Undecided, heading, pi, solve
+def enclosures(bits: int, name: str = "enclosures") -> Bounds:
+    """Enclosures of this precision."""
+    from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision, solve
 
-    return Arithmetic(Enclosure, pi, heading, lambda rows, scales: solve(rows), Undecided)
+    return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, lambda rows, scales: solve(rows),
+                  lambda: precision(bits))
+
+
+Arithmetic = Exact | Bounds
+
+
+def enclosed(scene: Scene, by: Bounds) -> Scene:
+    """The scene in numbers with bounds: placements, angles and rpm as written, any other float as it is.
+
+    Points that the scene's floats hold for one, and that cannot be told apart, are one. Fails with `Refused` where
+    arcs miss each other that touch to a float's digits.
+    """
+    def direction(one: Slide | Balance) -> Any:
+        return one.direction if one.written is None else vector(one.written, points.__getitem__, by.reckoning)[:2]
+
+    def driven(one: Drive) -> Drive:
+        if isinstance(one, TurningDrive) and one.rpm:
+            return one.driven_at(by.pi() * one.rpm / 30, one.alpha)
+        return one
+
+    try:
+        points = _points(scene, by)
+        found = scene.posed(points, direction)
+    except Misfit as misfit:
+        raise Refused(f"{scene.name}: points", misfit.what, misfit.instead) from None
+    except by.doubt:
+        raise by.doubt("whether the arcs of its points meet cannot be told") from None
+    found = found.with_drives(map(driven, found.drives))
+    return replace(found, **{part: _lifted(getattr(found, part), by)
+                             for part in ("points", "written", "loads", "motions")})
+
+
+def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
+    """Every point where its placement puts it; coinciding ones are the very same."""
+    if not scene.irrational:
+        return scene.points
+    placed = placed_by(scene.placements, by.reckoning)
+    first: dict[Pair, Pair] = {}
+    points: dict[str, Pair] = {}
+    for name, at in scene.points.items():
+        here = at if is_exact(at) else placed.get(name, at)
+        other = first.setdefault(at, here)
+        same = all(by.lift(p).overlaps(by.lift(q)) for p, q in zip(here, other, strict=True))
+        points[name] = other if same else here
+    return points
+
+
+def _lifted(thing: Any, by: Bounds) -> Any:
+    """The same with every float in it as the binary fraction that it is."""
+    if isinstance(thing, float):
+        return by.lift(thing)
+    if isinstance(thing, tuple):
+        return tuple(_lifted(part, by) for part in thing)
+    if isinstance(thing, dict):
+        return {name: _lifted(part, by) for name, part in thing.items()}
+    if is_dataclass(thing) and not isinstance(thing, type):
+        return replace(thing, **{part.name: _lifted(getattr(thing, part.name), by) for part in fields(thing)})
+    return thing

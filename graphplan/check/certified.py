@@ -9,32 +9,25 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
-from itertools import islice
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphplan.check.arithmetics import enclosures
-from graphplan.check.bench import WAYS
-from graphplan.check.certified_solver import bounded_rates, bounded_reactions
+from graphplan.check.compared import drawn_sizes, each, weight
 from graphplan.check.decimals import OPEN, SPARE, decimal, upwards
-from graphplan.check.enclosed import enclosed
 from graphplan.check.json_results import data
-from graphplan.check.measures import difference
+from graphplan.check.opinion import Opinion, opinion
 from graphplan.check.report import Report
-from graphplan.check.trusted import trusted
+from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision
 from graphplan.mechanism.model import Scene
-from graphplan.methods.construct import constructions
-from graphplan.methods.kinds import ACCELERATION, FORCES, ORDER, SLIDE_ARM, VELOCITY, kind_of
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
 from graphplan.methods.motion.time_scale import extent
-from graphplan.solver import Rates, solve
-
-if TYPE_CHECKING:
-    from graphplan.methods.construction import Construction
-    from graphplan.solver.statics import Reactions
+from graphplan.solver import solve
 
 MOST = 10_000  # digits
 ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
@@ -44,11 +37,13 @@ ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many di
 class Certified(Report):
     """A construction with its numbers between proven bounds; `bits` is the precision at which `digits` were had.
 
-    `results` are enclosures by kind and name, `check` and `errors` are upper bounds by velocity, acceleration, force.
+    `results` are enclosures by kind and name, `truths` what the solver says of them; `check` and `errors` are upper
+    bounds by velocity, acceleration, force.
     """
 
     digits: int
     bits: int
+    truths: dict[str, dict[str, Any]] = field(repr=False)
 
     @cached_property
     def check(self) -> dict[str, Enclosure]:
@@ -59,7 +54,8 @@ class Certified(Report):
     @property
     def agrees(self) -> bool:
         """Whether the enclosures of construction and solver overlap everywhere."""
-        return all(gap.overlaps(Enclosure(0)) for kind in self._parts for gap in self._gaps(kind))
+        same = all(gap.overlaps(Enclosure(0)) for kind in self._parts for gap in self._gaps(kind))
+        return same and not self.drawing.broken
 
     @cached_property
     def errors(self) -> dict[str, Fraction]:
@@ -85,42 +81,33 @@ class Certified(Report):
     def _parts(self) -> dict[str, list[str]]:
         """The readings that there are, by the kind that they count for."""
         known: dict[str, list[str]] = {}
-        for part in sorted(self.results, key=lambda part: ORDER.get(kind_of(part), len(ORDER))):
-            if part != SLIDE_ARM:
-                known.setdefault(kind_of(part).group, []).append(part)
+        for part in sorted(self.results, key=lambda part: kinds.ORDER.get(kinds.kind_of(part), len(kinds.ORDER))):
+            if part != kinds.SLIDE_ARM:
+                known.setdefault(kinds.kind_of(part).group, []).append(part)
         return known
 
     @cached_property
     def _sizes(self) -> dict[str, Fraction]:
         """The largest value of each kind, or where all are nothing what is drawn as large as the mechanism."""
-        unit, phi = (Fraction(float(number)) for number in (self.drawing.tempo.unit, self.drawing.phi))
-        drawn = {VELOCITY: self._extent * unit, ACCELERATION: self._extent * unit**2, FORCES: self._extent / phi}
         sizes = {}
         for kind, parts in self._parts.items():
             values = [value for part in parts for value in self._weighed(part, self.results[part])]
             least = max((abs(value.middle) - value.error for value in values), default=Fraction(0))
-            sizes[kind] = least if least > 0 else drawn[kind]
+            sizes[kind] = least if least > 0 else Fraction(drawn_sizes(self.drawing)[kind])
         return sizes
-
-    @cached_property
-    def _extent(self) -> Fraction:
-        return Fraction(extent(self.scene))
-
-    def _weight(self, part: str) -> Fraction:
-        """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
-        return Fraction(kind_of(part).arm(self._extent, self.scene.units))
 
     def _weighed(self, part: str, values: dict[str, Any]) -> Iterator[Enclosure]:
         """The components of all readings of one kind."""
-        for value in values.values():
-            for number in value if isinstance(value, tuple) else (value,):
-                yield Enclosure(number) * self._weight(part)
+        heavy = Fraction(weight(self.drawing, part))
+        return (Enclosure(number) * heavy for value in values.values() for number in each(value))
 
     def _gaps(self, kind: str) -> Iterator[Enclosure]:
         """What the construction exceeds the solver by."""
         for part in self._parts[kind]:
-            truth, ours = self.truth(part), self.results[part]
-            yield from self._weighed(part, {name: difference(ours[name], truth[name]) for name in ours})
+            ours, truth = self.results[part], self.truths[part]
+            yield from self._weighed(part, {name: tuple([p - q for p, q in zip(each(value), each(truth[name]),
+                                                                               strict=True)])
+                                            for name, value in ours.items()})
 
     def _texts(self, entry: Any, key: str = "") -> Any:
         """Printed data with every enclosure as a decimal, beside the largest value of what its key names."""
@@ -134,10 +121,10 @@ class Certified(Report):
 
     def _beside(self, key: str) -> Fraction:
         """The largest value of what a key of the printed data names."""
-        kind, part = {"omega": ("velocity", "omega"), "alpha": ("acceleration", "alpha"),
-                      "moment": ("force", "moment")}.get(key, (key, ""))
-        plain = {"acts_at": self._extent, "efficiency": Fraction(1)}
-        return plain[key] if key in plain else self._sizes[kind] / self._weight(part)
+        if key in (plain := {"acts_at": Fraction(extent(self.scene)), "efficiency": Fraction(1)}):
+            return plain[key]
+        kind = {"omega": kinds.OMEGA, "alpha": kinds.ALPHA, "moment": kinds.SLIDE_MOMENT}.get(key)
+        return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]
 
 
 def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "",
@@ -180,35 +167,14 @@ def _certainly_singular(scene: Scene) -> bool:
 
 def _attempt(scene: Scene, digits: int, bits: int, **how: Any) -> Certified:
     """Both opinions at one precision, by the first way on which they agree; `Undecided` where that is too low."""
-    by = enclosures()
-    try:
-        known = enclosed(scene, by)
-    except Undecided:
-        raise Undecided("whether the arcs of its points meet cannot be told") from None
-    rates = bounded_rates(known, by)
-    forces = bounded_reactions(known, rates, by) if known.loads is not None else None
-    wrong: Certified | None = None
-    stuck: ConstructionError | None = None
-    try:
-        for drawing in islice(constructions(known, **how), WAYS):
-            try:
-                found = _beside(drawing, rates, forces, digits, bits)
-            except ConstructionError as error:
-                stuck = stuck or error
-                continue
-            if found.agrees:
-                return found
-            wrong = wrong or found
-    except Refused as refused:
-        if wrong is None and stuck is None:
-            raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
-    if wrong is None:
-        assert stuck is not None
-        raise stuck
-    return wrong
+    solved = opinion(scene, enclosures(bits))
+    found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits))
+    if isinstance(found, Certified):
+        return found
+    raise found[1]
 
 
-def _beside(drawing: Construction, rates: Rates, smooth: Reactions | None, digits: int, bits: int) -> Certified:
+def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int) -> Certified:
     """One construction beside the solver."""
     domain = Enclosures()
     try:
@@ -217,14 +183,9 @@ def _beside(drawing: Construction, rates: Rates, smooth: Reactions | None, digit
         if domain.undecided:
             raise Undecided(error.why) from error
         raise
-    if smooth is None:
-        return Certified(drawing, rates, results, False, digits=digits, bits=bits)
-    from graphplan.check.forces import Held
-    from graphplan.check.rubbed import rubbed
-
-    rough = rubbed(smooth, drawing.rounds, enclosures()) if drawing.rounds else None
-    forces = Held(drawing.scene, results, smooth, (), drawing.rounds, rough=rough)
-    return Certified(drawing, rates, results, False, forces, digits=digits, bits=bits)
+    forces = solved.beside(drawing.scene, results, drawing.rounds, bounded=True)
+    return Certified(drawing, solved.rates, results, False, forces, digits=digits, bits=bits,
+                     truths=solved.truth(results, drawing.rounds))
 
 
 def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> GraphplanError:
@@ -233,7 +194,7 @@ def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> Graphpla
     Where they see nothing singular, it is the step of the construction that is named, or what could not be decided.
     """
     try:
-        trusted(scene, **how, refuse=False)
+        report(scene, **how, refuse=False)
     except SingularPose as singular:
         return SingularPose(f"{singular.why}{far}", singular.links, singular.lines_that_miss)
     if isinstance(fault, ConstructionError):

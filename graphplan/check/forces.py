@@ -1,61 +1,146 @@
-"""Forces beside the second opinion and the third: the solver's reactions and the power balance. For loads alone."""
+"""Forces: what the solver says of them between proven bounds, and a construction's beside that. For loads alone."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
-from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.model import Balance, Scene, Slide
+from graphplan.check.arithmetics import Bounds
+from graphplan.check.certified_solver import independent_facts
+from graphplan.check.compared import Results, plain
+from graphplan.mechanism.model import FRAME, Balance, Number, Pair, Scene, Slide
+from graphplan.mechanism.pairs.pair import Along, Statement
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.plane import dot
 from graphplan.mechanism.units import metre
 from graphplan.methods import kinds
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
-from graphplan.solver.efficiency import efficiency
-from graphplan.solver.friction import Frictional, with_friction
+from graphplan.solver.efficiency import delivered, efficiency
+from graphplan.solver.elimination import transpose
+from graphplan.solver.equations import Equations, held
+from graphplan.solver.friction import Frictional, leaning, with_friction
+from graphplan.solver.loads import acting, asked, resultants
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions
+from graphplan.solver.statics import Reactions, repeating, without
+from graphplan.solver.statics import read as read_forces
+
+# ---- the solver between bounds --------------------------------------------------------------------------------------
+
+
+def bounded_reactions(scene: Scene, motion: Rates, by: Bounds, stated: Iterable[Statement] | None = None) -> Reactions:
+    """The reactions and balances of a scene with loads, from its rates; of these facts, if not its own."""
+    equations = held(scene) if stated is None else Equations(scene, tuple(stated))
+    right = [-value for value in resultants(equations, acting(scene, motion))]
+    kept = independent_facts(equations)
+    facts = [equations.facts[i] for i in kept]
+    scales = [math.hypot(*map(float, fact.direction)) if isinstance(fact, Along) else 1 / equations.reach
+              for fact in facts]
+    solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
+    values = dict(zip(kept, solve(right), strict=True))
+    told = without([values.get(i, 0) for i in range(len(equations.facts))], repeating(equations))
+    return read_forces(equations, told, motion)
+
+
+def rubbed(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:
+    """The reactions and balances after so many rounds of friction from those without."""
+    last = smooth
+    for _ in range(rounds):
+        last = bounded_reactions(smooth.equations.scene, smooth.rates, by, _leaning(last, by))
+    return last
+
+
+def _leaning(last: Reactions, by: Bounds) -> Iterator[Statement]:
+    """What holds the links, each pair's force against its turning or sliding as its last force says."""
+    scene, rates = last.equations.scene, last.rates
+    omega: dict[str, Any] = rates.omega | {FRAME: by.lift(0)}
+    journals = {f.at: f.radius * f.coefficient for f in asked(scene).frictions if f.at}
+    guides = {f.slide: f.coefficient for f in asked(scene).frictions if f.slide}
+
+    def arm(joint: Revolute, link: str, force: Pair) -> Any:
+        square = by.lift(dot(force, force))
+        circle = journals.get(joint.at, 0) * -_sense(omega[link] - omega[joint.links[0]], by)
+        return circle / square.root if circle and _sense(square, by) else 0
+
+    def lean(slide: Slide, pressure: Any) -> Number:
+        slip = _sense(dot(rates.slide_velocity[slide.name], slide.direction), by)
+        return guides.get(slide.links, 0) * -slip * _sense(pressure, by)
+
+    return leaning(last, arm, lean)
+
+
+def _sense(number: Any, by: Bounds) -> int:
+    """1 or -1; 0 where a number cannot be told from nothing: then a pair stands still, or bears no force."""
+    lifted = by.lift(number)
+    return 0 if lifted.overlaps(by.lift(0)) else 1 if float(lifted) > 0 else -1
+
+
+# ---- by the kinds and names of a construction's results -------------------------------------------------------------
+
+
+def force_truth(scene: Scene, results: Results, found: Reactions,
+                rough: Reactions | None = None) -> dict[str, dict[str, Any]]:
+    """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
+    """
+    arms = {s.name: _arm(s, scene, found) for s in scene.slides if s.name in results.get(kinds.SLIDE_ARM, {})}
+    joints = {JointForce(p, link).name: force for (p, link), force in found.joints.items()}
+    slides, moments = ({name: both[k] for name, both in found.slides.items()} for k in (0, 1))
+    told: dict[str, Any] = {
+        kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments, kinds.SLIDE_ARM: arms}
+    for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
+        last = found if way != kinds.RUBBED else rough
+        for name, value in balances_named(scene, last.balances).items() if last else ():
+            told.setdefault(kinds.balance_kind(way, named_balances(scene)[name]), {})[name] = value
+    return told | powers(found.balances)
+
+
+def powers(found: Iterable[Any]) -> dict[str, dict[str, Any]]:
+    """Balances in their order as readings of the power balance."""
+    told: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
+    for number, value in enumerate(found, 1):
+        told[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
+    return told
+
+
+def balances_named(scene: Scene, values: Iterable[Any]) -> dict[str, Any]:
+    """What is said of each balance in the scene's order, by its name."""
+    return dict(zip(named_balances(scene), values, strict=True))
+
+
+def named_balances(scene: Scene) -> dict[str, Balance]:
+    """The balances of the scene in its order, by their names."""
+    return scene.loads.named_balances if scene.loads else {}
+
+
+def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
+    """From a slide's point to where its reaction has no moment, square to it."""
+    (x, y), moment = found.slides[slide.name]
+    reach = moment * metre(scene.units) / (x * x + y * y)
+    return y * reach, -x * reach
 
 
 @dataclass(frozen=True)
-class Held:
-    """The forces that a construction gives, by kind and name, what the solver says of them, and the power balance."""
+class Forces:
+    """The forces that a construction gives, beside the solver's reactions and the power balance.
+
+    `rounds` are those of friction that are drawn; `bounded` says that the results are numbers with bounds.
+    """
 
     scene: Scene
     results: dict[str, dict[str, Any]]
     reactions: Reactions
-    power: tuple[Any, ...]
-    rounds: int = 0  # of friction that are drawn
+    power: tuple[Any, ...] = ()
+    rounds: int = 0
     exact: bool = False
-    rough: Reactions | None = None  # what the solver says of the rounds that are drawn, if not to be found in floats
-
-    @cached_property
-    def truth(self) -> dict[str, dict[str, Any]]:
-        """What the solver says of every force that the construction gives, by the same kinds and names."""
-        arms = {s.name: self._arm(s) for s in self.scene.slides if s.name in self.results.get(kinds.SLIDE_ARM, {})}
-        joints = {JointForce(p, link).name: force for (p, link), force in self.reactions.joints.items()}
-        slides, moments = ({name: both[k] for name, both in self.reactions.slides.items()} for k in (0, 1))
-        held, levers = (self._by_kind(self.reactions.balances, way) for way in (kinds.BY_PLANS, kinds.BY_LEVER))
-        return {kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments,
-                kinds.SLIDE_ARM: arms, **held, **levers, **self._rough}
-
-    def _by_kind(self, values: Iterable[Any], way: str) -> dict[str, dict[str, Any]]:
-        """What is said of each balance in the scene's order, by the kind that finds it in this way, and by name."""
-        found: dict[str, dict[str, Any]] = {}
-        for (name, value), balance in zip(self.named(values).items(), self._balances.values(), strict=True):
-            found.setdefault(kinds.balance_kind(way, balance), {})[name] = value
-        return found
+    bounded: bool = False
 
     def named(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
-        return dict(zip(self._balances, values, strict=True))
-
-    @property
-    def _balances(self) -> dict[str, Balance]:
-        return self.scene.loads.named_balances if self.scene.loads else {}
+        return balances_named(self.scene, values)
 
     @property
     def asked(self) -> list[tuple[str, str, str]]:
@@ -68,21 +153,6 @@ class Held:
         """The balances with friction that are drawn, in the scene's order."""
         return balances(self.scene, self.results, (kinds.RUBBED,))
 
-    @property
-    def _rough(self) -> dict[str, dict[str, Any]]:
-        """The balances with friction after as many rounds as are drawn."""
-        if not self.rounds:
-            return {}
-        rough = self.rough or with_friction(self.scene, self.rounds, self.exact)
-        found = self._by_kind(rough.balances, kinds.RUBBED)
-        return {kind: named for kind, named in found.items() if kind in self.results}
-
-    def _arm(self, slide: Slide) -> Any:
-        """From a slide's point to where its reaction has no moment, square to it."""
-        (x, y), moment = self.reactions.slides[slide.name]
-        reach = moment * metre(self.scene.units) / (x * x + y * y)
-        return y * reach, -x * reach
-
     @cached_property
     def standing(self) -> Frictional:
         """What the forces with friction come to, when round follows round."""
@@ -93,42 +163,6 @@ class Held:
         """The instantaneous efficiency of what is drawn: of the balances' powers without friction and with it."""
         if not self.rubbed:
             return None
-        with_, without = (self._delivered(way) for way in (kinds.RUBBED, kinds.BY_PLANS))
-        return efficiency(without, with_)
-
-    def _delivered(self, way: str) -> Any:
-        """The power that the balances of the construction give, found in this way, in force * length/s."""
-        rates, delivered = self.reactions.rates, Fraction(0)
-        for name, balance in self._balances.items():
-            value = self.results[kinds.balance_kind(way, balance)][name]
-            if balance.at:
-                velocity = rates.velocity[balance.at]
-                delivered += value[0] * velocity[0] + value[1] * velocity[1]
-            else:
-                delivered += value * metre(self.scene.units) * rates.omega[balance.link]
-        return delivered
-
-
-def force_truth(scene: Scene, results: dict[str, dict[str, Any]], found: Reactions,
-                rough: Reactions | None = None) -> dict[str, dict[str, Any]]:
-    """What the solver says of the forces that a construction gives, with friction among them, and of the power balance.
-    """
-    return Held(scene, results, found, (), rounds=rough is not None, rough=rough).truth | powers(found.balances)
-
-
-def powers(balances: tuple[Any, ...]) -> dict[str, dict[str, Any]]:
-    """Balances in their order as readings of the power balance."""
-    found: dict[str, dict[str, Any]] = {kinds.POWER: {}, kinds.POWER_MOMENT: {}}
-    for number, value in enumerate(balances, 1):
-        found[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
-    return found
-
-
-def plain_reactions(found: Reactions, rates: Rates, plain: Callable[[Any], Any]) -> Reactions:
-    """The reactions in plain numbers, with rates in such."""
-    def simple(value: Any) -> Any:
-        return tuple(map(simple, value)) if isinstance(value, tuple) else plain(value)
-
-    joints = {pair: simple(force) for pair, force in found.joints.items()}
-    slides = {slide: simple(both) for slide, both in found.slides.items()}
-    return replace(found, joints=joints, slides=slides, balances=simple(found.balances), rates=rates)
+        smooth, rough = (delivered(replace(self.reactions, balances=tuple(found.values())))
+                         for found in (balances(self.scene, self.results), self.rubbed))
+        return efficiency(smooth, rough) if self.bounded else efficiency(plain(smooth), plain(rough))

@@ -15,7 +15,7 @@ from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
 
 if TYPE_CHECKING:
-    from graphplan.check.forces import Held
+    from graphplan.check.forces import Forces
 
 
 def data(found: Report, each: bool = False) -> dict[str, Any]:
@@ -64,18 +64,18 @@ def _each(found: Report) -> dict[str, Any]:
 
 def _forces(found: Report) -> dict[str, Any]:
     """Balance and reactions; nothing where there are no loads."""
-    if found.held is None:
+    if found.forces is None:
         return {}
     told = _balances(found, balances(found.scene, found.results))
     entries: list[dict[str, Any]] = []
-    for point, link, pin in found.held.asked:
+    for point, link, pin in found.forces.asked:
         force = _number(found.results[kinds.REACTION][JointForce(point, link).name])
         entries.append({"at": point, "on": link, "from": pin, "force": force})
     for slide in found.scene.slides:
         if slide.name in found.results.get(kinds.SLIDE_REACTION, {}):
             entries.append(_slide(found, slide))
     kept = {"balance": told[0] if len(told) == 1 else told} if told else {}
-    return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.held)}
+    return {**kept, "reactions": entries, **_indeterminate(found.scene), **_friction(found, found.forces)}
 
 
 def _indeterminate(scene: Scene) -> dict[str, Any]:
@@ -99,15 +99,15 @@ def _slide(found: Report, slide: Slide) -> dict[str, Any]:
     }
 
 
-def _friction(found: Report, held: Held) -> dict[str, Any]:
+def _friction(found: Report, forces: Forces) -> dict[str, Any]:
     """The balances with friction and the efficiency: as drawn, in so many rounds, and where further rounds stand."""
-    if not held.rubbed:
+    if not forces.rubbed:
         return {}
-    told = {"balance": _balances(found, held.rubbed), "efficiency": _efficiency(held.efficiency),
-            "rounds": held.rounds}
-    if held.rough is None:
-        told["stands"] = {"balance": _balances(found, held.named(held.standing.balances)),
-                          "efficiency": _efficiency(held.standing.efficiency)}
+    told = {"balance": _balances(found, forces.rubbed), "efficiency": _efficiency(forces.efficiency),
+            "rounds": forces.rounds}
+    if not forces.bounded:
+        told["stands"] = {"balance": _balances(found, forces.named(forces.standing.balances)),
+                          "efficiency": _efficiency(forces.standing.efficiency)}
     return {"friction": told}
 
 

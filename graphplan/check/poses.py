@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.arithmetics import floats
-from graphplan.check.certified_solver import bounded_rates, bounded_reactions, by_part
+from graphplan.check.arithmetics import FLOATS
 from graphplan.check.compared import (
     CLOSE,
     NOTHING,
@@ -21,6 +20,7 @@ from graphplan.check.compared import (
     sliding,
     weight,
 )
+from graphplan.check.opinion import by_part, opinion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -125,14 +125,8 @@ def sound(part: Round, drawing: Construction, results: Results, apart: Mapping[s
 def _sound(pose: Round, drawing: Construction, ours: Results, worst: float) -> bool:
     """Whether one pose is sound: beside the bounds that are proven there, or where none are, beside the condition."""
     scene = _alone(pose.posed)
-    by = floats()
     try:
-        rates = bounded_rates(scene, by)
-        truth = by_part(rates)
-        if scene.loads is not None:
-            from graphplan.check.forces import force_truth
-
-            truth |= force_truth(scene, ours, bounded_reactions(scene, rates, by))
+        truth = opinion(scene, FLOATS).truth(ours)
     except Unproven:
         try:
             return bool(worst <= SAFETY * EPSILON * solve(scene).condition)

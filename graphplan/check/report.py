@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
@@ -15,12 +14,12 @@ from graphplan.methods.kinds import FORCES, MOTION, kind_of
 from graphplan.solver import Rates
 
 if TYPE_CHECKING:
-    from graphplan.check.forces import Held
+    from graphplan.check.forces import Forces
 
 
 @dataclass(frozen=True)
 class Report:
-    """A construction with its numbers and the second opinion on them; `held` is that on forces.
+    """A construction with its numbers and the second opinion on them; `forces` is that on forces.
 
     `arithmetic` is that in which both were found: floats, enclosures of so many digits, or fractions; `exact` says that
     the numbers themselves are fractions. `numbers` are what is compared, by kind and name, as the results are. `fault`
@@ -31,7 +30,7 @@ class Report:
     rates: Rates
     results: dict[str, dict[str, Any]]
     exact: bool
-    held: Held | None = None
+    forces: Forces | None = None
     arithmetic: str = "floats"
     numbers: Numbers = field(default_factory=dict, repr=False)
     fault: ConstructionError | None = None
@@ -55,21 +54,22 @@ class Report:
         for kind in (*MOTION, FORCES):
             values = [number.beside(part) for reading, named in self.numbers.items() if kind_of(reading).group == kind
                       for vector in named.values() for number in vector]
-            if values or (kind == FORCES and self.held is not None):
+            if values or (kind == FORCES and self.forces is not None):
                 found[kind] = max(values, default=0)
         return found
 
-    def truth(self, part: str) -> Mapping[str, Any]:
+    def truth(self, part: str) -> dict[str, Any]:
         """The solver's values for one kind of reading."""
-        if self.held is not None and part in self.held.truth:
-            return self.held.truth[part]
-        truth: Mapping[str, Any] = getattr(self.rates, part.replace(" ", "_"))
-        return truth
+        def value(name: str, numbers: tuple[Compared, ...]) -> Any:
+            told = tuple([number.truth for number in numbers])
+            return told if isinstance(self.results[part][name], tuple) else told[0]
+
+        return {name: value(name, numbers) for name, numbers in self.numbers.get(part, {}).items()}
 
     @property
     def condition(self) -> float:
         """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
-        return max(self.rates.condition, self.held.reactions.condition if self.held else 1.0)
+        return max(self.rates.condition, self.forces.reactions.condition if self.forces else 1.0)
 
     @property
     def proven(self) -> bool:
@@ -114,10 +114,3 @@ LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference 
 def told(value: Any) -> str:
     """A number as an error line has it."""
     return f"{float(value):.10g}"
-
-
-def report(scene: Scene, **how: Any) -> Report:
-    """Construct, read, solve and compare: see :func:`graphplan.check.trusted.trusted`."""
-    from graphplan.check.trusted import trusted
-
-    return trusted(scene, **how)

@@ -7,9 +7,10 @@ construction that is proven to differ is given up for one that goes another way.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from itertools import islice
-from typing import Any
+from typing import Any, TypeVar
 
 from graphplan.check.bench import WAYS, Bench
 from graphplan.check.report import Report
@@ -19,6 +20,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import constructions
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve
+
+Judged = TypeVar("Judged", bound=Report)
 
 
 def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = False, inertia: str = "couple",
@@ -36,7 +39,7 @@ def construct(scene: Scene, *, method: str = "", plan: str = "", strict: bool = 
     if not checked:
         return next(constructions(scene, **how))
     try:
-        return trusted(scene, **how).drawing
+        return report(scene, **how).drawing
     except (SingularPose, ConstructionError):
         drawing = next(constructions(scene, **how))
         if _readable(drawing):
@@ -52,8 +55,8 @@ def _readable(drawing: Construction) -> bool:
         return False
 
 
-def trusted(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "", strict: bool = False,
-            inertia: str = "couple", refuse: bool = True, alone: bool = False) -> Report:
+def report(scene: Scene, *, exact: bool = False, method: str = "", plan: str = "", strict: bool = False,
+           inertia: str = "couple", refuse: bool = True, alone: bool = False) -> Report:
     """The first construction that agrees with the solver, with its numbers; `exact` asks for fractions.
 
     Where journals rub, which depends on the sizes of reactions, friction is left out of exact numbers. Fails as
@@ -69,12 +72,32 @@ def trusted(scene: Scene, *, exact: bool = False, method: str = "", plan: str = 
         scene = replace(scene, loads=replace(scene.loads, frictions=()))
     how: dict[str, Any] = {"method": method, "plan": plan, "strict": strict, "inertia": inertia}
     bench = Bench(scene, how, exact)
-    wrong: Report | None = None
+    try:
+        found = first_sound(scene, how, bench.judged)
+    except Refused:
+        solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
+        raise
+    if isinstance(found, Report):
+        if refuse and not found.agrees:
+            raise found.disagreement
+        return found
+    if alone and not exact:
+        return bench.alone(*found)
+    raise found[1]
+
+
+def first_sound(scene: Scene, how: dict[str, Any], judged: Callable[[Construction], Judged],
+                ) -> Judged | tuple[Construction, ConstructionError]:
+    """The first construction that is judged to agree with the solver, else the first that is drawn.
+
+    Where none can be drawn in this pose, the first with its error; fails with `Refused` where there is none at all.
+    """
+    wrong: Judged | None = None
     undrawn: tuple[Construction, ConstructionError] | None = None
     try:
         for drawing in islice(constructions(scene, **how), WAYS):
             try:
-                found = bench.judged(drawing)
+                found = judged(drawing)
             except ConstructionError as error:
                 undrawn = undrawn or (drawing, error)
                 continue
@@ -83,13 +106,7 @@ def trusted(scene: Scene, *, exact: bool = False, method: str = "", plan: str = 
             wrong = wrong or found
     except Refused as refused:
         if wrong is None and undrawn is None:
-            solve(scene, exact)  # where the pose is singular, that is why nothing can be drawn
             raise Refused(f"{scene.name}: {refused.what}", refused.why, refused.do) from None
-    if wrong is None:
-        assert undrawn is not None
-        if alone and not exact:
-            return bench.alone(*undrawn)
-        raise undrawn[1]
-    if refuse:
-        raise wrong.disagreement
-    return wrong
+    found_or_not = wrong or undrawn
+    assert found_or_not is not None
+    return found_or_not

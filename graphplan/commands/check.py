@@ -55,16 +55,16 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
         truth = found.truth(part)
         lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]), *_apart(found, part, name))
                   for name in ours]
-    powers = found.held.named(found.held.power) if found.held and found.held.power else {}
+    powers = found.forces.named(found.forces.power) if found.forces and found.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
     for kind, difference in found.check.items():
         proof = "" if found.exact else f"; no number is further off than {float(found.bounds[kind]):.2g} of it"
         lines.append(f"largest difference in {kind}: {float(difference):.2g} of the number's own size{proof}")
     lines += notes
-    if found.held and found.held.efficiency is not None:
-        lines.append(f"instantaneous efficiency: {float(found.held.efficiency):.4g} as drawn, "
-                     f"{float(found.held.standing.efficiency or 0):.4g} in further rounds")
+    if found.forces and found.forces.efficiency is not None:
+        lines.append(f"instantaneous efficiency: {float(found.forces.efficiency):.4g} as drawn, "
+                     f"{float(found.forces.standing.efficiency or 0):.4g} in further rounds")
     if not found.exact:
         lines.append(f"arithmetic: {found.arithmetic}; condition of the mechanism: {found.condition:.3g}")
     return lines
@@ -75,10 +75,10 @@ def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[st
     results = {part: {name: {"construction": _plain(ours[name]), "solver": _plain(found.truth(part)[name]),
                              **dict(zip(("difference", "size"), map(float, _sizes(found, part, name)), strict=False))}
                       for name in ours} for part, ours in found.results.items()}
-    held = {"power balance": _plain(tuple(found.held.power))} if found.held else {}
-    if found.held and found.held.efficiency is not None:
-        held["efficiency"] = {"drawn": _plain(found.held.efficiency),
-                              "stands": _plain(found.held.standing.efficiency)}
+    held = {"power balance": _plain(tuple(found.forces.power))} if found.forces else {}
+    if found.forces and found.forces.efficiency is not None:
+        held["efficiency"] = {"drawn": _plain(found.forces.efficiency),
+                              "stands": _plain(found.forces.standing.efficiency)}
     condition = {} if found.exact else {"condition": found.condition}
     return {"title": found.scene.title, "structure": list(groups), "results": results, **held,
             "check": {kind: float(difference) for kind, difference in found.check.items()},

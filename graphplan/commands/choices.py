@@ -125,12 +125,12 @@ def presented(options: argparse.Namespace) -> Scene:
 
 def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
     """The construction that the options ask for, compared with the solver; it notes what is told of a preference."""
-    from graphplan.check.trusted import trusted
+    from graphplan.check.trusted import report
 
     how, told = drawn_by(options, scene)
-    report = trusted(scene, **how, **more)
-    report.drawing.notes.extend(told)
-    return report
+    found = report(scene, **how, **more)
+    found.drawing.notes.extend(told)
+    return found
 
 
 def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:

@@ -55,7 +55,7 @@ def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
     from graphplan.accuracy.drafted import drafted
     from graphplan.accuracy.pencil import Pencil
     from graphplan.check.json_results import data
-    from graphplan.check.report import report
+    from graphplan.check.trusted import report
     from graphplan.mechanism.scene import load, packaged
     from graphplan.mechanism.structure import structure
     from graphplan.output.text import protocol

@@ -12,7 +12,7 @@ from drawings import drafted_of
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import Pencil
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel import Board

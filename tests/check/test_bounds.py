@@ -15,7 +15,7 @@ from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
 from graphplan.accuracy.survey.stability import METHODS
 from graphplan.check import bench
 from graphplan.check.json_results import data
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.model import FRAME, Drive, Scene, TurningDrive

@@ -15,7 +15,7 @@ import pytest
 import graphplan as gp
 from graphplan.check import trusted as checking
 from graphplan.check.poses import checked
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import Undrawable
 from graphplan.kernel import TABLE

@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from graphplan.check.certified import certified
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel import TABLE
@@ -211,9 +211,9 @@ def test_friction_has_an_opinion_of_its_own() -> None:
     scene = rough(load("ozols-9-1"))
     found, rounded = certified(scene, 30), report(scene)
     assert found.agrees
-    assert rounded.held is not None
+    assert rounded.forces is not None
     told = found.data["friction"]
-    assert float(told["efficiency"]) == pytest.approx(rounded.held.efficiency, rel=1e-12)
+    assert float(told["efficiency"]) == pytest.approx(rounded.forces.efficiency, rel=1e-12)
     assert "stands" not in told
     assert certified(parse(FOUR_BAR + LOADS, "loaded"), 30).agrees
 

@@ -11,7 +11,7 @@ from random_loads import loaded
 from random_mechanisms import mechanism
 
 from graphplan.check.json_results import data
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.errors import ConstructionError, SingularPose
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import Friction, Scene, TurningDrive

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from random_loads import loaded
 from random_mechanisms import GROUPS, mechanism
 
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.errors import Refused, SingularPose
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import Balance, Find, Scene, TurningDrive

@@ -11,7 +11,7 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.errors import SceneError, SingularPose
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.structure import structure

@@ -11,7 +11,7 @@ import pytest
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
 from graphplan.accuracy.survey.stability import error_of, exact, samples
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 

@@ -8,7 +8,7 @@ from random import Random
 
 import pytest
 
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.errors import SceneError, SingularPose
 from graphplan.mechanism.model import FRAME, Find, Scene, Slide, TurningDrive, Units
 from graphplan.mechanism.structure import structure

@@ -16,7 +16,7 @@ import pytest
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import pencil
-from graphplan.check.report import report
+from graphplan.check.trusted import report
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
 from graphplan.kernel.numbers.floats import Floats

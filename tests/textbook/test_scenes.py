@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.report import report
 from graphplan.check.shortcuts import shortcuts
+from graphplan.check.trusted import report
 from graphplan.kernel.kinds import LINE
 from graphplan.mechanism.scene import packaged
 from graphplan.mechanism.structure import structure

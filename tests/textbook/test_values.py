@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 import pytest
 
-from graphplan.check.report import Report, report
+from graphplan.check.report import Report
+from graphplan.check.trusted import report
 from graphplan.mechanism.scene import load
 
 

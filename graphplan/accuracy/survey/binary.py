@@ -53,7 +53,7 @@ def truth(scene: Scene) -> Rates:
     from graphplan.kernel.numbers.enclosures import precision
 
     with precision(BITS):
-        rates = bounded_rates(scene, enclosures())
+        rates = bounded_rates(scene, enclosures(BITS))
         return replace(rates, velocity=_middles(rates.velocity), acceleration=_middles(rates.acceleration))
 
 

@@ -22,7 +22,8 @@ from graphplan.mechanism.units import LENGTH
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, Kind
 from graphplan.methods.motion.time_scale import extent
-from graphplan.methods.results import Reading, thing_named
+from graphplan.methods.recorded import Reading
+from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans

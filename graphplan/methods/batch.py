@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from functools import partial
+from typing import Any
 
 import numpy as np
 
@@ -14,12 +15,10 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene, Slide
-from graphplan.methods.kinds import ACCELERATION, ALPHA, OMEGA, REACTION, SLIDE_REACTION, VELOCITY
 from graphplan.methods.motion.network import Network
-from graphplan.methods.results import Vectors, balances
-
-if TYPE_CHECKING:
-    from graphplan.methods.construction import Construction
+from graphplan.methods.recorded import Recorded
+from graphplan.methods.replay import replay_of
+from graphplan.methods.results import Given
 
 Coordinates = dict[str | int, dict[str, Any]]
 Results = dict[str, dict[str, Any]]
@@ -29,7 +28,7 @@ STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at
 
 
 @dataclass(frozen=True)
-class Poses:
+class Poses(Given):
     """Results over n poses, by kind and name: complex arrays of shape (n,) for vectors, real ones for numbers.
 
     All in scene units. Where a pose is singular its results are nan, and `faults` says why, by the pose's place; fixed
@@ -41,42 +40,14 @@ class Poses:
     results: Results
     faults: Faults
 
-    @property
-    def velocity(self) -> Vectors:
-        """The velocities of points."""
-        return self._vectors(VELOCITY)
+    def named(self, kind: str) -> dict[str, Any]:
+        return self.results.get(kind, {})
 
-    @property
-    def acceleration(self) -> Vectors:
-        """The accelerations of points."""
-        return self._vectors(ACCELERATION)
-
-    def _vectors(self, kind: str) -> Vectors:
-        return Vectors(self.results.get(kind, {}), self.scene.links.get(FRAME, ()), np.zeros(self.n, dtype=complex))
-
-    @property
-    def omega(self) -> dict[str, Any]:
-        """The angular velocities of links."""
-        return self.results.get(OMEGA, {})
-
-    @property
-    def alpha(self) -> dict[str, Any]:
-        """The angular accelerations of links."""
-        return self.results.get(ALPHA, {})
-
-    @property
-    def reactions(self) -> dict[str, Any]:
-        """The reactions, on links at joints, such as `2 at B`, and of slides."""
-        return {**self.results.get(REACTION, {}), **self.results.get(SLIDE_REACTION, {})}
-
-    @property
-    def balances(self) -> list[Any]:
-        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
-        complex numbers."""
-        return [*balances(self.scene, self.results).values()]
+    def zero(self) -> Any:
+        return np.zeros(self.n, dtype=complex)
 
 
-def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping[str, Any],
+def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any],
           only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
           progress: Progress | None = None) -> Poses:
     """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some.
@@ -94,7 +65,7 @@ def batch(construction: Construction, points: Mapping[str, Any], guides: Mapping
     return Poses(construction.scene, n, results, faults)
 
 
-def _wanted(construction: Construction, n: int, only: Collection[str] | None) -> Results:
+def _wanted(construction: Recorded, n: int, only: Collection[str] | None) -> Results:
     """Arrays for the results that are wanted."""
     for kind in only or ():
         if kind not in construction.kinds:
@@ -102,17 +73,17 @@ def _wanted(construction: Construction, n: int, only: Collection[str] | None) ->
     return {kind: named for kind, named in construction.blank(n, None).items() if only is None or kind in only}
 
 
-def _filled(construction: Construction, given: Coordinates, stretches: Iterable[slice], results: Results,
+def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slice], results: Results,
             workers: int | str, machine: bool) -> Iterator[Faults]:
     """Fill the results stretch by stretch, by one hand or many; the faults of each."""
     if workers == 1:
         for place in stretches:
-            yield stretch(construction, _cut(given, place), _cut(results, place), machine)
+            yield _stretch(construction, _cut(given, place), _cut(results, place), machine)
         return
     from graphplan.methods.executors import shared_out
 
-    parts = (_cut(given, place) for place in stretches)
-    found = shared_out(construction, parts, tuple(results), workers, machine)
+    work = partial(_errand, construction, kinds=tuple(results), machine=machine)
+    found = shared_out(work, (_cut(given, place) for place in stretches), workers)
     for place, (values, faults) in zip(stretches, found, strict=True):
         for kind, named in values.items():
             for name, value in named.items():
@@ -125,20 +96,28 @@ def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: slice) -> dict[Any, dic
     return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
 
 
-def stretch(construction: Construction, given: Coordinates, results: Results, machine: bool) -> Faults:
+def _errand(construction: Recorded, given: Coordinates, kinds: tuple[str, ...],
+            machine: bool) -> tuple[Results, Faults]:
+    """The results and faults of one stretch of poses."""
+    n = len(next(iter(next(iter(given.values())).values())))
+    results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
+    return results, _stretch(construction, given, results, machine)
+
+
+def _stretch(construction: Recorded, given: Coordinates, results: Results, machine: bool) -> Faults:
     """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
     faults: Faults = {}
     if not results:
         return faults
     free = tuple((key, name) for key, numbers in given.items() for name in numbers)
-    replay = construction.replay_of(free, tuple(results))
+    replay = replay_of(construction, free, tuple(results))
     left = [slice(None)] if replay is None or not given else replay.run(given, results, machine)
     for part in left:
         _by_rules(construction, _cut(given, part), _cut(results, part), part.start or 0, faults)
     return faults
 
 
-def _by_rules(construction: Construction, given: Coordinates, results: Results, start: int, faults: Faults) -> None:
+def _by_rules(construction: Recorded, given: Coordinates, results: Results, start: int, faults: Faults) -> None:
     """Fill results by the rules themselves, which find the poses that cannot be drawn."""
     domain, program = Arrays(), construction.program
     n = len(next(z for named in results.values() for z in named.values()))
@@ -158,7 +137,7 @@ def _by_rules(construction: Construction, given: Coordinates, results: Results, 
                 row[:] = number
 
 
-def _given(construction: Construction, points: Mapping[str, Any],
+def _given(construction: Recorded, points: Mapping[str, Any],
            guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
     """The number of poses, and what is given in each: coordinates of points, and directions of guides by their step."""
     scene = construction.scene
@@ -195,7 +174,7 @@ def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
     return {one: z.real, two: z.imag}
 
 
-def _guides(construction: Construction, slide: Slide) -> list[int]:
+def _guides(construction: Recorded, slide: Slide) -> list[int]:
     """The steps that draw the guide of a slide in its given direction, which no other guide may share.
 
     In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import suppress
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -15,20 +14,17 @@ from graphplan.kernel.broken import broken
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT
-from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
-from graphplan.kernel.program import Panel, Program, Step
-from graphplan.mechanism.model import FRAME, Number, Scene
+from graphplan.kernel.program import Panel, Program
 from graphplan.methods import kinds
-from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, Lever
-from graphplan.methods.results import READERS, Reading, Vectors, balances, prescribed
+from graphplan.methods.recorded import Recorded
+from graphplan.methods.results import Given
 from graphplan.phrases import Said, said
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
-    from graphplan.methods.replay import Free, Replay
 
 
 class Arrow(NamedTuple):
@@ -55,24 +51,17 @@ class ForceArrow(NamedTuple):
 
 
 @dataclass(repr=False)
-class Construction:
+class Construction(Recorded, Given):
     """Ordered drawing steps for a scene, and what they give.
 
-    `program` holds compounds, each with the value rule that is good in every pose; `drawn` is the same construction
-    in single movements, in the form chosen for this pose. Velocities and accelerations are complex numbers in scene
-    units, true and not turned. `rounds` are those of friction that are drawn.
+    `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
+    complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
     """
 
-    scene: Scene
-    tempo: Tempo
-    program: Program
-    readings: tuple[Reading, ...]
-    turned: bool
     ways: tuple[Said, ...] = ()
     prefer: str = ""
     strict: bool = False
     notes: list[str] = field(default_factory=list)
-    phi: Number = 1
     shown: tuple[ForceArrow, ...] = ()
     rounds: int = 0
 
@@ -207,42 +196,6 @@ class Construction:
             found.append(Arrow(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
         return tuple(found)
 
-    def read(
-        self,
-        domain: Domain,
-        given: Mapping[Any, Mapping[str, Any]] | None = None,
-        after: Callable[[Step], None] | None = None,
-    ) -> dict[str, dict[str, Any]]:
-        """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
-
-        `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
-        after each step.
-        """
-        values = evaluate(self.program, domain, given, after)
-        return self.told([values[index] for index in self.program.wanted], domain)
-
-    def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
-        """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
-        def value(reading: Reading) -> Any:
-            marks = [wanted[position] for position in reading.marks]
-            return (self.value if reading.given is None else prescribed)(reading, marks, domain)
-
-        return self._named(value)
-
-    def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
-        """Something for each reading, by kind and name."""
-        results: dict[str, dict[str, Any]] = {}
-        for reading in self.readings:
-            results.setdefault(reading.kind, {})[reading.of] = value(reading)
-        return results
-
-    def value(self, reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
-        """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
-        if not marks:
-            return prescribed(reading, marks, domain)
-        value = READERS[reading.kind.dimension](marks, domain.lift, self)
-        return value + domain.lift(reading.excess) if reading.excess else value
-
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,
                  only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
                  progress: Callable[[int, int], None] | None = None) -> Poses:
@@ -258,81 +211,29 @@ class Construction:
 
         return batch(self, points, guides or {}, only, workers, machine, progress)
 
-    def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
-        """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come."""
-        import numpy as np
-
-        def array(reading: Reading) -> Any:
-            numbers = np.empty(n, float if reading.kind.single else complex)
-            if value is not None:
-                numbers[:] = value
-            return numbers
-
-        return self._named(array)
-
     def replay(self, points: Mapping[str, complex] | None = None, *,
                only: Collection[str] | None = None) -> dict[str, dict[str, Any]]:
         """All readings, or `only` those of some kinds, with some points elsewhere: for poses that come one by one."""
+        from graphplan.methods.replay import replay_of
+
         given = {name: {"x": z.real, "y": z.imag} for name, z in (points or {}).items()}
         kinds = self.kinds if only is None else tuple(only)
-        found = self.replay_of(tuple([(name, part) for name in given for part in "xy"]), kinds)
+        found = replay_of(self, tuple([(name, part) for name in given for part in "xy"]), kinds)
         return found.read(given) if found is not None else {
             kind: named for kind, named in self.read(Floats(), given).items() if kind in kinds}
 
-    @property
-    def kinds(self) -> tuple[str, ...]:
-        """The kinds of readings that there are."""
-        return tuple(dict.fromkeys(reading.kind for reading in self.readings))
-
-    def replay_of(self, free: Free, kinds: tuple[str, ...]) -> Replay | None:
-        """The replay in which these numbers are free and these kinds of readings wanted, made once.
-
-        None where what stands still cannot be drawn.
-        """
-        if (free, kinds) not in self._replays:
-            from graphplan.methods.replay import replay
-
-            self._replays[free, kinds] = replay(self, free, kinds)
-        return self._replays[free, kinds]
-
     @cached_property
-    def _replays(self) -> dict[tuple[Free, tuple[str, ...]], Replay | None]:
-        return {}
+    def _results(self) -> dict[str, dict[str, Any]]:
+        """All readings in floats, by kind and name: complex numbers for vectors."""
+        found = self.read(Floats())
+        return {kind: {name: complex(*value) if isinstance(value, tuple) else value for name, value in named.items()}
+                for kind, named in found.items()}
 
-    def __getstate__(self) -> dict[str, Any]:
-        """What makes it up; what is found from that is found again elsewhere."""
-        return {field.name: getattr(self, field.name) for field in fields(self)}
+    def named(self, kind: str) -> dict[str, Any]:
+        return self._results.get(kind, {})
 
-    @cached_property
-    def _floats(self) -> dict[str, dict[str, Any]]:
-        return self.read(Floats())
-
-    @property
-    def velocity(self) -> Vectors:
-        """The velocities asked for, in length units of the scene per second; of a fixed point 0."""
-        return self._vectors(kinds.VELOCITY)
-
-    @property
-    def reactions(self) -> dict[str, complex]:
-        """The reactions asked for, in the scene's forces: on links at joints, such as `2 at B`, and of slides."""
-        forces = {**self._floats.get(kinds.REACTION, {}), **self._floats.get(kinds.SLIDE_REACTION, {})}
-        return {name: complex(*pair) for name, pair in forces.items()}
-
-    @property
-    def balances(self) -> list[complex | float]:
-        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
-        complex numbers."""
-        found = balances(self.scene, self._floats)
-        return [complex(*value) if isinstance(value, tuple) else float(value) for value in found.values()]
-
-    @property
-    def acceleration(self) -> Vectors:
-        """The accelerations asked for, in length units of the scene per second squared; of a fixed point 0."""
-        return self._vectors(kinds.ACCELERATION)
-
-    def _vectors(self, kind: str) -> Vectors:
-        found = {name: complex(*pair) for name, pair in self._floats.get(kind, {}).items()}
-        return Vectors(found, self.scene.links.get(FRAME, ()), 0j)
+    def zero(self) -> complex:
+        return 0j
 
 
 PLAIN = {

@@ -9,10 +9,10 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.source import function, places
+from graphplan.methods.recorded import Recorded
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks
-    from graphplan.methods.construction import Construction
 
 Given = Mapping[Any, Mapping[str, Any]]
 Free = tuple[tuple[str | int, str], ...]
@@ -25,7 +25,7 @@ class Replay:
     A reading is a number or a pair; `told` says, by kind and name, where on the tape its numbers stand.
     """
 
-    def __init__(self, construction: Construction, free: Free, kinds: Collection[str]):
+    def __init__(self, construction: Recorded, free: Free, kinds: Collection[str]):
         self.construction, self.free = construction, free
         self._blocks: dict[bool, Blocks] = {}
         domain = Symbols()
@@ -70,9 +70,15 @@ class Replay:
                 yield from (z.real, z.imag) if isinstance(told, tuple) else (z,)
 
 
-def replay(construction: Construction, free: Free, kinds: Collection[str]) -> Replay | None:
-    """The replay of these kinds of readings, or None where what stands still cannot be drawn: the rules say why."""
-    try:
-        return Replay(construction, free, kinds)
-    except (Undrawable, ZeroDivisionError):
-        return None
+def replay_of(construction: Recorded, free: Free, kinds: tuple[str, ...]) -> Replay | None:
+    """The replay in which these numbers are free and these kinds of readings wanted, made once.
+
+    None where what stands still cannot be drawn: the rules say why.
+    """
+    made: dict[Any, Replay | None] = construction.__dict__.setdefault("_replays", {})
+    if (free, kinds) not in made:
+        try:
+            made[free, kinds] = Replay(construction, free, kinds)
+        except (Undrawable, ZeroDivisionError):
+            made[free, kinds] = None
+    return made[free, kinds]

@@ -1,41 +1,14 @@
-"""What a construction gives: from which marks each result is read, and how."""
+"""Results by kind and name, as users ask for them."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence
-from typing import TYPE_CHECKING, Any, NamedTuple
+from abc import ABC, abstractmethod
+from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
-from graphplan.kernel.numbers import Domain
-from graphplan.mechanism.model import Number, Pair, Scene
-from graphplan.mechanism.units import (
-    ACCELERATING,
-    FORCE,
-    LENGTH,
-    MOMENT,
-    SPEED,
-    TURNING,
-    TURNING_FASTER,
-    Dimension,
-    metre,
-)
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods import kinds
 from graphplan.methods.panels import reactions_named
-
-if TYPE_CHECKING:
-    from graphplan.methods.construction import Construction
-
-class Reading(NamedTuple):
-    """What is read from the program: of what kind, of which thing, between which wanted marks (by position).
-
-    `excess` is added to a turning that is read off another link: what drives prescribe beside that. `given` is what
-    the scene prescribes, for a slide along the guide, its first mark; then the marks only show it.
-    """
-
-    kind: kinds.Kind
-    of: str
-    marks: tuple[int, ...]
-    excess: Number = 0
-    given: Number | Pair | None = None
 
 
 class Vectors(dict[str, Any]):
@@ -52,6 +25,54 @@ class Vectors(dict[str, Any]):
         raise KeyError(name)
 
 
+class Given(ABC):
+    """Results of one pose or of many, all in scene units: complex numbers or arrays of them for vectors."""
+
+    scene: Scene
+
+    @abstractmethod
+    def named(self, kind: str) -> dict[str, Any]:
+        """The results of a kind."""
+
+    @abstractmethod
+    def zero(self) -> Any:
+        """The vector of a fixed point."""
+
+    @property
+    def velocity(self) -> Vectors:
+        """The velocities of points, of a fixed point 0."""
+        return self._vectors(kinds.VELOCITY)
+
+    @property
+    def acceleration(self) -> Vectors:
+        """The accelerations of points, of a fixed point 0."""
+        return self._vectors(kinds.ACCELERATION)
+
+    def _vectors(self, kind: str) -> Vectors:
+        return Vectors(self.named(kind), self.scene.links.get(FRAME, ()), self.zero())
+
+    @property
+    def omega(self) -> dict[str, Any]:
+        """The angular velocities of links."""
+        return self.named(kinds.OMEGA)
+
+    @property
+    def alpha(self) -> dict[str, Any]:
+        """The angular accelerations of links."""
+        return self.named(kinds.ALPHA)
+
+    @property
+    def reactions(self) -> dict[str, Any]:
+        """The reactions, on links at joints, such as `2 at B`, and of slides."""
+        return self.named(kinds.REACTION) | self.named(kinds.SLIDE_REACTION)
+
+    @property
+    def balances(self) -> list[Any]:
+        """The balances in the scene's order, by force plans or else by the lever: moments in force * m, forces as
+        complex numbers."""
+        return [*balances(self.scene, {kind: self.named(kind) for kind in kinds.KINDS}).values()]
+
+
 def thing_named(scene: Scene, kind: kinds.Kind, of: str) -> str:
     """What a reading of a kind is of, in words: a slide, a link at a joint, else a point or link as it is."""
     return reactions_named(scene)[of] if kind.pair else of
@@ -66,81 +87,3 @@ def balances(scene: Scene, results: Mapping[str, Mapping[str, Any]],
                   if name in results.get(kind, {})]
         found |= {name: values[0]} if values else {}
     return found
-
-
-# ---- reading -----------------------------------------------------------------------------------------------------
-
-
-Lift = Callable[[Any], Any]
-
-
-def _difference(one: Any, two: Any) -> Any:
-    return two[0] - one[0], two[1] - one[1]
-
-
-def _speed(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
-    return (y * unit, -x * unit) if drawing.turned else (x * unit, y * unit)
-
-
-def _acceleration(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
-    return x * unit * unit, y * unit * unit
-
-
-def _turning(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    return _rate(marks, drawing.turned) * lift(drawing.tempo.unit)
-
-
-def _turning_faster(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    unit = lift(drawing.tempo.unit)
-    return _rate(marks, False) * unit * unit
-
-
-def _rate(marks: Sequence[Any], turned: bool) -> Any:
-    """From the vectors of two points P, R, turned a quarter or not: marks P, R, begin and end of each."""
-    P, R, p0, p1, r0, r1 = marks
-    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
-    rate = -(u[0] * w[0] + u[1] * w[1]) if turned else u[0] * w[1] - u[1] * w[0]
-    return rate / (u[0] * u[0] + u[1] * u[1])
-
-
-def _force(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    (x, y), phi = _difference(*marks), lift(drawing.phi)
-    return x / phi, y / phi
-
-
-def _moment(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    """Of forces, each by its point, tail and head, about the first mark."""
-    pole, *rest = marks
-    phi, long = lift(drawing.phi), lift(metre(drawing.scene.units))
-    total = 0 * phi
-    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
-        arm, force = _difference(pole, C), _difference(tail, head)
-        total = total + (arm[0] * force[1] - arm[1] * force[0])
-    return total / phi / long
-
-
-def _length(marks: Sequence[Any], lift: Lift, drawing: Construction) -> Any:
-    """From the slide's point to where its reaction acts, in the scene's lengths."""
-    return _difference(*marks)
-
-
-READERS: dict[Dimension, Callable[[Sequence[Any], Lift, Construction], Any]] = {
-    SPEED: _speed, ACCELERATING: _acceleration, TURNING: _turning, TURNING_FASTER: _turning_faster,
-    FORCE: _force, MOMENT: _moment, LENGTH: _length,
-}  # fmt: skip
-
-
-def prescribed(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
-    """What the scene prescribes, as it is given: a number, a vector, or along a guide a rate."""
-    given = reading.given
-    if isinstance(given, tuple):
-        return tuple(map(domain.lift, given))
-    if not reading.kind.pair:
-        return domain.lift(given)
-    if not given:
-        return domain.lift(0), domain.lift(0)
-    a, b, _ = marks[0]
-    rate = domain.lift(given) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
-    return rate * b, -rate * a

@@ -21,7 +21,7 @@ from graphplan.marking.judge.student_sheet import PointResidual, Residual, plain
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, NumberVerdict
 from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
-from graphplan.methods.results import Reading
+from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.scales import digits
 

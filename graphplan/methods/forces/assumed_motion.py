@@ -14,7 +14,7 @@ from fractions import Fraction
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Pair, Scene, Slide, SlidingDrive, TurningDrive
 from graphplan.mechanism.order import ordered_drives
-from graphplan.methods.construct import Draughtsman
+from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner

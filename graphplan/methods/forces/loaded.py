@@ -18,8 +18,8 @@ from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
-from graphplan.methods.construct import Draughtsman
 from graphplan.methods.construction import Construction, ForceArrow
+from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.friction import SHORT, Rubbed
 from graphplan.methods.forces.groups import (
     Freed,

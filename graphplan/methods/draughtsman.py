@@ -1,0 +1,164 @@
+"""Draws a scene by a list of moves, and notes what can be read from it."""
+
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from itertools import combinations
+
+from graphplan.errors import Refused
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene
+from graphplan.mechanism.order import by_name, ordered_points
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
+from graphplan.methods.motion.moves import Move, Pole, Trial
+from graphplan.methods.motion.plan import Plan
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.rates import Needed, Side, Turnings, apart, sides
+from graphplan.methods.motion.time_scale import tempo
+from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
+from graphplan.methods.panels import link_named, redundancies
+from graphplan.methods.poses import Pose
+from graphplan.methods.recorded import Reading
+from graphplan.methods.styles import Style
+from graphplan.phrases import Said, said
+
+
+class Draughtsman:
+    """Draws one scene by one list of moves, and says what can be read from it."""
+
+    def __init__(self, scene: Scene, planner: Planner, style: Style):
+        self.scene, self.net, self.polar = scene, planner.net, style.polar
+        self.board = Board()
+        self.pose = Pose(self.board, scene, self.net.shared)
+        self.tempo = tempo(scene)
+        self.moves = planner.moves
+        self.marks: list[Mark] = []
+        self.readings: list[Reading] = []
+        self.turnings = Turnings(scene)
+
+    def draw(self) -> Construction:
+        velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
+        velocity.draw(self.moves)
+        self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
+        self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
+        self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
+        plan = self.accelerations(velocity) if self._accelerated else None
+        return self.finished(velocity, plan)
+
+    def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
+        """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
+        which marks are drawn anyway."""
+        self._rates(plan, kinds.ALPHA)
+        self._rates(velocity, kinds.OMEGA)
+        self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
+        program = freeze(self.board, self.marks)
+        return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
+                            ways=tuple(_ways(self.moves)), notes=[*redundancies(self.scene)])
+
+    @property
+    def _accelerated(self) -> bool:
+        """Whether an acceleration is asked for that the drives do not prescribe."""
+        find = self.scene.find
+        free = any(self.turnings.given(link) is None for link in find.links or ())
+        return bool(find.acceleration or find.slides or free)
+
+    def accelerations(self, velocity: Velocity) -> Normal:
+        """The plan of accelerations, and what is asked of it."""
+        kind = PolarAcceleration if self.polar else Normal
+        plan = kind(self.board, self.net, self.pose, velocity, self.moves)
+        plan.draw(self.moves)
+        self._points(plan, kinds.ACCELERATION, self.scene.find.acceleration)
+        self._links(plan, kinds.ALPHA, self.scene.find.acceleration)
+        self._slides(plan, kinds.SLIDE_ACCELERATION, self.scene.find.acceleration)
+        return plan
+
+    def read(self, kind: kinds.Kind, of: str, *marks: Mark, excess: Number = 0,
+             given: Number | Pair | None = None) -> None:
+        """Note what is read, and keep the marks that it is read from."""
+        start = len(self.marks)
+        self.marks.extend(marks)
+        self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks))), excess, given))
+
+    def _given(self, kind: kinds.Kind, link: str) -> Number | None:
+        """The rate that the drives prescribe for a link."""
+        rates = self.turnings.given(link)
+        return rates and getattr(rates, kind)
+
+    def _points(self, plan: Plan, kind: kinds.Kind, names: tuple[str, ...]) -> None:
+        asked = set(names)
+        for name in (point for point in ordered_points(self.scene) if point in asked):
+            place = (self.net.name(name), "")
+            if place not in plan.ends:
+                why = said("no construction known here reaches it")
+                raise Refused(said("point {0}", name), why, "ask for other points")
+            motion = self.scene.motions.get(name)
+            given = getattr(motion, kind) if motion else None
+            self.read(kind, name, plan.home(place), plan.ends[place], given=given)
+
+    def _links(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
+        """The turning of each link of which two points are asked for, or one and another's motion is given."""
+        links, sought = self.scene.find.links, {*map(self.net.name, asked)}
+        asked_for = self.scene.moving if links is None else links
+        for link in sorted(asked_for, key=by_name):
+            known = sought | {*map(self.net.name, self.scene.motions)}
+            names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
+            names = [p for p in names if (p, "") in plan.ends]
+            P, R = max(combinations(names, 2), key=lambda pair: apart(self.scene, *pair), default=("", ""))
+            if P and sought & {*names}:
+                vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
+                points = self.pose.points[P], self.pose.points[R]
+                self.read(kind, link, *points, *vectors, given=self._given(kind, link))
+
+    def _rates(self, plan: Plan | None, kind: kinds.Kind) -> None:
+        """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
+        read = {reading.of for reading in self.readings if reading.kind == kind}
+        links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
+        needed = Needed(self.board, self.marks)
+        cheapest: dict[frozenset[str], Side] = {}
+        for link in links:
+            alike = self.turnings.alike(link)
+            if (given := self._given(kind, link)) is not None or plan is None:
+                self.read(kind, link, given=given)
+                continue
+            if (group := frozenset(alike)) not in cheapest:
+                side = cheapest[group] = self._cheapest(plan, link, needed)
+                needed.add(side.marks)
+            side = cheapest[group]
+            self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
+
+    def _cheapest(self, plan: Plan, link: str, needed: Needed) -> Side:
+        """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway."""
+        found = sides(plan, self.turnings.alike(link))
+        if not found:
+            why = said("no construction known here reaches it")
+            raise Refused(link_named(link), why, "ask for other links")
+        return min(found, key=needed.price)
+
+    def _slides(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
+        """The sliding of each pair that is asked for, by its name or by its point."""
+        names = self.scene.find.slides
+        prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
+        for slide in self.net.all_slides:
+            if slide.at in asked if names is None else slide.name in names:
+                begin = plan.end_in(slide.along, slide.at)
+                end = plan.end_in(slide.link, slide.at)
+                seat = plan.seat(slide, slide.along, slide.link, slide.at)
+                vector = plan.moved(begin, seat, plan.figure(slide.link, slide.at)), end
+                drive = prescribed.get(slide.links)
+                given = None if drive is None else drive.rate if kind == kinds.SLIDE_VELOCITY else drive.change
+                guide = [self.pose.guide(slide, run=True)] if given else []
+                self.read(kind, slide.name, *guide, *vector, given=given)
+
+
+def _ways(moves: Iterable[Move]) -> Iterator[Said]:
+    """How the rings of links are broken, if there are any."""
+    for move in moves:
+        if isinstance(move, Pole):
+            yield said("relative pole of links {0} and {1}", *move.bodies)
+        elif isinstance(move, Trial):
+            yield said("false position of {0}", move.at[0][0])
+            yield from _ways(move.moves)

@@ -1,0 +1,178 @@
+"""A recorded construction: its program, and what is read from the marks that are wanted."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields
+from typing import Any, NamedTuple
+
+from graphplan.kernel.evaluate import evaluate
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.program import Program, Step
+from graphplan.mechanism import units
+from graphplan.mechanism.model import Number, Pair, Scene
+from graphplan.methods.kinds import Kind
+from graphplan.methods.motion.time_scale import Tempo
+
+
+class Reading(NamedTuple):
+    """What is read from the program: of what kind, of which thing, between which wanted marks (by position).
+
+    `excess` is added to a turning that is read off another link: what drives prescribe beside that. `given` is what
+    the scene prescribes, for a slide along the guide, its first mark; then the marks only show it.
+    """
+
+    kind: Kind
+    of: str
+    marks: tuple[int, ...]
+    excess: Number = 0
+    given: Number | Pair | None = None
+
+
+@dataclass(repr=False)
+class Recorded:
+    """The program of a scene, and what is read from it.
+
+    `program` holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
+    scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force.
+    """
+
+    scene: Scene
+    tempo: Tempo
+    program: Program
+    readings: tuple[Reading, ...]
+    turned: bool
+    phi: Number = 1
+
+    def read(
+        self,
+        domain: Domain,
+        given: Mapping[Any, Mapping[str, Any]] | None = None,
+        after: Callable[[Step], None] | None = None,
+    ) -> dict[str, dict[str, Any]]:
+        """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
+
+        `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called
+        after each step.
+        """
+        values = evaluate(self.program, domain, given, after)
+        return self.told([values[index] for index in self.program.wanted], domain)
+
+    def told(self, wanted: Sequence[Any], domain: Domain) -> dict[str, dict[str, Any]]:
+        """All readings from the values of the wanted marks, by kind and name; what is prescribed as it is given."""
+        def value(reading: Reading) -> Any:
+            marks = [wanted[position] for position in reading.marks]
+            return (self.value if reading.given is None else prescribed)(reading, marks, domain)
+
+        return self._named(value)
+
+    def _named(self, value: Callable[[Reading], Any]) -> dict[str, dict[str, Any]]:
+        """Something for each reading, by kind and name."""
+        results: dict[str, dict[str, Any]] = {}
+        for reading in self.readings:
+            results.setdefault(reading.kind, {})[reading.of] = value(reading)
+        return results
+
+    def value(self, reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
+        """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
+        if not marks:
+            return prescribed(reading, marks, domain)
+        value = READERS[reading.kind.dimension](marks, domain.lift, self)
+        return value + domain.lift(reading.excess) if reading.excess else value
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """The kinds of readings that there are."""
+        return tuple(dict.fromkeys(reading.kind for reading in self.readings))
+
+    def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
+        """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come."""
+        import numpy as np
+
+        def array(reading: Reading) -> Any:
+            numbers = np.empty(n, float if reading.kind.single else complex)
+            if value is not None:
+                numbers[:] = value
+            return numbers
+
+        return self._named(array)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What makes it up; what is found from that is found again elsewhere."""
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+
+Lift = Callable[[Any], Any]
+
+
+def _difference(one: Any, two: Any) -> Any:
+    return two[0] - one[0], two[1] - one[1]
+
+
+def _speed(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
+    return (y * unit, -x * unit) if drawing.turned else (x * unit, y * unit)
+
+
+def _acceleration(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
+    return x * unit * unit, y * unit * unit
+
+
+def _turning(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    return _rate(marks, drawing.turned) * lift(drawing.tempo.unit)
+
+
+def _turning_faster(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    unit = lift(drawing.tempo.unit)
+    return _rate(marks, False) * unit * unit
+
+
+def _rate(marks: Sequence[Any], turned: bool) -> Any:
+    """From the vectors of two points P, R, turned a quarter or not: marks P, R, begin and end of each."""
+    P, R, p0, p1, r0, r1 = marks
+    u, w = _difference(P, R), _difference(_difference(p0, p1), _difference(r0, r1))
+    rate = -(u[0] * w[0] + u[1] * w[1]) if turned else u[0] * w[1] - u[1] * w[0]
+    return rate / (u[0] * u[0] + u[1] * u[1])
+
+
+def _force(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    (x, y), phi = _difference(*marks), lift(drawing.phi)
+    return x / phi, y / phi
+
+
+def _moment(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    """Of forces, each by its point, tail and head, about the first mark."""
+    pole, *rest = marks
+    phi, long = lift(drawing.phi), lift(units.metre(drawing.scene.units))
+    total = 0 * phi
+    for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
+        arm, force = _difference(pole, C), _difference(tail, head)
+        total = total + (arm[0] * force[1] - arm[1] * force[0])
+    return total / phi / long
+
+
+def _length(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+    """From the slide's point to where its reaction acts, in the scene's lengths."""
+    return _difference(*marks)
+
+
+READERS: dict[units.Dimension, Callable[[Sequence[Any], Lift, Recorded], Any]] = {
+    units.SPEED: _speed, units.ACCELERATING: _acceleration, units.TURNING: _turning,
+    units.TURNING_FASTER: _turning_faster, units.FORCE: _force, units.MOMENT: _moment, units.LENGTH: _length,
+}  # fmt: skip
+
+
+def prescribed(reading: Reading, marks: Sequence[Any], domain: Domain) -> Any:
+    """What the scene prescribes, as it is given: a number, a vector, or along a guide a rate."""
+    given = reading.given
+    if isinstance(given, tuple):
+        return tuple(map(domain.lift, given))
+    if not reading.kind.pair:
+        return domain.lift(given)
+    if not given:
+        return domain.lift(0), domain.lift(0)
+    a, b, _ = marks[0]
+    rate = domain.lift(given) / domain.sqrt(a * a + b * b, "not-rational", "a rate along this line is irrational")
+    return rate * b, -rate * a

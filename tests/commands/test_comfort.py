@@ -229,6 +229,6 @@ def test_quiet_leaves_errors(capsys: pytest.CaptureFixture[str]) -> None:
 def test_a_disagreement_is_told_even_so(command: str, capsys: pytest.CaptureFixture[str],
                                         monkeypatch: pytest.MonkeyPatch) -> None:
     """That construction and solver disagree is no remark."""
-    monkeypatch.setattr("graphplan.methods.motion.time_scale.Tempo.turning", lambda self, omega: 2 * omega / self.unit)
+    monkeypatch.setattr("graphplan.methods.motion.time_scale.Tempo.rate", lambda self, omega: 2 * omega / self.unit)
     assert main([command, "four-bar", "--quiet"]) == 1
     assert "disagree" in capsys.readouterr().err

@@ -221,7 +221,7 @@ def test_check_shows_both_and_the_structure(scene: Path, capsys: pytest.CaptureF
 def test_a_disagreement_is_status_1(scene: Path, capsys: pytest.CaptureFixture[str],
                                     monkeypatch: pytest.MonkeyPatch) -> None:
     """If construction and solver disagree, `check` says so and its status is 1."""
-    monkeypatch.setattr("graphplan.methods.motion.time_scale.Tempo.turning", lambda self, omega: 2 * omega / self.unit)
+    monkeypatch.setattr("graphplan.methods.motion.time_scale.Tempo.rate", lambda self, omega: 2 * omega / self.unit)
     assert run("check", str(scene)) == 1
     assert "disagree" in capsys.readouterr().err
 

@@ -12,24 +12,11 @@ from fractions import Fraction
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
+from graphplan.methods.forces import statics
 from graphplan.methods.forces.free_bodies import Part, Parts
 from graphplan.methods.forces.letters import pair_letter, reaction_letter
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.forces.reactions import Known, Pair, Shown, Span, signed
-from graphplan.methods.forces.statics import (
-    About,
-    Along,
-    AlongLine,
-    Assume,
-    AtPoint,
-    Close,
-    Fact,
-    Found,
-    Pin,
-    Polygon,
-    StaticMove,
-    Where,
-)
 from graphplan.methods.forces.unknown_forces import Joint, Site
 from graphplan.methods.panels import MECHANISM, listed
 from graphplan.phrases import said
@@ -42,31 +29,31 @@ class ForcePlan(Parts):
 
     # ---- moves -------------------------------------------------------------------------------------------------
 
-    def draw(self, moves: Iterable[StaticMove]) -> None:
+    def draw(self, moves: Iterable[statics.StaticMove]) -> None:
         for move in moves:
-            links = tuple(move.part) if not isinstance(move, Pin) else (move.site.link,)
+            links = tuple(move.part) if not isinstance(move, statics.Pin) else (move.site.link,)
             with self.board.on(self.panel, tuple(link for link in self.group.links if link in links)):
                 self._draw(move)
 
-    def _draw(self, move: StaticMove) -> None:
+    def _draw(self, move: statics.StaticMove) -> None:
         match move:
-            case Fact(part, site, about):
+            case statics.Fact(part, site, about):
                 self.known[site] = self._told(part, site, about)
-            case Found(part, site, about):
+            case statics.Found(part, site, about):
                 self._found(part, site, about)
-            case Polygon(part, one, two):
+            case statics.Polygon(part, one, two):
                 self._close_two(part, one, two)
-            case Close(part, site):
+            case statics.Close(part, site):
                 self._close(part, site)
-            case Pin(site):
+            case statics.Pin(site):
                 self._pin(site)
-            case Assume():
+            case statics.Assume():
                 self._trial(move)
 
-    def _told(self, part: Part, site: Site, about: About) -> Known:
+    def _told(self, part: Part, site: Site, about: statics.About) -> Known:
         """What a part's equilibrium about a point tells of a force."""
         sign = self.sign(part, site)
-        if isinstance(about, Along | AlongLine):
+        if isinstance(about, statics.Along | statics.AlongLine):
             return self._across(part, site, about, sign)
         if isinstance(site, Slide):
             return self._slide_line(part, site, about, sign)
@@ -75,24 +62,24 @@ class ForcePlan(Parts):
         load = self._moments(part, site, about, X, sign)
         return Known(load, line, X)
 
-    def _line_to(self, about: About, X: Mark) -> Mark:
+    def _line_to(self, about: statics.About, X: Mark) -> Mark:
         """The line of action through a point and the point that moments are taken about."""
         with self.board.on(MECHANISM):
-            if isinstance(about, AtPoint):
+            if isinstance(about, statics.AtPoint):
                 return self.board.side(self.pose.points[about.point], X)
-            assert isinstance(about, Where)
+            assert isinstance(about, statics.Where)
             return self.board.towards(*self._lines(about), X, names=self._letters(about))
 
-    def _lines(self, about: Where) -> Span:
+    def _lines(self, about: statics.Where) -> Span:
         one, two = (self.known[site].line for site in (about.one, about.two))
         assert one is not None
         assert two is not None
         return one, two
 
-    def _letters(self, about: Where) -> dict[str, str]:
+    def _letters(self, about: statics.Where) -> dict[str, str]:
         return {"Q": self.pose.letter(" ".join(sorted((about.one.link, about.two.link))))}
 
-    def _moments(self, part: Part, site: Site, about: About, X: Mark, sign: int,
+    def _moments(self, part: Part, site: Site, about: statics.About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
         """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
 
@@ -111,33 +98,33 @@ class ForcePlan(Parts):
             return None
         return (mark, first) if backwards else (first, mark)
 
-    def _about_mark(self, about: About) -> Mark | None:
-        return self.pose.points[about.point] if isinstance(about, AtPoint) else None
+    def _about_mark(self, about: statics.About) -> Mark | None:
+        return self.pose.points[about.point] if isinstance(about, statics.AtPoint) else None
 
-    def _why(self, part: Part, about: About) -> str:
+    def _why(self, part: Part, about: statics.About) -> str:
         """The law: of which links, and about what, the moments are taken."""
         links = [link for link in self.group.links if link in part]
-        where = self.pose.spoken(about.point) if isinstance(about, AtPoint) else said("the auxiliary point")
+        where = self.pose.spoken(about.point) if isinstance(about, statics.AtPoint) else said("the auxiliary point")
         return said("moments of {0} about {1}", listed(links), where)
 
-    def _weighed(self, about: About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
-        if isinstance(about, AtPoint):
+    def _weighed(self, about: statics.About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
+        if isinstance(about, statics.AtPoint):
             return self.board.balance(self.pose.points[about.point], X, C, *force, mark, why=why)
-        assert isinstance(about, Where)
+        assert isinstance(about, statics.Where)
         return self.board.weigh(*self._lines(about), X, C, *force, mark, names=self._letters(about), why=why)
 
-    def _slide_line(self, part: Part, slide: Slide, about: About, sign: int) -> Known:
+    def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
         Y = self._mark_of(about)
         with self.board.on(MECHANISM):
             line = self.board.perpendicular(self.pose.guide(slide), Y)
         return Known(None, line, Y, self._pair(part, slide, Y, sign))
 
-    def _mark_of(self, about: About) -> Mark:
+    def _mark_of(self, about: statics.About) -> Mark:
         """The point that moments are taken about, as a mark."""
-        if isinstance(about, AtPoint):
+        if isinstance(about, statics.AtPoint):
             return self.pose.points[about.point]
-        assert isinstance(about, Where)
+        assert isinstance(about, statics.Where)
         with self.board.on(MECHANISM):
             return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
 
@@ -156,15 +143,15 @@ class ForcePlan(Parts):
         one, two = self.loading.arm(site.link)
         return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
-    def _across(self, part: Part, site: Site, about: About, sign: int) -> Known:
+    def _across(self, part: Part, site: Site, about: statics.About, sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
         start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
         with self.board.on(MECHANISM):
-            if isinstance(about, Along):
+            if isinstance(about, statics.Along):
                 guide = self.pose.guide(about.slide)
                 line = self.board.perpendicular(guide, self.pose.points[about.slide.at])
             else:
-                assert isinstance(about, AlongLine)
+                assert isinstance(about, statics.AlongLine)
                 known_line = self.known[about.site].line
                 assert known_line is not None
                 line = known_line
@@ -182,7 +169,7 @@ class ForcePlan(Parts):
         corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
         return Known(signed((end, corner), sign), None, None)
 
-    def _found(self, part: Part, site: Site, about: About) -> None:
+    def _found(self, part: Part, site: Site, about: statics.About) -> None:
         """A force of known line, from moments about a point that its line does not pass; or a couple."""
         sign = self.sign(part, site)
         known = self.known.get(site)
@@ -193,7 +180,7 @@ class ForcePlan(Parts):
         if known.line is None:
             self._couple_found(part, site, known, self._mark_of(about))
             return
-        if isinstance(about, Along | AlongLine):
+        if isinstance(about, statics.Along | statics.AlongLine):
             told = self._across(part, site, about, sign)
             if told.line is None:
                 assert told.part is not None
@@ -282,7 +269,7 @@ class ForcePlan(Parts):
 
     # ---- trials ------------------------------------------------------------------------------------------------
 
-    def _trial(self, move: Assume) -> None:
+    def _trial(self, move: statics.Assume) -> None:
         """Two forces assumed on the known line, the false position, then the true force by the same moves."""
         known = self.known[move.site]
         assert known.line is not None
@@ -302,7 +289,7 @@ class ForcePlan(Parts):
         self._enter(move.site, (base, self.board.false_position(A1, A2, Z1, l1, Z2, l2)))
         self.draw(move.moves)
 
-    def _missed(self, move: Assume) -> Span:
+    def _missed(self, move: statics.Assume) -> Span:
         """The head of a force found by a trial, and the line on which it should lie."""
         told = self._told(move.part, move.end, move.about)
         assert told.line is not None

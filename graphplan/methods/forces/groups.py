@@ -10,17 +10,8 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
 from graphplan.methods import kinds, panels
-from graphplan.methods.forces.assumed_motion import (
-    AXES,
-    Assumed,
-    freed_joint,
-    freed_slide,
-    freed_turning,
-    moving,
-    planned,
-    velocities,
-    working,
-)
+from graphplan.methods.forces import assumed_motion
+from graphplan.methods.forces.assumed_motion import Assumed
 from graphplan.methods.forces.force_plan import ForcePlan
 from graphplan.methods.forces.friction import rough
 from graphplan.methods.forces.letters import pair_letter
@@ -75,7 +66,7 @@ class Plans:
     def planner(self, assumed: Assumed, panel: str) -> Planner:
         """The plan of the motion that a lever's panel shows."""
         if panel not in self._assumed:
-            self._assumed[panel] = planned(assumed)
+            self._assumed[panel] = assumed_motion.planned(assumed)
         return self._assumed[panel]
 
     def moves(self, group: Group, way: Way) -> list[StaticMove]:
@@ -160,9 +151,9 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tu
     shown: list[Shown] = []
     for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
         panel, motion = panels.Lever.of(None if len(loading.loads.balances) == 1 else mode + 1), velocity
-        if not moving(scene):
-            assumed = working(scene, mode)
-            motion = velocities(assumed, pose, plans.planner(assumed, panel))
+        if not assumed_motion.moving(scene):
+            assumed = assumed_motion.working(scene, mode)
+            motion = assumed_motion.velocities(assumed, pose, plans.planner(assumed, panel))
         lever = Lever(board, motion, loading, panel)
         marks: tuple[Mark, ...] = lever.force(balance) if balance.at else lever.moment(balance.link)
         results.append((kinds.balance_kind(kinds.BY_LEVER, balance), name, marks))
@@ -190,14 +181,14 @@ class Freed:
         return self
 
     def _lever(self, assumed: Assumed, panel: panels.Lever) -> Lever:
-        motion = velocities(assumed, self.pose, self.plans.planner(assumed, panel))
+        motion = assumed_motion.velocities(assumed, self.pose, self.plans.planner(assumed, panel))
         return Lever(self.board, motion, self.loading, panel, assumed.renamed)
 
     def _joint(self, point: str, link: str, pin: str) -> None:
         """A joint's reaction by two levers, one for each component."""
         spans, force = [], JointForce(point, link)
-        for axis, letter in zip(AXES, "xy", strict=True):
-            assumed = freed_joint(self.loading.scene, point, link, pin, axis)
+        for axis, letter in zip(assumed_motion.AXES, "xy", strict=True):
+            assumed = assumed_motion.freed_joint(self.loading.scene, point, link, pin, axis)
             lever = self._lever(assumed, panels.Lever.of(force, letter))
             spans.append(lever.across(point, link, pin))
             self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
@@ -207,11 +198,11 @@ class Freed:
 
     def _slide(self, slide: Slide) -> None:
         """A slide's reaction by two levers: its force, and its moment."""
-        lever = self._lever(freed_slide(self.loading.scene, slide), panels.Lever.of(slide, "F"))
+        lever = self._lever(assumed_motion.freed_slide(self.loading.scene, slide), panels.Lever.of(slide, "F"))
         force = lever.off_guide(slide)
         self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
         self.results.append((kinds.SLIDE_REACTION, slide.name, force))
-        lever = self._lever(freed_turning(self.loading.scene, slide), panels.Lever.of(slide, "M"))
+        lever = self._lever(assumed_motion.freed_turning(self.loading.scene, slide), panels.Lever.of(slide, "M"))
         moment = lever.turning(slide.link, slide.along)
         self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
         self.results.append((kinds.SLIDE_MOMENT, slide.name, moment))

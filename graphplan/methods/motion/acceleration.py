@@ -10,10 +10,11 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
 from graphplan.methods.motion.network import Network, Place, Weld
 from graphplan.methods.motion.plan import Plan, Vector
@@ -41,23 +42,22 @@ LAWS: dict[type, str] = {
 }
 
 
-class Anchor:
+class Anchor(NamedTuple):
     """Where a link's figure begins: at a point it shares with a link drawn before, by a joint, slide or drive."""
 
-    __slots__ = ("link", "point", "slide")
-
-    def __init__(self, link: str, point: str, slide: Slide | None = None):
-        self.link, self.point, self.slide = link, point, slide
+    link: str
+    point: str
+    slide: Slide | None = None
 
 
 class Normal(Plan):
     """The plan of relative normal accelerations."""
 
-    panel, turn, across = N_PLAN, "perpendicular", False
+    panel, turn, across, laws, ending = N_PLAN, "perpendicular", False, LAWS, "{1}_1"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        super().__init__(board, net, pose)
-        self.velocity, self.tempo = velocity, velocity.tempo
+        super().__init__(board, net, pose, velocity.tempo)
+        self.velocity = velocity
         self.passing = {m.slide.name: m.point for m in moves if isinstance(m, Guide)}
         self.figures: dict[tuple[str, str], Mark] = {}
         self.order: dict[str, int] = {}
@@ -150,7 +150,7 @@ class Normal(Plan):
         weld = chain[0]
         joint = weld.slide.at if weld.slide else weld.at
         base = self.pose.points[joint] if weld.to == FRAME else self._driven_seat(weld, joint)
-        omega = sum(w.sign * self.tempo.turning(w.drive.rate) for w in chain if not w.drive.slides)
+        omega = sum(w.sign * self.tempo.rate(w.drive.rate) for w in chain if not w.drive.slides)
         A, X = self.pose.points[joint], self.pose.points[point]
         if self.net.spot(point) == self.net.spot(joint) or not omega:
             return base
@@ -211,16 +211,12 @@ class Normal(Plan):
     def start(self, weld: Weld, point: str) -> Mark:
         return self.pose.points[weld.slide.at if weld.slide else weld.at]
 
+    def prescribed(self, rates: tuple[Number, Number]) -> Number:
+        return self.tempo.change(rates[1])
+
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
-        X, (one, two) = self.pose.points[point], self._gap(weld)
-        mark = self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one)
-        if not weld.drive.slides:
-            ratio = sign * weld.sign * self.tempo.turning_rate(weld.drive.change)
-            A = self.pose.points[weld.at]
-            return mark if A is X or not ratio else self.board.step_across(A, X, mark, ratio=ratio)
-        assert weld.slide is not None
-        length = sign * weld.sign * self.tempo.acceleration(weld.drive.change)
-        return self.board.lay_along(self.pose.guide(weld.slide, run=True), mark, length=length) if length else mark
+        one, two = self._gap(weld)
+        return super().hop(weld, point, self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one), sign)
 
     def _gap(self, weld: Weld) -> Vector:
         """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
@@ -228,15 +224,6 @@ class Normal(Plan):
             return self.figure(weld.to, weld.at), self.figure(weld.link, weld.at)
         at = weld.slide.at
         return self.seat(weld.slide, weld.to, weld.link, at), self.figure(weld.link, at)
-
-    def seeded(self, place: Place) -> Mark:
-        dx, dy = (self.tempo.acceleration(a) for a in self.pose.scene.motions[place[0]].acceleration)
-        home = self.home(place)
-        return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
-
-    def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
-        ratio = sum(sign * self.tempo.turning_rate(drive.change) for sign, drive in self.net.excess(body, like))
-        return self.board.step_across(*base, at, ratio=ratio) if ratio else at
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
         if self._hangs(slide, known, new):
@@ -299,22 +286,16 @@ class Normal(Plan):
 
     # ---- letters --------------------------------------------------------------------------------------------
 
-    def end_name(self, place: Place) -> str:
-        return f"{self.pose.spoken(place[0])}_1" + (f"({place[1]})" if place[1] in self.net.body else "")
-
     def locus_name(self, place: Place) -> str:
         name = self.pose.spoken(place[0])
         letter, rest = name[0].upper(), name[1:].strip("_")
         return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
 
-    def law(self, move: Move) -> str:
-        return LAWS.get(type(move), "")
-
 
 class PolarAcceleration(Normal):
     """All accelerations from one pole pi: each link's normal vectors are laid off where they are needed."""
 
-    panel = ACCELERATION_PLAN
+    panel, ending = ACCELERATION_PLAN, "{0}'"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         with board.on(self.panel):
@@ -339,9 +320,6 @@ class PolarAcceleration(Normal):
 
     def figure_name(self, link: str, point: str) -> str:
         return f"n_{self.pose.spoken(point).lower()}({link})"
-
-    def end_name(self, place: Place) -> str:
-        return f"{self.pose.spoken(place[0]).lower()}'" + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def locus_name(self, place: Place) -> str:
         return ""

@@ -18,20 +18,8 @@ from random import Random
 from graphplan.mechanism.equations import PRIME
 from graphplan.mechanism.model import Pair, Slide
 from graphplan.mechanism.order import by_name
-from graphplan.methods.motion.moves import (
-    Auxiliary,
-    Carry,
-    Figure,
-    Guide,
-    Locus,
-    Meet,
-    Move,
-    Rest,
-    Seed,
-    Settle,
-    Slip,
-    Swing,
-)
+from graphplan.methods.motion import moves
+from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import Network, Place
 from graphplan.methods.motion.residues import Image, Two, less, parallel, product, quarter, residues
 
@@ -74,12 +62,12 @@ class Facts:
                 self._rest(place)
             self._wake_class(ground)
         for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
-            self.moves.append(Seed((point, "")))
+            self.moves.append(moves.Seed((point, "")))
             self._file((point, ""), "motion", None)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)
 
     def _rest(self, place: Place) -> None:
-        self.moves.append(Rest(place))
+        self.moves.append(moves.Rest(place))
         self._file(place, self.net.ground, None)
 
     def _queue(self, *nodes: str | Slide) -> None:
@@ -106,7 +94,7 @@ class Facts:
         if place not in self.drawn:
             pair = next(((one, two) for one, two in combinations(here, 2) if _cross(here[one], here[two])), None)
             if pair and not marked and None not in here.values():
-                self.moves.append(Meet(place, pair))
+                self.moves.append(moves.Meet(place, pair))
             if pair or marked or None in here.values():
                 self.drawn.add(place)
         self._tell(place)
@@ -261,57 +249,57 @@ class Facts:
         """
         here = next(filter(None, (self._locus_of(place, body) for place in self._together(body, X))), None)
         if here:
-            return Slip(body, here, X, ""), self._normal(here)
+            return moves.Slip(body, here, X, ""), self._normal(here)
         known, loci, like = self._ends(body, X), list(self._loci(body, X)), self._like(body)
         K = max(known, key=lambda place: self._heard(place, body), default=None)
         if K and not (own and parallel(self._normal(own), self._swung(K, X))):
-            return Swing(body, K, X), self._swung(K, X)
+            return moves.Swing(body, K, X), self._swung(K, X)
         if loci and like:
-            return Slip(body, loci[0], X, like), self._normal(loci[0])
+            return moves.Slip(body, loci[0], X, like), self._normal(loci[0])
         if len(loci) > 1 and any(normal := self._carried(loci[0], loci[1], X)):
-            return Carry(body, loci[0], loci[1], X), normal
-        return (Swing(body, K, X), self._swung(K, X)) if K else None
+            return moves.Carry(body, loci[0], loci[1], X), normal
+        return (moves.Swing(body, K, X), self._swung(K, X)) if K else None
 
-    def _auxiliary(self, body: str, X: Place) -> Auxiliary | None:
+    def _auxiliary(self, body: str, X: Place) -> moves.Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""
         match list(self._loci(body, X)):
             case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried(A, B, X)):
-                return Auxiliary(body, A, B, X)
+                return moves.Auxiliary(body, A, B, X)
         return None
 
-    def _settle(self, body: str, X: Place) -> Settle | None:
+    def _settle(self, body: str, X: Place) -> moves.Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""
         own, loci = self._locus_of(X, body), list(self._loci(body, X))
         known = [place for place, _ in loci if place in self.drawn]
         if len(loci) < 2 or not own or not known:
             return None
         K = known[0]
-        return Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
+        return moves.Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
 
-    def _beside(self, body: str, X: Place) -> Figure | None:
+    def _beside(self, body: str, X: Place) -> moves.Figure | None:
         """The end of X, which has a locus of its own, from an end in its spot, or from another and the turning."""
         if not self.facts.get(X):
             return None
         here = next((place for place in self._together(body, X) if place in self.drawn), None)
         if here:
-            return Figure(body, here, X)
+            return moves.Figure(body, here, X)
         known, like = self._ends(body, X), self._like(body)
-        return Figure(body, known[0], X, like=like) if known and like else None
+        return moves.Figure(body, known[0], X, like=like) if known and like else None
 
     def _figure(self, body: str, X: Place) -> Move | None:
         """The end of X from the whole body, or from an end in the same spot."""
         here = next((place for place in self._together(body, X) if place in self.drawn), None)
         if here:
-            return Figure(body, here, X)
+            return moves.Figure(body, here, X)
         known = self._ends(body, X)
         pair = next((R for R in known[1:] if self.net.spot(R[0]) != self.net.spot(known[0][0])), None)
         if pair:
-            return Figure(body, known[0], X, R=pair)
+            return moves.Figure(body, known[0], X, R=pair)
         if known and (like := self._like(body)):
-            return Figure(body, known[0], X, like=like)
+            return moves.Figure(body, known[0], X, like=like)
         return None
 
-    def _crossed(self, body: str, X: Place) -> tuple[list[Move], Meet] | None:
+    def _crossed(self, body: str, X: Place) -> tuple[list[Move], moves.Meet] | None:
         """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
         loci = [self._locus_of(place, body) for place in self.places[body]]
         spot, like = self.net.spot(X[0]), self._like(body)
@@ -319,10 +307,11 @@ class Facts:
         lines: list[Move] = []
         if like:
             given = [locus for locus in loci if locus and self.net.spot(locus[0][0]) != spot]
-            ways: Iterator[tuple[Slip | Carry, Two]] = ((Slip(body, A, X, like), self._normal(A)) for A in given)
+            ways: Iterator[tuple[moves.Slip | moves.Carry, Two]] = (
+                (moves.Slip(body, A, X, like), self._normal(A)) for A in given)
         else:
             apart = combinations(self._loci(body, X), 2)
-            ways = ((Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)
+            ways = ((moves.Carry(body, A, B, X), self._carried(A, B, X)) for A, B in apart)
         for move, normal in ways:
             if any(normal) and (not found or _cross(normal, next(iter(found.values())))):
                 name = f"{body} again" if found else f"{body} once"
@@ -330,7 +319,7 @@ class Facts:
                 lines.append(move._replace(source=name))
             if len(found) == 2:
                 one, two = found
-                return lines, Meet(X, (one, two))
+                return lines, moves.Meet(X, (one, two))
         return None
 
     def _turning_known(self, body: str) -> None:
@@ -353,7 +342,7 @@ class Facts:
                 target = self.net.place(point, new)
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
-                self.moves.append(Guide(slide, point, known, new))
+                self.moves.append(moves.Guide(slide, point, known, new))
                 self._file(target, slide.name, self._posed(slide.direction))
 
     def _seen(self, slide: Slide, known: str, new: str) -> str:

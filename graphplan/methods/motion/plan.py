@@ -12,30 +12,17 @@ Plans: orthogonal velocities on the mechanism plan, relative normal acceleration
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Board, Mark, Panel
-from graphplan.mechanism.model import FRAME, Slide
-from graphplan.methods.motion.moves import (
-    Auxiliary,
-    Carry,
-    Figure,
-    Guide,
-    Locus,
-    Meet,
-    Move,
-    Pole,
-    Rest,
-    Seed,
-    Settle,
-    Slip,
-    Swing,
-    Trial,
-)
+from graphplan.mechanism.model import FRAME, Number, Slide
+from graphplan.methods.motion import moves
+from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, Network, Place, Weld
+from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
 
 Vector = tuple[Mark, Mark]
@@ -48,9 +35,11 @@ class Plan:
     panel: Panel
     turn: str
     across: bool  # whether a sliding pair's free vector lies square to the guide
+    laws: Mapping[type, str]  # by which each kind of move is drawn
+    ending: str  # the letter of an end, made from that of its point in small letters, or as it is
 
-    def __init__(self, board: Board, net: Network, pose: Pose):
-        self.board, self.net, self.pose = board, net, pose
+    def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
+        self.board, self.net, self.pose, self.tempo = board, net, pose, tempo
         self.ends: dict[Place, Mark] = {}
         self.loci: dict[Locus, Mark] = {}
         self.prime = ""  # of the letters in a trial figure
@@ -70,9 +59,27 @@ class Plan:
         """Where the vector of a point of the frame ends, in the figure of a link that the drive ties to the frame."""
         raise NotImplementedError
 
+    def prescribed(self, rates: tuple[Number, Number]) -> Number:
+        """What is drawn of a prescribed velocity and acceleration: one of them, in the scale of the plan."""
+        raise NotImplementedError
+
     def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
         """The end of a point in the plane of `weld.link` from its end in that of `weld.to` (sign 1), or back (-1)."""
-        raise NotImplementedError
+        X, much = self.pose.points[point], sign * weld.sign * self.prescribed(weld.drive.rates)
+        if weld.slide is None:
+            A = self.pose.points[weld.at]
+            if A is X or not much:
+                return mark
+            return A if self.across and much == 1 and mark is X else self._step((A, X), mark, much)
+        line = self.pose.guide(weld.slide, run=True)
+        line = self.board.perpendicular(line, X) if self.across else line
+        return self.board.lay_along(line, mark, length=much) if much else mark
+
+    def _step(self, base: Vector, at: Mark, ratio: Number) -> Mark:
+        """`at` moved by the image of a vector of a link that turns so much."""
+        if self.across:
+            return self.board.step_off(*base, at, ratio=-ratio)
+        return self.board.step_across(*base, at, ratio=ratio)
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
         """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
@@ -80,76 +87,77 @@ class Plan:
 
     def seeded(self, place: Place) -> Mark:
         """The end of a point whose motion the scene gives."""
-        raise NotImplementedError
+        motion, home = self.pose.scene.motions[place[0]], self.home(place)
+        dx, dy = map(self.prescribed, zip(motion.velocity, motion.acceleration, strict=True))
+        dx, dy = (-dy, dx) if self.across else (dx, dy)
+        return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
         """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""
-        raise NotImplementedError
+        ratio = sum(sign * self.prescribed(drive.rates) for sign, drive in self.net.excess(body, like))
+        return self._step(base, at, ratio) if ratio else at
 
     def far_from(self, place: Place) -> Mark:
         """A mark away from the home of a place, to take the size of a trial from."""
         return self.pose.far_from(place)
 
-    def pole_shift(self, move: Pole) -> Vector | None:
+    def pole_shift(self, move: moves.Pole) -> Vector | None:
         """The vector from the relative pole's end in the first body to its end in the second, if there is any."""
         return None
 
     def end_name(self, place: Place) -> str:
-        raise NotImplementedError
+        name = self.pose.spoken(place[0])
+        return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def locus_name(self, place: Place) -> str:
         return ""
 
-    def law(self, move: Move) -> str:
-        """The law by which a move is drawn, for the step that makes its mark."""
-        return ""
-
     # ---- drawing moves --------------------------------------------------------------------------------------
 
-    def draw(self, moves: Iterable[Move]) -> None:
-        for move in moves:
+    def draw(self, planned: Iterable[Move]) -> None:
+        for move in planned:
             with self.board.on(self.panel, self._links(move)):
-                if isinstance(move, Trial):
+                if isinstance(move, moves.Trial):
                     self._trial(move)
                 else:
                     self._draw(move)
 
     def _draw(self, move: Move) -> None:
         match move:
-            case Rest(place):
+            case moves.Rest(place):
                 self._end(place, self._rest(place))
-            case Seed(place):
+            case moves.Seed(place):
                 self._end(place, self.seeded(place))
-            case Swing(body, K, X, source):
+            case moves.Swing(body, K, X, source):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.board.side(self.point(K), self.point(X))
                 self._locus((X, source or body), getattr(self.board, self.turn)(side, through), move)
-            case Slip(body, A, X, like, source):
+            case moves.Slip(body, A, X, like, source):
                 self._locus((X, source or body), self._slipped(body, A, X, like), move)
-            case Carry(body, A, B, X, source):
+            case moves.Carry(body, A, B, X, source):
                 ends = [self.point(A[0]), self._locus_in(body, A), self.point(B[0]), self._locus_in(body, B)]
                 line = self.board.carry(*ends, self.point(X), turn=self.turn, names=self._letters(body, A, B, X))
                 self._locus((X, source or body), self._outward(body, X, line), move)
-            case Settle(body, K, X, B):
+            case moves.Settle(body, K, X, B):
                 self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
-            case Figure(body, K, X, R, like, copy):
+            case moves.Figure(body, K, X, R, like, copy):
                 mark = self._outward(body, X, self._figured(body, K, X, R, like))
                 self._end(copy or X, mark, move)
-            case Guide(slide, point, known, new):
+            case moves.Guide(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
-            case Meet(place, (one, two), copy):
+            case moves.Meet(place, (one, two), copy):
                 self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
-            case Auxiliary(body, A, B, place):
+            case moves.Auxiliary(body, A, B, place):
                 self._auxiliary(body, A, B, place, move)
-            case Pole():
+            case moves.Pole():
                 self._pole(move)
 
     def _links(self, move: Move) -> tuple[str, ...]:
         """The links that a step's fault should name."""
         names: list[str] = []
-        if isinstance(move, Meet):
+        if isinstance(move, moves.Meet):
             names = [link for source in move.sources for link in self._of_source(source)]
-        elif isinstance(move, Guide):
+        elif isinstance(move, moves.Guide):
             names = [move.known, move.new]
         elif (body := getattr(move, "body", "")) in self.net.members:
             names = self.net.members[body]
@@ -161,7 +169,7 @@ class Plan:
 
     def _end(self, place: Place, mark: Mark, move: Move | None = None) -> None:
         self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
-        if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
+        if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
             self.board.annotate(mark.step.index, why=law)
 
     def _know(self, place: Place, mark: Mark) -> None:
@@ -176,7 +184,7 @@ class Plan:
     def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:
         if name := self.locus_name(locus[0]):
             self.board.named(mark, name + self.prime)
-        if mark.step.index == len(self.board.steps) - 1 and (law := self.law(move)):
+        if mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
             self.board.annotate(mark.step.index, why=law)
         self.loci[locus] = mark
 
@@ -343,14 +351,14 @@ class Plan:
 
     # ---- relative poles and trials --------------------------------------------------------------------------
 
-    def _pole(self, move: Pole) -> None:
+    def _pole(self, move: moves.Pole) -> None:
         if move.place[0] not in self.pose.points:
             bars = [self.board.side(self.point(one), self.point(two)) for _, one, two in move.bars]
             self.pose.points[move.place[0]] = self.board.meet(*bars, name=f"P_{move.bodies[0]}{move.bodies[1]}")
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector
 
-    def _trial(self, move: Trial) -> None:
+    def _trial(self, move: moves.Trial) -> None:
         """Two trial figures, the false position, then the true figure by the same moves."""
         place, locus = move.at[0], self.loci[move.at]
         trials: list[Mark] = []

@@ -23,21 +23,13 @@ class Tempo(NamedTuple):
     def kappa(self) -> Number:
         return 1 / self.unit
 
-    def turning(self, omega: Number) -> Number:
-        """An angular velocity as a ratio: drawn velocity to distance from the pole."""
-        return omega / self.unit
+    def rate(self, rate: Number) -> Number:
+        """What is drawn of a speed, as a length, or of an angular velocity, as a ratio to the distance."""
+        return rate / self.unit
 
-    def velocity(self, speed: Number) -> Number:
-        """A speed as a drawn length."""
-        return speed / self.unit
-
-    def turning_rate(self, alpha: Number) -> Number:
-        """An angular acceleration as a ratio: drawn tangential acceleration to distance."""
-        return alpha / self.unit / self.unit
-
-    def acceleration(self, rate: Number) -> Number:
-        """An acceleration as a drawn length."""
-        return rate / self.unit / self.unit
+    def change(self, change: Number) -> Number:
+        """What is drawn of an acceleration, as a length, or of an angular one, as a ratio to the distance."""
+        return change / self.unit / self.unit
 
 
 def tempo(scene: Scene) -> Tempo:

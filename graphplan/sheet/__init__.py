@@ -6,12 +6,12 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
     from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
-    from graphplan.sheet.plates.plans import Drawing
 
 
-def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+def svg(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None) -> str:
     """The construction sheet as SVG text, in a language by its code, such as de; without it in that of the scene.
 
@@ -24,7 +24,7 @@ def svg(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
     return write(_laid_out(drawing, paper, check, composition, language))
 
 
-def pdf(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None) -> bytes:
     """The construction sheet as a PDF document of one page, in true size; reads and fails as :func:`svg` does."""
     from graphplan.output.pdf_png import pdf as write
@@ -32,7 +32,7 @@ def pdf(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
     return write([_laid_out(drawing, paper, check, composition, language)])
 
 
-def png(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+def png(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None, *, dpi: float = 150) -> bytes:
     """The construction sheet as a picture of so many dots per inch; else reads and fails as :func:`svg` does."""
     from graphplan.output.pdf_png import png as write
@@ -40,8 +40,8 @@ def png(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | N
     return write(_laid_out(drawing, paper, check, composition, language), dpi)
 
 
-def _laid_out(drawing: Drawing, paper: str | None, check: Mapping[str, Any] | None, composition: Composition | None,
-              language: str | None) -> Sheet:
+def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
+              composition: Composition | None, language: str | None) -> Sheet:
     """The sheet as a display list, in a language by its code."""
     from graphplan.sheet.layout.layout import layout
     from graphplan.words.tongue import tongue

@@ -17,8 +17,8 @@ from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program
-from graphplan.mechanism.model import Number, Pair, Scene, Slide
-from graphplan.methods.construction import Arrow, Construction
+from graphplan.mechanism.model import Pair, Scene, Slide
+from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout
@@ -33,50 +33,16 @@ SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from wh
 Given = dict[Any, dict[str, float]]
 
 
-@dataclass(frozen=True)
-class Posed:
+class Posed(Construction):
     """A construction in another pose: its drawn steps with other values, as a sheet reads it."""
 
-    construction: Construction
-    scene: Scene
-    values: Sequence[Any]
-    given: Given
+    def __init__(self, construction: Construction, scene: Scene, values: list[Any], given: Given):
+        self.__dict__ |= {**construction.__getstate__(), "scene": scene, "_gathered": (construction.drawn, values)}
+        self.given = given
 
-    @property
-    def drawn(self) -> Program:
-        return self.construction.drawn
-
-    @property
-    def arrows(self) -> tuple[Arrow, ...]:
-        return self.construction.arrows
-
-    @property
-    def kappa(self) -> float:
-        return self.construction.kappa
-
-    @property
-    def phi(self) -> Number:
-        return self.construction.phi
-
-    @property
-    def method(self) -> dict[str, list[str]]:
-        return self.construction.method
-
-    @property
-    def brief_forms(self) -> list[str]:
-        return self.construction.brief_forms
-
-    @property
-    def strict(self) -> bool:
-        return self.construction.strict
-
-    def sentences(self) -> list[str]:
-        """The steps in words, which are those of the given pose."""
-        return self.construction.sentences()
-
-    def read(self, domain: Domain) -> dict[str, dict[str, Any]]:
+    def read(self, domain: Domain, *_: Any) -> dict[str, dict[str, Any]]:
         """All readings in this pose."""
-        return self.construction.read(domain, self.given)
+        return super().read(domain, self.given)
 
 
 def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Posed | None:
@@ -209,11 +175,8 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
 
 def _still(travel: float, composition: Composition) -> Still:
     """A composed construction on its sheet."""
-    plans, views = composition.plans, composition.views
-    steps = plans.drawing.drawn.steps
-    spots = {step.index: views[plans.plan_of_step[step.index]](plans.spot(step.index)) for step in steps
-             if step.op.gives == POINT}
-    return Still(travel, layout(plans.drawing, composition=composition), spots)
+    spots = {drawn.index: drawn.at for drawn in composition.plates.steps if drawn.kind == POINT}
+    return Still(travel, layout(composition.plans.drawing, composition=composition), spots)
 
 
 def _composed(base: Composition, drawing: Posed) -> Composition:

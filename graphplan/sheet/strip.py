@@ -13,6 +13,7 @@ from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel, Step
+from graphplan.methods.construction import Construction
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import STRIP, Page
@@ -23,7 +24,7 @@ from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
 from graphplan.sheet.plates.picture import picture
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked
 from graphplan.sheet.plates.view import View, least, plan_scale, view
@@ -38,7 +39,7 @@ NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 Group = tuple[Step, ...]
 
 
-def strip(drawing: Drawing, paper: str | None = None, *, single: bool = False,
+def strip(drawing: Construction, paper: str | None = None, *, single: bool = False,
           tongue: Tongue | None = None) -> list[Sheet]:
     """The film strip of a construction, page by page; `single` has a picture for every step.
 

@@ -27,7 +27,7 @@ from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.drawn_step import DrawnStep
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View
 
@@ -67,7 +67,7 @@ def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel]
                             joints=(), motions={}, links_of={})  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]
     drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), sentences=lambda: sentences)
-    plans = Placed(cast(Drawing, drawing))
+    plans = Placed(cast(Construction, drawing))
     plans.__dict__["place"] = place
     return Plates(plans, views)
 

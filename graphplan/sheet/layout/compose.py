@@ -6,16 +6,17 @@ from collections.abc import Mapping
 from functools import cache, partial
 from typing import Any
 
+from graphplan.methods.construction import Construction
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.layout.composition import Composition, composed
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
 
-def compose(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
             pencil: Deviations | None = None, tongue: Tongue | None = None) -> Composition:
     """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
 
@@ -29,7 +30,7 @@ def compose(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any]
 class Composer:
     """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
 
-    def __init__(self, drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+    def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
                  tongue: Tongue | None = None):
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")

@@ -9,10 +9,11 @@ from fractions import Fraction
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
+from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES
 from graphplan.sheet.plates.pens import FORCES
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 
 ROUNDING = 1e-9  # of a scale: closer than this two are one
 
@@ -37,7 +38,7 @@ def given_scales(plans: Plans) -> GivenScales:
     return GivenScales(k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None})
 
 
-def _mechanism_scale(drawing: Drawing) -> float | None:
+def _mechanism_scale(drawing: Construction) -> float | None:
     """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
     first: float | None = None
     for name, scale, lengths in _given(drawing):
@@ -48,7 +49,7 @@ def _mechanism_scale(drawing: Drawing) -> float | None:
     return first
 
 
-def _given(drawing: Drawing) -> Iterator[tuple[str, float, float]]:
+def _given(drawing: Construction) -> Iterator[tuple[str, float, float]]:
     """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
     sheet = drawing.scene.sheet
     if sheet.k_F and drawing.scene.loads is None:

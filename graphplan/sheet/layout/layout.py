@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Mapping
 from typing import Any
 
+from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
@@ -13,7 +14,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Sheet
 from graphplan.sheet.plates.picture import picture
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.captions import captions
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
@@ -22,7 +23,7 @@ from graphplan.words.tongue import Tongue
 BACK, FRONT = ("paper", BORDER, "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
 
 
-def layout(drawing: Drawing, paper: str | None = None, check: Mapping[str, Any] | None = None,
+def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
            composition: Composition | None = None, tongue: Tongue | None = None,
            document: Said = CONSTRUCTION) -> Sheet:
     """The sheet of a construction, composed already; else `paper` names its size, or the smallest good one is taken.

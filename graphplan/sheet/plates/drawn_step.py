@@ -12,10 +12,10 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel, Step
-from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arc, Arrow, Item, Polyline, Spot
+from graphplan.methods.construction import Arrow
+from graphplan.sheet.plates import display, pens
+from graphplan.sheet.plates.display import Arc, Item, Polyline, Spot
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import Vector
 from graphplan.sheet.plates.view import View
 
 LAYER = "construction"
@@ -106,7 +106,7 @@ class Stroke:
     in_mm: bool = False
     head: float = 0.0
     layer: str = LAYER
-    vector: Vector | None = None
+    vector: Arrow | None = None
 
     @property
     def ends(self) -> tuple[Spot, Spot]:
@@ -135,7 +135,7 @@ class Stroke:
         if not self.head:
             return Polyline(self.pen, self.layer, self.of.index, self.ends)
         label = f"{self.vector.kind} {self.vector.point}" if self.vector else ""
-        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
+        return display.Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
 
 
 @dataclass(frozen=True)

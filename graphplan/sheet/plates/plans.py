@@ -9,57 +9,15 @@ import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
-from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Panel, Program, Step
-from graphplan.mechanism.model import Number, Scene
+from graphplan.kernel.program import Panel, Step
+from graphplan.methods.construction import Arrow, Construction
 from graphplan.methods.panels import MECHANISM, Lever
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
 from graphplan.words.tongue import ENGLISH, Tongue
-
-
-class Vector(Protocol):
-    """A vector that the construction asks to be drawn as an arrow."""
-
-    @property
-    def kind(self) -> str: ...
-    @property
-    def point(self) -> str: ...
-    @property
-    def label(self) -> str: ...
-    @property
-    def start(self) -> int: ...
-    @property
-    def end(self) -> int: ...
-
-
-class Drawing(Protocol):
-    """A construction as the sheet reads it."""
-
-    @property
-    def scene(self) -> Scene: ...
-    @property
-    def drawn(self) -> Program: ...
-    @property
-    def values(self) -> Sequence[Any]: ...
-    @property
-    def arrows(self) -> Sequence[Vector]: ...
-    @property
-    def kappa(self) -> float: ...
-    @property
-    def phi(self) -> Number: ...
-    @property
-    def method(self) -> dict[str, list[str]]: ...
-    @property
-    def brief_forms(self) -> list[str]: ...
-    @property
-    def strict(self) -> bool: ...
-    def sentences(self) -> list[str]: ...
-    def read(self, domain: Domain) -> dict[str, dict[str, Any]]: ...
 
 
 def corner(step: Step) -> bool:
@@ -86,7 +44,7 @@ class Plans:
     Where it is `numbered`, every mark bears the number of its step, lettered marks too.
     """
 
-    drawing: Drawing
+    drawing: Construction
     tongue: Tongue = ENGLISH
     numbered: bool = False
 
@@ -149,7 +107,7 @@ class Plans:
         x, y = self.drawing.scene.points[name]
         return float(x), float(y)
 
-    def vectors(self, panel: str) -> list[Vector]:
+    def vectors(self, panel: str) -> list[Arrow]:
         """The vectors drawn on a plan; one that begins on another plan cannot be."""
         return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
 

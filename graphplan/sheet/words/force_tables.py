@@ -9,13 +9,13 @@ from typing import Any
 
 from graphplan.mechanism.model import Balance
 from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.forces.letters import pair_letter
 from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
-from graphplan.sheet.plates.plans import Drawing
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.tables import Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -30,7 +30,7 @@ class ForceTables:
     """What a construction says of forces, in a tongue; `values` are its readings by kind and name, `pencil` their
     deviations."""
 
-    drawing: Drawing
+    drawing: Construction
     values: Mapping[str, Mapping[str, Any]]
     pencil: Deviations = field(default_factory=Deviations)
     tongue: Tongue = ENGLISH

@@ -8,12 +8,13 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
-from graphplan.sheet.plates.plans import Drawing, Plans
+from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.rows import Cell, Row
 from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, rows, scalars, vectors
@@ -34,7 +35,7 @@ class Words:
     _set: dict[float, tuple[list[Row], list[Row]]] = field(default_factory=dict)
 
     @property
-    def drawing(self) -> Drawing:
+    def drawing(self) -> Construction:
         return self.plans.drawing
 
     @cached_property

@@ -23,7 +23,7 @@ from graphplan.sheet.lettering.lettering import listed
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.plates.selection import with_numbers
-from graphplan.sheet.words.answer_boxes import written
+from graphplan.sheet.words.rows import lettered
 from graphplan.sheet.words.task import Task
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
@@ -66,7 +66,7 @@ def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[
     marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
     for number, page in enumerate(pages, 1):
         block = titled(composition, document, number, len(pages))
-        items = [*(bare + begun + marks if number == 1 else empty), *block, *written(page)]
+        items = [*(bare + begun + marks if number == 1 else empty), *block, *lettered(page)]
         yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
 
 

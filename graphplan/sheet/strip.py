@@ -28,7 +28,7 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked
 from graphplan.sheet.plates.view import View, least, plan_scale, view
-from graphplan.sheet.words.rows import LEADING, Cell, Row, lettered
+from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
@@ -159,9 +159,9 @@ class Strip:
             level -= row.height
             yield from lettered([(row, x, level + row.size * (LEADING - 1))])
 
-    def _lines(self, group: Group) -> list[Row]:
+    def _lines(self, group: Group) -> list[TextRow]:
         """The steps of a picture in words."""
-        drawn, rows = self.plans.drawing.drawn, list[Row]()
+        drawn, rows = self.plans.drawing.drawn, list[TextRow]()
         names = tuple(step.name for step in drawn.steps if step.name)
         for step in group:
             told = sentence_runs(self.plans.tongue(drawn.sentence(step.index)), names)
@@ -169,10 +169,10 @@ class Strip:
             rows += [self._row(step, runs, i == 0) for i, runs in enumerate(lines)]
         return rows
 
-    def _row(self, step: Step, runs: Runs, first: bool) -> Row:
+    def _row(self, step: Step, runs: Runs, first: bool) -> TextRow:
         number = sentence_runs(str(self.plans.drawing.drawn.number(step.index)))
         head = (Cell(INDENT - 1.6, number, "end"),) if first else ()
-        return Row((*head, Cell(INDENT, runs)), step=step.index)
+        return TextRow((*head, Cell(INDENT, runs)), step=step.index)
 
 
 @dataclass(frozen=True)

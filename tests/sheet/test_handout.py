@@ -23,7 +23,7 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.pages import paged
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Polygon, Sheet, Text
-from graphplan.sheet.words.rows import Cell, Row
+from graphplan.sheet.words.rows import Cell, TextRow
 
 Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 
@@ -130,7 +130,7 @@ def test_words_run_on_over_pages_without_parting_what_keeps_together() -> None:
     """Rows come in order, each once; a heading goes to the next page with the row that it must keep."""
     arrangement = handout_of("four-bar")[0].arrangement
     numbers = count()
-    rows = [Row((Cell(float(next(numbers)), ()),), keep=1 - i % 2) for i in range(400)]
+    rows = [TextRow((Cell(float(next(numbers)), ()),), keep=1 - i % 2) for i in range(400)]
     pages = list(paged(rows, arrangement))
     assert len(pages) > 1
     assert [row for page in pages for row, _, _ in page] == rows
@@ -139,7 +139,7 @@ def test_words_run_on_over_pages_without_parting_what_keeps_together() -> None:
 
 def test_what_is_higher_than_a_page_is_refused() -> None:
     """Rows that must stand together and cannot are refused with what to do."""
-    rows = [Row((), keep=200)] * 201
+    rows = [TextRow((), keep=200)] * 201
     with pytest.raises(Refused, match="a larger sheet"):
         list(paged(rows, handout_of("four-bar")[0].arrangement))
 

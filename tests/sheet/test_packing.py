@@ -15,8 +15,8 @@ from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.answer_boxes import TALL, TIGHT, Blank, tightened
-from graphplan.sheet.words.rows import Cell, Row
+from graphplan.sheet.words.answer_boxes import TALL, TIGHT, tightened
+from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.task import Task
 
 
@@ -34,12 +34,11 @@ def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> Non
 
 def test_a_box_for_a_number_gets_lower_but_not_narrower() -> None:
     """Closer rows keep their words and the widths of their boxes."""
-    blank = Blank((Cell(0.0, (Run("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
+    blank = TextRow((Cell(0.0, (Run("A"),)),), gap=1.0, tall=TALL, boxes=(Rect(10.0, 0.0, 30.0, TALL),))
     tight = tightened(blank)
-    assert isinstance(tight, Blank)
     assert (tight.cells, tight.gap, tight.height) == (blank.cells, 0.5, TIGHT)
     assert tight.boxes == (Rect(10.0, 0.0, 30.0, TIGHT),)
-    assert tightened(Row(blank.cells, gap=2.0)) == Row(blank.cells, gap=1.0)
+    assert tightened(TextRow(blank.cells, gap=2.0)) == TextRow(blank.cells, gap=1.0)
 
 
 def test_the_coefficient_of_friction_is_a_greek_letter() -> None:

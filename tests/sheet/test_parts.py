@@ -21,7 +21,7 @@ from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.clip import clipped, segment
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline, Rect, Text
-from graphplan.sheet.words.rows import Cell, Row, fill
+from graphplan.sheet.words.rows import Cell, TextRow, fill
 
 SQUARE = Rect(0, 0, 100, 100)
 
@@ -165,8 +165,8 @@ def test_a_chain_that_leaves_and_returns_is_drawn_in_pieces() -> None:
 
 def test_columns_fill_one_after_the_other() -> None:
     """Rows run down the first column, then the next; a heading stays with what it heads."""
-    rows = [Row((Cell(0, (Run("text"),)),)) for _ in range(4)]
-    heading = Row((Cell(0, (Run("heading"),)),), keep=1)
+    rows = [TextRow((Cell(0, (Run("text"),)),)) for _ in range(4)]
+    heading = TextRow((Cell(0, (Run("heading"),)),), keep=1)
     high = 3 * rows[0].height + 0.1
     columns = [Rect(0, 0, 50, high), Rect(60, 0, 110, high)]
     placed_rows = fill([*rows[:2], heading, *rows[2:]], columns)

@@ -22,7 +22,7 @@ from graphplan.marking.traces import Number
 from graphplan.phrases import arranged, said
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import Runs, sentence_runs
-from graphplan.sheet.words.rows import Cell, Row
+from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import rows
 from graphplan.sheet.words.texts import HEADING, Words
 
@@ -31,7 +31,7 @@ TITLE, KEY = 3.5, 11.0  # mm: the heading's size, and where the words of the leg
 
 
 @dataclass(frozen=True)
-class LegendRow(Row):
+class LegendRow(TextRow):
     """A row of the legend, which has a sample of the strokes of a verdict before it; none stands for what is spare."""
 
     state: str | None = None
@@ -40,21 +40,21 @@ class LegendRow(Row):
 class Remarks(Words):
     """All that is said beside a judged drawing."""
 
-    def lines(self, wide: float, judgement: Judgement, score: Score) -> list[Row]:
+    def lines(self, wide: float, judgement: Judgement, score: Score) -> list[TextRow]:
         """Everything, for a column of this width, what matters most first."""
         return [self._heading(VERDICT, TITLE, 0.0), *self._verdict(wide, judgement), *self._legend(wide),
                 *self._score(score), *self._numbers(wide, judgement), *self._wrong(wide, judgement)]
 
-    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> Row:
+    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:
         """A heading, which may stand over a single row."""
         return replace(super()._heading(text, size, gap, step), keep=1)
 
-    def _verdict(self, wide: float, judgement: Judgement) -> Iterator[Row]:
+    def _verdict(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         yield from self._said(judgement.name, wide)
         yield from self._said(opinion(judgement), wide)
         yield from self._said(arranged("{0:capital}.", counted(judgement)), wide)
 
-    def _legend(self, wide: float) -> Iterator[Row]:
+    def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, None):
             told = NOT_NEEDED() if state is None else STATES[state]()
@@ -62,7 +62,7 @@ class Remarks(Words):
         yield from self._said(said("Grey: the true drawing. Ellipses: where a point may be, after the student's own "
                                    "earlier marks. Dashed: where a wrong mark should be."), wide)
 
-    def _score(self, score: Score) -> Iterator[Row]:
+    def _score(self, score: Score) -> Iterator[TextRow]:
         if score.total is None:
             return
         yield self._heading(said("Score"))
@@ -70,7 +70,7 @@ class Remarks(Words):
         told.append((said("in all, of 100"), score.total))
         yield from rows([[self._runs(name), self._runs(f"{percent:.0f}")] for name, percent in told])
 
-    def _numbers(self, wide: float, judgement: Judgement) -> Iterator[Row]:
+    def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The numbers of the table beside the true ones, in the scene's units."""
         if not judgement.numbers:
             return
@@ -84,7 +84,7 @@ class Remarks(Words):
             if one.state == WRONG:
                 yield from self._said(miss(one), wide)
 
-    def _wrong(self, wide: float, judgement: Judgement) -> Iterator[Row]:
+    def _wrong(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
         drawn = judgement.drawing.drawn
         wrong = [verdict for verdict in judgement.judged if verdict.state == WRONG]

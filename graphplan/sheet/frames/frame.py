@@ -17,6 +17,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.presentation import SIZES
 from graphplan.phrases import joined, said
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.frames.title_gost import GostBlock
 from graphplan.sheet.frames.title_iso import IsoBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, Text
@@ -118,14 +119,7 @@ def _format(paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
     yield Text(LETTERS, BORDER, None, at, sentence_runs(told), SIZE, "end")
 
 
-def _form_1(scene: Scene, tongue: Tongue) -> TitleBlock:
-    """The title block after GOST 2.104."""
-    from graphplan.sheet.frames.title_gost import GostBlock  # few sheets have it
-
-    return GostBlock(scene, tongue)
-
-
 FRAMES = {
     "iso": Frame(EDGE, ("A4", "A4 portrait"), IsoBlock, _fields),
-    "gost": Frame(5.0, ("A4 portrait",), _form_1, _format),
+    "gost": Frame(5.0, ("A4 portrait",), GostBlock, _format),
 }

@@ -19,7 +19,7 @@ from graphplan.sheet.layout.scales import times as as_multiple
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
-from graphplan.sheet.words.rows import Row
+from graphplan.sheet.words.rows import TextRow
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
@@ -77,7 +77,7 @@ class Composition:
         return max(core.width, core.height) * self.views[panel].scale
 
 
-def composed(plans: Plans, rows: Measure[Sequence[Row]], title: TitleBlock, paper: str | None) -> Composition:
+def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.

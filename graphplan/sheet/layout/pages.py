@@ -9,10 +9,10 @@ from graphplan.errors import Refused
 from graphplan.sheet.layout.paper import GUTTER, Arrangement
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.answer_boxes import tightened
-from graphplan.sheet.words.rows import Placed, Row, fill
+from graphplan.sheet.words.rows import Placed, TextRow, fill
 
 
-def paged(rows: Sequence[Row], arrangement: Arrangement) -> Iterator[list[Placed]]:
+def paged(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
     """The rows page by page: the columns of the arrangement, then as many pages of columns as it takes.
 
     Fails with `Refused` where what must stand together is higher than a page.
@@ -26,13 +26,13 @@ def paged(rows: Sequence[Row], arrangement: Arrangement) -> Iterator[list[Placed
         rows, columns = rows[count:], further
 
 
-def packed(rows: Sequence[Row], arrangement: Arrangement) -> list[list[Placed]]:
+def packed(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
     """The rows page by page, closer to each other where that saves a page; fails as :func:`paged` does."""
     loose, tight = (list(paged(kind, arrangement)) for kind in (rows, [tightened(row) for row in rows]))
     return tight if len(tight) < len(loose) else loose
 
 
-def _fitting(rows: Sequence[Row], columns: Sequence[Rect]) -> int:
+def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
     """How many of the rows the columns hold, not parted where rows keep together."""
     breaks, held = [0], 0
     for i, row in enumerate(rows):

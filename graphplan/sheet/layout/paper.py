@@ -16,7 +16,7 @@ from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.words.rows import Row, fill
+from graphplan.sheet.words.rows import TextRow, fill
 
 GUTTER, COLUMN = 5.0, 96.0
 SLACK = 1e-6  # mm by which edges that should be one may differ
@@ -37,7 +37,7 @@ class Arrangement:
     panels: dict[str, Rect]
     columns: tuple[Rect, ...]
     title: Rect
-    rows: tuple[Row, ...]
+    rows: tuple[TextRow, ...]
 
 
 def room(panel: Rect) -> Rect:
@@ -60,7 +60,7 @@ def sheet_size(paper: str) -> tuple[float, float]:
 
 
 def arrangements(
-    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[Row]], frame: Frame, title: TitleBlock
+    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[TextRow]], frame: Frame, title: TitleBlock
 ) -> Iterator[Arrangement]:
     """The ways to divide one sheet that hold all the text; `needs` says how much room plans want beside each other."""
     wide, high = sheet_size(paper)
@@ -73,7 +73,7 @@ def arrangements(
 Division = tuple[Rect, tuple[Rect, ...], Rect]
 
 
-def _beside(space: Rect, rows: Measure[Sequence[Row]], title: TitleBlock) -> Iterator[Division]:
+def _beside(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
     text = rows(COLUMN)
     pitch = COLUMN + GUTTER
@@ -87,7 +87,7 @@ def _beside(space: Rect, rows: Measure[Sequence[Row]], title: TitleBlock) -> Ite
             return
 
 
-def _below(space: Rect, rows: Measure[Sequence[Row]], title: TitleBlock) -> Iterator[Division]:
+def _below(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
     count = int((space.width + GUTTER) // (COLUMN + GUTTER))
     pitch = space.width / count

@@ -48,41 +48,33 @@ class ForceTables:
 
     def reactions(self) -> Table:
         """Every reaction with its components and size, those of slides with their moments about the slide's point."""
-        joints, slides = (self.values.get(kind, {}) for kind in (kinds.REACTION, kinds.SLIDE_REACTION))
-        largest = max(largest_size(joints), largest_size(slides))
-        head = [sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]
-        table = [self._row(*self._of_joint(name), force, largest) for name, force in joints.items()]
-        table += [self._row(*self._of_slide(name), force, largest) for name, force in slides.items()]
-        off = self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION)
-        table = with_deviations([head, *table], [*joints, *slides], off) if table else []
-        return self._with_moments(table, [*joints, *slides], largest) if slides else table
-
-    def _with_moments(self, table: Table, names: list[str], largest: float) -> Table:
-        """The same with a last column for the moments of slides."""
+        slides = self.values.get(kinds.SLIDE_REACTION, {})
+        forces, letters = {**self.values.get(kinds.REACTION, {}), **slides}, self._letters()
+        largest = largest_size(forces)
+        table = [[sentence_runs(word) for word in (self.tongue(said("reaction")), "R_x", "R_y", f"|R| {self.unit}")]]
         column = [sentence_runs(f"M {self.moment}")]
-        for name in names:
+        for name, force in forces.items():
+            letter, sign = letters[name]
             moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
-            told = () if moment is None else figure(self._of_slide(name)[1] * moment, largest)
+            told = () if moment is None else figure(sign * moment, largest)
+            sizes = sign * force[0], sign * force[1], math.hypot(*force)
+            table.append([letter, *(figure(size, largest) for size in sizes)])
             column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
-        return [[*row, cell] for row, cell in zip(table, column, strict=True)]
+        table = with_deviations(table, list(forces), self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION))
+        if slides:
+            table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
+        return table if forces else []
 
     def _off(self, kind: str, name: str) -> Runs:
         """How far off a number is drawn, to stand behind it."""
         deviation = self.pencil.of(kind).get(name)
         return () if deviation is None else sentence_runs(f" ±{deviation}")
 
-    def _row(self, name: Runs, sign: int, force: Pair, largest: float) -> list[Runs]:
-        x, y = sign * force[0], sign * force[1]
-        return [name, *(figure(value, largest) for value in (x, y, math.hypot(x, y)))]
-
-    def _of_joint(self, name: str) -> tuple[Runs, int]:
-        """The letter of the reaction at a joint, by its name in results, and its sign."""
-        named = {JointForce(point, link).name: (pin, link, point) for point, link, pin in pairs(self.drawing.scene)}
-        return self._lettered(*named[name])
-
-    def _of_slide(self, name: str) -> tuple[Runs, int]:
-        slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
-        return self._lettered(slide.along, slide.link, slide.at)
+    def _letters(self) -> dict[str, tuple[Runs, int]]:
+        """The letter of every reaction, by its name in results, and its sign."""
+        scene = self.drawing.scene
+        joints = {JointForce(point, link).name: self._lettered(pin, link, point) for point, link, pin in pairs(scene)}
+        return joints | {slide.name: self._lettered(slide.along, slide.link, slide.at) for slide in scene.slides}
 
     def _lettered(self, one: str, other: str, point: str) -> tuple[Runs, int]:
         """The letter of the force of one link on another at a point; its answer, with the sign -1, if that is drawn."""
@@ -123,10 +115,8 @@ class ForceTables:
         return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
     def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
-        largest = largest_size(ways)
-        letter = f"F_{balance.link}"
-        rows = {f"{letter}x": 0, f"{letter}y": 1}
-        parts = [[(*name_runs(name), *sentence_runs(f" {self.unit}")), *(figure(v[i], largest) for v in ways.values())]
-                 for name, i in rows.items()]  # fmt: skip
+        largest, letter, units = largest_size(ways), f"F_{balance.link}", sentence_runs(f" {self.unit}")
+        parts = [[(*name_runs(f"{letter}{axis}"), *units), *(figure(v[i], largest) for v in ways.values())]
+                 for i, axis in enumerate("xy")]  # fmt: skip
         sizes = [(*figure(math.hypot(*v), largest), *within) for v, within in zip(ways.values(), off, strict=True)]
-        return [*parts, [(*sentence_runs(f"|{letter}|"), *sentence_runs(f" {self.unit}")), *sizes]]
+        return [*parts, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

@@ -12,6 +12,10 @@ from graphplan.phrases import Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 
 FIGURES = 6  # of what is given
+ASKED = {  # how kinds of results are asked for, and how those that have them are told
+    "velocity": (phrase("Velocities: {0}."), ", ".join), "acceleration": (phrase("Accelerations: {0}."), ", ".join),
+    "omega": (phrase("Angular velocities: {0}."), listed), "alpha": (phrase("Angular accelerations: {0}."), listed),
+}  # fmt: skip
 
 
 def data(scene: Scene) -> Iterator[Said]:
@@ -66,14 +70,9 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
     """What a construction gives, as a task: `values` are its readings by kind and name."""
-    for kind, asked in (("velocity", said("Velocities: {0}.", ", ".join(values.get("velocity", ())))),
-                        ("acceleration", said("Accelerations: {0}.", ", ".join(values.get("acceleration", ()))))):
+    for kind, (asked, enumerated) in ASKED.items():
         if values.get(kind):
-            yield asked
-    if omega := [*values.get("omega", {})]:
-        yield said("Angular velocities: {0}.", listed(omega))
-    if alpha := [*values.get("alpha", {})]:
-        yield said("Angular accelerations: {0}.", listed(alpha))
+            yield asked(enumerated([*values[kind]]))
     slides = {slide.name: slide_named(slide) for slide in scene.slides}
     if values.get("slide velocity") or values.get("slide acceleration"):
         moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))

@@ -1,13 +1,14 @@
-"""What stands in the text columns: rows of lettering, and how they run down one column after the other."""
+"""What stands in the text columns: rows of lettering and of boxes, and how they run down one column after the other.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
-from graphplan.sheet.lettering.lettering import ANCHORS, SIZE, Runs, width
-from graphplan.sheet.plates.display import Rect, Text
-from graphplan.sheet.plates.pens import LETTERS
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, SIZE, Runs, width
+from graphplan.sheet.plates.display import Item, Polygon, Rect, Text
+from graphplan.sheet.plates.pens import BORDER, LETTERS
 
 LEADING = 1.42  # of the letter size, base line to base line
 
@@ -23,10 +24,11 @@ class Cell:
 
 
 @dataclass(frozen=True)
-class Row:
+class TextRow:
     """One line of a column; `gap` is left free above it, and `keep` more rows must stand in the same column.
 
-    A row belongs to a drawing step, or to the results that are read when all is drawn, or is always there.
+    A row belongs to a drawing step, or to the results that are read when all is drawn, or is always there. One to be
+    filled in is so `tall`, and has empty boxes, measured from its lower left corner.
     """
 
     cells: tuple[Cell, ...]
@@ -35,26 +37,24 @@ class Row:
     step: int | None = None
     keep: int = 0
     layer: str = "text"
+    tall: float = 0.0
+    boxes: tuple[Rect, ...] = ()
 
     @property
     def height(self) -> float:
-        return self.size * LEADING
+        return self.tall or self.size * LEADING
 
     @property
     def right(self) -> float:
         """How far the row reaches."""
-        return max((_right(cell, self.size) for cell in self.cells), default=0.0)
+        ends = (cell.x + width(cell.runs, self.size, cell.bold) * (1.0 - ANCHORS[cell.anchor]) for cell in self.cells)
+        return max((*ends, *(box.right for box in self.boxes)), default=0.0)
 
 
-def _right(cell: Cell, size: float) -> float:
-    long = width(cell.runs, size, cell.bold)
-    return cell.x + long * (1.0 - ANCHORS[cell.anchor])
+Placed = tuple[TextRow, float, float]
 
 
-Placed = tuple[Row, float, float]
-
-
-def fill(rows: Sequence[Row], columns: Sequence[Rect]) -> list[Placed] | None:
+def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | None:
     """Every row with its left edge and base line, running down the columns; none if they do not hold them."""
     placed: list[Placed] = []
     places = iter(columns)
@@ -72,13 +72,18 @@ def fill(rows: Sequence[Row], columns: Sequence[Rect]) -> list[Placed] | None:
     return placed
 
 
-def _gap(row: Row, y: float, column: Rect) -> float:
+def _gap(row: TextRow, y: float, column: Rect) -> float:
     """No gap at the head of a column."""
     return row.gap if y < column.top else 0.0
 
 
-def lettered(placed: Sequence[Placed]) -> Iterator[Text]:
-    """The rows as items."""
+def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
+    """The rows as items; the lettering of a tall one stands half-way up."""
     for row, x, y in placed:
+        foot = y - row.size * (LEADING - 1)
+        for box in row.boxes:
+            moved = Rect(x + box.left, foot + box.bottom, x + box.right, foot + box.top)
+            yield Polygon(BORDER, "blanks", row.step, moved.corners)
+        base = foot + (row.tall - CAPS * row.size) / 2 if row.tall else y
         for cell in row.cells:
-            yield Text(LETTERS, row.layer, row.step, (x + cell.x, y), cell.runs, row.size, cell.anchor, cell.bold)
+            yield Text(LETTERS, row.layer, row.step, (x + cell.x, base), cell.runs, row.size, cell.anchor, cell.bold)

@@ -3,17 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import partial
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK, TITLE
-from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
-from graphplan.sheet.words.answer_boxes import TICKED, blanks, fits, ticked
+from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.words.answer_boxes import TICKED, answer_rows, fits, ticked
 from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.problem_text import data, question
-from graphplan.sheet.words.rows import Cell, Row
-from graphplan.sheet.words.tables import Table
+from graphplan.sheet.words.rows import TextRow
+from graphplan.sheet.words.tables import Table, joined_tables
 from graphplan.sheet.words.texts import Words
 
 INSTRUMENTS = {
@@ -25,12 +26,14 @@ INSTRUMENTS = {
 class Task(Words):
     """All that is said on a task sheet, or where it is `guided`, on the sheet of a student who is told the steps."""
 
-    def lines(self, wide: float, guided: bool) -> list[Row]:
+    indent = TICKED
+
+    def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
         return [self._heading(GUIDED if guided else TASK, TITLE, 0.0), *self._given(wide),
-                *(self._steps(wide) if guided else ()), *self._blanks(wide), *(() if guided else self._hints(wide))]
+                *(self._steps(wide) if guided else ()), *self._answers(wide), *(() if guided else self._hints(wide))]
 
-    def _given(self, wide: float) -> Iterator[Row]:
+    def _given(self, wide: float) -> Iterator[TextRow]:
         scene = self.drawing.scene
         yield self._heading(said("Given"))
         for sentence in data(scene):
@@ -40,18 +43,11 @@ class Task(Words):
         for sentence in asked:
             yield from self._said(sentence, wide)
 
-    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
-        """A paragraph; a numbered one hangs from its number, before which there is a box to tick."""
-        if not number:
-            yield from super()._said(text, wide, step)
-            return
-        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - TICKED)
-        for i, runs in enumerate(lines):
-            row = Row((Cell(TICKED, runs),), step=step, keep=min(3, len(lines) - 1 - i))
-            yield row if i else ticked(Row((Cell(TICKED - 1.6, sentence_runs(number), "end"), *row.cells),
-                                           gap=0.5, step=step, keep=row.keep))
+    def _numbered(self, row: TextRow) -> TextRow:
+        """The row with a box to tick before its number."""
+        return ticked(row)
 
-    def _hints(self, wide: float) -> Iterator[Row]:
+    def _hints(self, wide: float) -> Iterator[TextRow]:
         """What is needed: instruments, and how many steps."""
         drawn = self.drawing.drawn
         steps = drawn.steps[drawn.givens:]
@@ -63,15 +59,13 @@ class Task(Words):
 
     # ---- the table to fill -----------------------------------------------------------------------------------------
 
-    def _blanks(self, wide: float) -> Iterator[Row]:
+    def _answers(self, wide: float) -> Iterator[TextRow]:
         """A box for every number that the construction gives, in the order of the solution."""
         pairs = [pair for pair in self._pairs() if any(pair)]
         yield from [self._heading(said("Results"))] if pairs else []
         for one, two in pairs:
-            both = [[*left, *right[1:]] for left, right in zip(one, two, strict=False)]
-            together = one and two and [row[0] for row in one] == [row[0] for row in two] and fits(both, wide)
-            for table in filter(None, (both,) if together else (one, two)):
-                yield from blanks(table, wide)
+            for table in joined_tables(one, two, partial(fits, wide=wide)):
+                yield from answer_rows(table, wide)
 
     def _pairs(self) -> Iterator[tuple[Table, Table]]:
         """The tables of the solution, two by two as they stand side by side."""

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property
-from typing import Any
+from functools import cached_property, partial
+from typing import Any, ClassVar
 
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
@@ -16,10 +16,10 @@ from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.deviations import Deviations
-from graphplan.sheet.words.rows import Cell, Row
-from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, rows, scalars, vectors
+from graphplan.sheet.words.rows import Cell, TextRow
+from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, narrow, rows, scalars, vectors
 
-HEADING, INDENT = 3.0, 8.5
+HEADING = 3.0
 RESULTS = "results"  # the layer of what is read when all is drawn
 
 
@@ -32,7 +32,8 @@ class Words:
 
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
-    _set: dict[float, tuple[list[Row], list[Row]]] = field(default_factory=dict)
+    _set: dict[float, tuple[list[TextRow], list[TextRow]]] = field(default_factory=dict)
+    indent: ClassVar[float] = 8.5  # mm: of what hangs from a number
 
     @property
     def drawing(self) -> Construction:
@@ -48,7 +49,7 @@ class Words:
         """What the construction reads off, by kind and name."""
         return self.drawing.read(Floats())
 
-    def rows(self, wide: float, pencil: Deviations) -> list[Row]:
+    def rows(self, wide: float, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
         if wide not in self._set:
             self._set[wide] = [*self._steps(wide)], [*self._check(wide), *self._forms(wide)]
@@ -56,19 +57,24 @@ class Words:
         found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
-    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[Row]:
+    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         """A paragraph, hanging from its number."""
-        indent = INDENT if number else 0.0
+        indent = self.indent if number else 0.0
         lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent)
         for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
-            yield Row((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
+            row = TextRow((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
+            yield self._numbered(row) if label else row
 
-    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> Row:
+    def _numbered(self, row: TextRow) -> TextRow:
+        """The row in which a number stands."""
+        return row
+
+    def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:
         runs = sentence_runs(self.plans.tongue(text))
-        return Row((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
+        return TextRow((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
 
-    def _steps(self, wide: float) -> Iterator[Row]:
+    def _steps(self, wide: float) -> Iterator[TextRow]:
         drawn, told = self.drawing.drawn, set[str]()
         yield self._heading(said("Construction"))
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
@@ -82,10 +88,11 @@ class Words:
             told.add(step.why)
             yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))
 
-    def _results(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+    def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))
         for one, two in self._motion(pencil):
-            yield from joined_tables(one, two, wide)
+            for table in joined_tables(one, two, partial(narrow, wide=wide)):
+                yield from rows(table)
         if self.drawing.scene.loads:
             yield from self._forces(wide, pencil)
 
@@ -110,7 +117,7 @@ class Words:
                     for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
         return one, two
 
-    def _forces(self, wide: float, pencil: Deviations) -> Iterator[Row]:
+    def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
 
         tables = ForceTables(self.drawing, self.values, pencil, self.plans.tongue)
@@ -119,19 +126,19 @@ class Words:
             yield from self._said(sentence, wide)
         yield from rows(tables.balance())
 
-    def _errors(self, wide: float, told: str) -> Iterator[Row]:
+    def _errors(self, wide: float, told: str) -> Iterator[TextRow]:
         if told:
             yield self._heading(said("Drawing errors"))
             yield from self._said(told, wide)
 
-    def _check(self, wide: float) -> Iterator[Row]:
+    def _check(self, wide: float) -> Iterator[TextRow]:
         if self.check:
             yield self._heading(said("Check"))
             parts = joined(joined((WORDS[kind], _within(float(gap))), " ") for kind, gap in self.check.items())
             yield from self._said(said("Largest difference from the analytic solver, beside the number's own "
                                        "size: {0}.", parts), wide)
 
-    def _forms(self, wide: float) -> Iterator[Row]:
+    def _forms(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Method and forms"))
         for kind, ways in self.drawing.method.items():
             yield from self._said(arranged("{0:capital}: {1}.", WORDS[kind], joined(ways)), wide)

@@ -9,11 +9,11 @@ directions as sines. It knows no rule, so a wrong rule shows.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Claim
-from graphplan.kernel.program import Step
+from graphplan.kernel.program import Program, Step
 
 TOLERANCE = 1e-9
 STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
@@ -91,7 +91,12 @@ def _forward(u: complex, v: complex) -> float:
     return _dot(_unit(v), u)
 
 
-# ---- lying on, running along ---------------------------------------------------------------------------------------
+def _short(length: float, ahead: bool) -> float:
+    """By how much a length is not ahead, or not back, where it should be."""
+    return max(0.0, -length if ahead else length)
+
+
+# ---- lying on, running along, in proportion ------------------------------------------------------------------------
 
 
 def _on(d: Drawn, k: int) -> float:
@@ -108,47 +113,6 @@ def _halfway(d: Drawn, i: int, j: int) -> float:
     return max(map(abs, apart)) / d.size + abs(way - 1j * _unit(d[j] - d[i]))
 
 
-def _shifted(d: Drawn, l: int, i: int, j: int) -> float:
-    """The end of the vector lies to the shifted line as its beginning lies to the line."""
-    return (d.off(-1, d[j]) - d.off(l, d[i])) / d.size
-
-
-def _alike(d: Drawn, k: int, l: int) -> float:
-    return _cross(d.way(k), d.way(l))
-
-
-# ---- which of two --------------------------------------------------------------------------------------------------
-
-
-def _way(d: Drawn, l: int, c: int) -> float:
-    forward = _dot(d.way(l), d[-1] - d[c])
-    return max(0.0, -forward if d.params["way"] == "on" else forward) / d.size
-
-
-def _side(d: Drawn, i: int, j: int) -> float:
-    left = _cross(_unit(d[j] - d[i]), d[-1] - d[i])
-    return max(0.0, -left if d.params["side"] == "left" else left) / d.size
-
-
-def _ahead(d: Drawn, l: int, i: int) -> float:
-    return max(0.0, -d.number("ratio") * _dot(d.way(l), d[-1] - d[i])) / d.size
-
-
-# ---- vectors -------------------------------------------------------------------------------------------------------
-
-
-def _laid(d: Drawn, l: int, i: int) -> float:
-    return abs(d[-1] - d[i] - d.number("length") * d.way(l)) / d.size
-
-
-def _times(d: Drawn, u: Vector, v: Vector) -> float:
-    return (_forward(d.vector(u), d.vector(v)) - d.number("ratio") * abs(d.vector(v))) / d.size
-
-
-def _times_across(d: Drawn, u: Vector, v: Vector) -> float:
-    return (_forward(d.vector(u), 1j * d.vector(v)) - d.number("ratio") * abs(d.vector(v))) / d.size
-
-
 def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
     whole, PQ = d[B] - d[A], d[Q] - d[P]
     part = _forward(d[C] - d[A], whole) / abs(whole)
@@ -156,11 +120,6 @@ def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
 
 
 # ---- images of a link ----------------------------------------------------------------------------------------------
-
-
-def _image(d: Drawn, i: int, j: int, m: int, n: int) -> float:
-    """The side between two images runs as the link's side does."""
-    return _sideways(d.vector((m, n)), d.turned(d.vector((i, j)))) / d.size
 
 
 def _likeness(d: Drawn, A: int, B: int, C: int, a: int, b: int) -> float:
@@ -290,58 +249,90 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     return min(abs(d.way(-1) - _unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
-RESIDUALS: dict[str, Callable[..., float]] = {
-    "stands": lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size,
-    "on": _on,
-    "heads": lambda d: abs(d.way(-1) - _unit(complex(d.number("dx"), d.number("dy")))),
-    "runs": lambda d, i, j: abs(d.way(-1) - _unit(d[j] - d[i])),
-    "parallel": lambda d, l: abs(d.way(-1) - d.way(l)),
-    "perpendicular": lambda d, l: abs(d.way(-1) - 1j * d.way(l)),
-    "alike": _alike,
-    "halfway": _halfway,
-    "shifted": _shifted,
-    "span": lambda d, i, j: (d.radius(-1) - abs(d[j] - d[i])) / d.size,
-    "measures": lambda d: (d.radius(-1) - abs(d.number("length"))) / d.size,
-    "centre": lambda d, i: abs(d[-1] - d[i]) / d.size,
-    "opened": lambda d, o: (d.radius(-1) - d.radius(o)) / d.size,
-    "way": _way,
-    "side": _side,
-    "ahead": _ahead,
-    "upright": lambda d, l, i: _dot(d.way(l), d[i] - d[-1]) / d.size,
-    "same": lambda d, u, v: abs(d.vector(u) - d.vector(v)) / d.size,
-    "quarter": lambda d, u, v: abs(1j * d.vector(u) - d.vector(v)) / d.size,
-    "moved": lambda d, u: abs(d.vector(u) - complex(d.number("dx"), d.number("dy"))) / d.size,
-    "laid": _laid,
-    "along": lambda d, u, v: _sideways(d.vector(u), d.vector(v)) / d.size,
-    "across": lambda d, u, v: _sideways(d.vector(u), 1j * d.vector(v)) / d.size,
-    "away": lambda d, u, v: max(0.0, -_forward(d.vector(u), d.vector(v))) / d.size,
-    "times": _times,
-    "times across": _times_across,
-    "proportion": _proportion,
-    "image": _image,
-    "likeness": _likeness,
-    "carried": _carried,
-    "locus": _locus,
-    "mean": _mean,
-    "coriolis": _coriolis,
-    "balanced": _balanced,
-    "counters": _counters,
-    "counters afar": _counters_afar,
-    "concurrent": _concurrent,
-    "turns": _turns,
-    "resists": _resists,
-    "takes couple": _takes_couple,
-    "touches": _touches,
-    "leans": _leans,
+# By how much a claim fails, and what the drawn thing is that breaks it; {0}, {1}, ... are its operands.
+CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
+    "stands": (lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size, "not where it is given"),
+    "on": (_on, "not on {0}"),
+    "heads": (lambda d: abs(d.way(-1) - _unit(complex(d.number("dx"), d.number("dy")))), "not in the given direction"),
+    "runs": (lambda d, i, j: abs(d.way(-1) - _unit(d[j] - d[i])), "not directed from {0} to {1}"),
+    "parallel": (lambda d, l: abs(d.way(-1) - d.way(l)), "not parallel to {0}, or it runs the other way"),
+    "perpendicular": (lambda d, l: abs(d.way(-1) - 1j * d.way(l)),
+                      "not perpendicular to {0}, or it runs the other way"),
+    "alike": (lambda d, k, l: _cross(d.way(k), d.way(l)), "not parallel to {0}"),
+    "halfway": (_halfway, "not as far from {0} as from {1}, or it runs the other way"),
+    "shifted": (lambda d, l, i, j: (d.off(-1, d[j]) - d.off(l, d[i])) / d.size,
+                "{2} does not lie to it as {1} lies to {0}"),
+    "span": (lambda d, i, j: (d.radius(-1) - abs(d[j] - d[i])) / d.size, "not as wide as {0} is from {1}"),
+    "measures": (lambda d: (d.radius(-1) - abs(d.number("length"))) / d.size, "not of the given length"),
+    "centre": (lambda d, i: abs(d[-1] - d[i]) / d.size, "not centred at {0}"),
+    "opened": (lambda d, o: (d.radius(-1) - d.radius(o)) / d.size, "not of the radius {0}"),
+    "way": (lambda d, l, c: _short(_dot(d.way(l), d[-1] - d[c]), d.params["way"] == "on") / d.size,
+            "the other intersection of {0} with {1}"),
+    "side": (lambda d, i, j: _short(_cross(_unit(d[j] - d[i]), d[-1] - d[i]), d.params["side"] == "left") / d.size,
+             "on the other side of the line from {0} to {1}"),
+    "ahead": (lambda d, l, i: _short(_dot(d.way(l), d[-1] - d[i]), d.number("ratio") > 0) / d.size,
+              "on the other side of {1} along {0}"),
+    "upright": (lambda d, l, i: _dot(d.way(l), d[i] - d[-1]) / d.size, "not square to {0} from {1}"),
+    "same": (lambda d, u, v: abs(d.vector(u) - d.vector(v)) / d.size, "{1} is not the vector {0}"),
+    "quarter": (lambda d, u, v: abs(1j * d.vector(u) - d.vector(v)) / d.size, "{1} is not {0}, turned by 90°"),
+    "moved": (lambda d, u: abs(d.vector(u) - complex(d.number("dx"), d.number("dy"))) / d.size,
+              "{0} is not the given vector"),
+    "laid": (lambda d, l, i: abs(d[-1] - d[i] - d.number("length") * d.way(l)) / d.size,
+             "not at the given distance from {1} along {0}"),
+    "along": (lambda d, u, v: _sideways(d.vector(u), d.vector(v)) / d.size, "{0} is not parallel to {1}"),
+    "across": (lambda d, u, v: _sideways(d.vector(u), 1j * d.vector(v)) / d.size, "{0} is not perpendicular to {1}"),
+    "away": (lambda d, u, v: _short(_forward(d.vector(u), d.vector(v)), True) / d.size, "{0} points against {1}"),
+    "times": (lambda d, u, v: abs(d.vector(u) - d.number("ratio") * d.vector(v)) / d.size,
+              "{0} is not the given multiple of {1}"),
+    "times across": (lambda d, u, v: abs(d.vector(u) - d.number("ratio") * 1j * d.vector(v)) / d.size,
+                     "{0} is not the given multiple of {1}, turned by 90°"),
+    "proportion": (_proportion, "it does not divide {3}{4} as {2} divides {0}{1}"),
+    "image": (lambda d, i, j, m, n: _sideways(d.vector((m, n)), d.turned(d.vector((i, j)))) / d.size,
+              "{2}{3} is no side of the image of {0}{1}"),
+    "likeness": (_likeness, "not similar to {0}{1}{2}"),
+    "carried": (_carried, "no similar figure has its other end on {4}"),
+    "locus": (_locus, "trial figures have their third ends off it"),
+    "mean": (_mean, "not the normal acceleration of {1} about {0}"),
+    "coriolis": (_coriolis, "not the Coriolis acceleration of {1}"),
+    "balanced": (_balanced, "not where the error of the trials vanishes"),
+    "counters": (_counters, "its moment about {0} does not balance the given force's"),
+    "counters afar": (_counters_afar, "it does not balance the given force with forces along {0} and {1}"),
+    "concurrent": (_concurrent, "not concurrent with {0} and {1}"),
+    "turns": (_turns, "not the given moment"),
+    "resists": (_resists, "not the moment against the angular acceleration"),
+    "takes couple": (_takes_couple, "the force there has not the couple's moment"),
+    "touches": (_touches, "the force there does not touch the friction circle"),
+    "leans": (_leans, "not turned by the friction angle"),
 }
 
 
 def residuals(step: Step, values: Sequence[Any]) -> list[tuple[Claim, float]]:
     """Each claim of a step with its residual; `values` are those of the whole program."""
     drawn = Drawn(step, values)
-    return [(claim, abs(RESIDUALS[claim[0]](drawn, *claim[1:]))) for claim in step.op.claims]
+    return [(claim, abs(CLAIMS[claim[0]][0](drawn, *claim[1:]))) for claim in step.op.claims]
 
 
 def unmet(step: Step, values: Sequence[Any], tolerance: float = TOLERANCE) -> list[tuple[Claim, float]]:
     """The claims that a step breaks, with their residuals; one that is no number breaks its claim."""
     return [(claim, residual) for claim, residual in residuals(step, values) if not residual <= tolerance]
+
+
+def broken(program: Program, values: Sequence[Any], tolerance: float = TOLERANCE) -> Iterator[str]:
+    """All claims that a program breaks in one pose, in the letters of the sheet, the first step's first."""
+    for step in program.steps:
+        for claim, residual in unmet(step, values, tolerance):
+            read = ", ".join(map(program.text, step.args))
+            yield (f"step {program.number(step.index)} ({program.text(step.index)} = {step.op.name}({read})): "
+                   f"{_broken(program, step, claim)}; by {residual:.1e} of its size")
+
+
+def _broken(program: Program, step: Step, claim: Claim) -> str:
+    """What a step is that breaks a claim, in the letters of the sheet."""
+    def named(operand: int | Vector) -> str:
+        if isinstance(operand, tuple):
+            return " ".join(map(named, operand))
+        return program.text((*step.args, step.index)[operand])
+
+    kind, *operands = claim
+    through = kind == "on" and step.op.gives == LINE
+    return ("not through {0}" if through else CLAIMS[kind][1]).format(*map(named, operands))

@@ -10,7 +10,7 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel.broken import broken
+from graphplan.kernel.claims import broken
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT

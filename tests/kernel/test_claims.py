@@ -10,8 +10,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from graphplan.kernel import Board
-from graphplan.kernel.broken import broken
-from graphplan.kernel.claims import unmet
+from graphplan.kernel.claims import broken, unmet
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.passes import freeze

@@ -12,7 +12,7 @@ from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
 
 from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
-from graphplan.kernel.broken import broken
+from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Pencil
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import pruned

@@ -11,7 +11,7 @@ import pytest
 from figures import LENGTHS, NAMES, drawn, figure
 
 from graphplan.kernel import TABLE
-from graphplan.kernel.broken import broken
+from graphplan.kernel.claims import broken
 from graphplan.kernel.numbers.floats import Floats
 
 Rule = Callable[..., Any]

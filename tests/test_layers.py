@@ -41,14 +41,14 @@ OUTSIDE = {
     "cv2": {"marking"},
     "pypdfium2": {"marking"},
     "svgelements": {"marking"},
-    "numba": {"kernel/tape/compiled.py"},
+    "numba": {"kernel/tape/blocks.py"},
     "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},
     "shtab": {"commands/completion.py"},
 }
 # Where the kernel reckons beyond Python alone.
 NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),
-           "kernel/tape/blocks.py", "kernel/tape/compiled.py"}
+           "kernel/tape/blocks.py"}
 
 
 def folder(path: Path) -> str:

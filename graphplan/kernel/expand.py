@@ -10,7 +10,7 @@ soon as it has taken as many movements as one that has nothing against it (branc
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
@@ -19,7 +19,7 @@ from graphplan.kernel.choice import Choice, Trial
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Board, Mark, Panel, Program, Step
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs
 
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
 SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
@@ -212,7 +212,7 @@ class Expander:
             self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:])))
 
 
-class Pencil:
+class Pencil(Verbs):
     """The board as a form sees it: the same verbs, and compounds inside are drawn out in turn.
 
     `names` are the letters for the marks inside; a form that is only tried has none.
@@ -221,17 +221,7 @@ class Pencil:
     def __init__(self, expander: Expander, names: dict[str, str] | None):
         self._expander, self._names = expander, names
 
-    def __getattr__(self, verb: str) -> Callable[..., Mark]:
-        if verb not in TABLE:
-            raise AttributeError(verb)
-        return lambda *args, name="", **params: self._draw(TABLE[verb], args, name, params)
-
-    def side(self, P: Mark, Q: Mark) -> Mark:
-        """The line through two points, whichever way it runs: drawn once for both orders."""
-        in_order = (P, Q) if P.step.index <= Q.step.index else (Q, P)
-        return self._draw(TABLE["line"], in_order, "", {})
-
-    def _draw(self, op: Primitive, args: tuple[Mark, ...], name: str, params: dict[str, Any]) -> Mark:
+    def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
         expander, letter = self._expander, (self._names or {}).get(name, "")
         mark = expander.draw(op, args, params, tried=self._names is None)
         return expander.board.named(mark, letter) if letter else mark

@@ -117,7 +117,22 @@ class Mark:
         return f"<{self.kind} {self.step.name or self.step.index}>"
 
 
-class Board:
+class Verbs:
+    """The primitives of the table as methods, drawn by the `draw` of the class."""
+
+    draw: Callable[..., Mark]
+
+    def __getattr__(self, verb: str) -> Callable[..., Mark]:
+        if verb not in TABLE:
+            raise AttributeError(verb)
+        return lambda *args, **given: self.draw(TABLE[verb], args, **given)
+
+    def side(self, P: Mark, Q: Mark) -> Mark:
+        """The line through two points, whichever way it runs: drawn once for both orders."""
+        return self.line(*sorted((P, Q), key=lambda mark: mark.step.index))
+
+
+class Board(Verbs):
     """Records drawing steps; its methods are the primitives of the table.
 
     The same operation on the same marks is drawn once. A step is drawn on the plan of the mark that it is drawn at;
@@ -129,41 +144,20 @@ class Board:
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
-        self._context: dict[str, Any] = {"panel": Panel(), "links": ()}
+        self._panel, self._links = Panel(), tuple[str, ...]()
 
     @contextmanager
     def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None) -> Iterator[None]:
         """Draw the steps inside on this plan, speaking of these links."""
-        before = self._context
-        self._context = {
-            "panel": before["panel"] if panel is None else panel,
-            "links": before["links"] if links is None else links,
-        }
+        before = self._panel, self._links
+        self._panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
         try:
             yield
         finally:
-            self._context = before
+            self._panel, self._links = before
 
-    def __getattr__(self, op: str) -> Callable[..., Mark]:
-        if op not in TABLE:
-            raise AttributeError(op)
-        return lambda *args, **given: self.draw(TABLE[op], args, **given)
-
-    def side(self, P: Mark, Q: Mark) -> Mark:
-        """The line through two points, whichever way it runs: drawn once for both orders."""
-        one, two = sorted((P, Q), key=lambda mark: mark.step.index)
-        return self.line(one, two)
-
-    def draw(
-        self,
-        op: Primitive,
-        args: tuple[Mark, ...],
-        *,
-        name: str = "",
-        why: str = "",
-        names: dict[str, str] | None = None,
-        **params: Any,
-    ) -> Mark:
+    def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
+             names: dict[str, str] | None = None, **params: Any) -> Mark:
         """Record one step; names that are taken get a prime, the first name of a mark stays."""
         read = [arg.step for arg in args]
         if (kinds := tuple([step.op.gives for step in read])) != op.reads:
@@ -179,9 +173,8 @@ class Board:
             if name and not same.step.name:
                 self._rename(same, name)
             return same
-        panel = read[op.where].panel if read else self._context["panel"]
-        step = Step(len(self.steps), "", op, places, params,
-                    panel, why, self._context["links"], names or {})
+        panel = read[op.where].panel if read else self._panel
+        step = Step(len(self.steps), "", op, places, params, panel, why, self._links, names or {})
         mark = Mark(self, step)
         self.steps.append(step)
         self.marks.append(mark)

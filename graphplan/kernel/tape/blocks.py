@@ -11,9 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import Entry, Question, Tape, operands
-from graphplan.kernel.tape.source import compiled
+from graphplan.kernel.tape.source import compiled, spoken, statements
 
 BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
@@ -32,8 +33,6 @@ class Blocks:
         self._registers = 0
         self._block: Callable[..., bool]
         if machine:
-            from graphplan.kernel.tape.compiled import loop
-
             self._block = loop(tape, inputs, outputs)
         else:
             writer = _Writer(tape, inputs, outputs)
@@ -83,6 +82,25 @@ def least(numbers: Any) -> float:
 def sign(value: Any, scale: Any) -> Any:
     """1, -1, or 0 where a value is nothing beside its scale."""
     return np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
+
+
+def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., bool]:
+    """A machine-code `block(inputs, outputs, registers)`, for numba: worth its compiling for millions of poses."""
+    try:
+        from numba import njit
+    except ImportError:
+        raise Refused("compiled", "numba is not installed", "pip install 'graphplan[numba]', or leave it out") from None
+    reads = [f"v{place} = I[{k}][k]" for k, place in enumerate(inputs)]
+    tells = [f"O[{k}][k] = {spoken(tape, place)}" for k, place in enumerate(outputs)]
+    body = "\n        ".join([*reads, *statements(tape, outputs, "return False"), *tells])
+    size = "I[0].size" if inputs else "O[0].size"
+    text = f"def block(I, O, R):\n    for k in range({size}):\n        {body}\n    return True"
+    made = njit(error_model="numpy")(compiled(text, "block"))
+
+    def block(I: Sequence[Any], O: Sequence[Any], R: Sequence[Any]) -> bool:
+        return bool(made(tuple(I), tuple(O), ()))
+
+    return block
 
 
 class _Writer:

@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from graphplan.kernel import TABLE
+
 ROOT = Path(__file__).parent.parent
 PACKAGE = ROOT / "graphplan"
 FILES = sorted(PACKAGE.rglob("*.py"))
@@ -158,3 +160,33 @@ def test_scenes_without_loads_touch_no_force_code(scene: str, touched: bool) -> 
             f"print([m for m in {FORCES!r} if 'graphplan.' + m in sys.modules], file=sys.stderr)")
     done = subprocess.run([sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, check=False)
     assert done.stderr.strip() == str(list(FORCES) if touched else []), done.stderr
+
+
+# Words that name an operation and something else as well: an element of SVG, a key of a scene, a kind of vector.
+OTHER_SENSES = {"line", "circle", "opening", "radius", "given", "pick", "begin", "balance", "couple", "normal"}
+
+
+def _told_by_name(tree: ast.AST) -> Iterator[ast.AST]:
+    """Where operations are told apart by their names: what stands in words or data alone is none of it."""
+    spoken = {id(inner) for node in ast.walk(tree) if isinstance(node, ast.FormattedValue) for inner in ast.walk(node)}
+    spoken |= {id(value) for node in ast.walk(tree) if isinstance(node, ast.Dict) for value in node.values}
+    names = set(TABLE) - OTHER_SENSES
+    for node in ast.walk(tree):
+        match node:
+            case ast.Attribute(attr="name", value=ast.Attribute(attr="op")) if id(node) not in spoken:
+                yield node
+            case ast.Subscript(value=ast.Name(id="TABLE"), slice=ast.Constant()):
+                yield node
+            case ast.Dict(keys=keys):
+                yield from (key for key in keys if isinstance(key, ast.Constant) and key.value in names)
+            case ast.Compare(comparators=[ast.Tuple(elts=elements) | ast.Set(elts=elements)]):
+                yield from (part for part in elements if isinstance(part, ast.Constant) and part.value in names)
+            case ast.MatchValue(value=ast.Constant(value=value)) if value in names:
+                yield node
+
+
+@pytest.mark.parametrize("path", [path for path in FILES if folder(path) != "kernel"], ids=named)
+def test_operations_are_told_by_their_records(path: Path) -> None:
+    """Outside the kernel nothing hangs on an operation's name: what is to be known of it stands in its record."""
+    found = [f"{named(path)}:{getattr(node, 'lineno', 0)}" for node in _told_by_name(ast.parse(path.read_text()))]
+    assert not found, f"operations told by name: {', '.join(found)}; ask their movement, root, crossing ..."

@@ -10,13 +10,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
 from typing import Any
 
-from graphplan.phrases import Said, said
+from graphplan.phrases import Said, said, sentence
 
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
@@ -129,6 +129,10 @@ class Primitive:
     def spans(self) -> bool:
         """Whether its mark lies between the two points that it reads."""
         return self.movement in (Movement.RULED, Movement.OPENED)
+
+    def spoken(self, read: Iterable[Any], **named: Any) -> Said:
+        """Its sentence, of what it reads, what comes `out` and its parameters in words."""
+        return sentence(self.name, self.sentence, read, named)
 
     def claimed(self, kind: str) -> list[Any]:
         """The first operands of the claims of a kind: those that it lies `on`, that it runs `parallel` to."""

@@ -14,7 +14,7 @@ from typing import Any, NoReturn, Self
 
 from graphplan.kernel.choice import Choice
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Movement, Primitive
-from graphplan.phrases import Said, arranged, phrase, said, sentence
+from graphplan.phrases import Said, arranged, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
@@ -269,7 +269,7 @@ class Program:
         step = self.steps[index]
         params = {name: _plain(value) for name, value in step.params.items()}
         marks = [self.text(arg) for arg in step.args]
-        return sentence(step.op.name, step.op.sentence, marks, {"out": self.text(index), **params})
+        return step.op.spoken(marks, out=self.text(index), **params)
 
     def told(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""

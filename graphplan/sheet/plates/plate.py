@@ -11,11 +11,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cached_property
 
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
-from graphplan.phrases import sentence as spoken
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
@@ -63,8 +62,8 @@ class Plates:
         for name in self.scene.points:
             if name not in found:
                 (x, y), index = self.plans.place(name), min((0, *(drawn.index for drawn in found.values()))) - 1
-                step = Step(index, name, TABLE["given"], (), {"x": x, "y": y}, MECHANISM)
-                told = spoken("given", step.op.sentence, (), {"out": name, "x": f"{x:g}", "y": f"{y:g}"})
+                step = Step(index, name, made_by(Movement.GIVEN), (), {"x": x, "y": y}, MECHANISM)
+                told = step.op.spoken((), out=name, x=f"{x:g}", y=f"{y:g}")
                 found[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y), self.plans.tongue(told))
         return found
 

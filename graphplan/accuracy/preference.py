@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
+from typing import Any
 
 from graphplan.accuracy import PREFERENCES
 from graphplan.accuracy.drafted import Drafted, drafted, percent
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
 from graphplan.kernel.kinds import FAILURES
+from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
@@ -72,23 +74,32 @@ class Preference:
 def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False, inertia: str = "couple",
           paper: str | None = None, construct: Constructing = unchecked) -> list[Form]:
     """Every form of a scene's construction, each on its sheet; those that cannot be drawn with their reason."""
-    found: list[Form] = []
-    for method in FORMS:
+    def made(methods: list[str], one: Construction | GraphplanError) -> list[Form]:
         try:
-            drawing = construct(scene, method=method, plan=plan, strict=strict, inertia=inertia)
-            same = next((form for form in found if form.drafted and _same(form.drafted.drawing, drawing)), None)
-            if same is not None:
-                found[found.index(same)] = replace(same, methods=(*same.methods, method))
-            else:
-                found.append(Form((method,), drafted(drawing, pencil, paper)))
+            if isinstance(one, GraphplanError):
+                raise one
+            return [Form(tuple(methods), drafted(one, pencil, paper))]
         except GraphplanError as refusal:
-            found.append(Form((method,), None, refusal))
-    return found
+            return [Form((method,), None, refusal) for method in methods]
+
+    ways = led_to(lambda method: construct(scene, method=method, plan=plan, strict=strict, inertia=inertia),
+                  lambda drawing: drawing.drawn)
+    return sorted([form for way in ways for form in made(*way)], key=lambda form: FORMS.index(form.methods[0]))
 
 
-def _same(one: Construction, other: Construction) -> bool:
-    """Whether two constructions are drawn by the same steps."""
-    return [step.key for step in one.drawn.steps] == [step.key for step in other.drawn.steps]
+def led_to(draw: Callable[[str], Construction],
+           program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
+    """The constructions of different programs to which methods lead, each with these; or why they lead to none."""
+    found: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
+    for method in FORMS:
+        one: Construction | GraphplanError
+        try:
+            one = draw(method)
+            key: Any = tuple([step.key for step in program(one).steps])
+        except GraphplanError as refusal:
+            one, key = refusal, str(refusal)
+        found.setdefault(key, ([], one))[0].append(method)
+    return list(found.values())
 
 
 def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", plan: str = "",

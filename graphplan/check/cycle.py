@@ -12,7 +12,6 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.measures import extent
 from graphplan.check.poses import Round, gaps, sound
 from graphplan.check.trusted import construct
 from graphplan.cycle import Turn, follow
@@ -21,6 +20,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION
+from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.styles import METHODS
 
 BACK = 1e-9  # of the mechanism's extent: points that are so near are in one place
@@ -105,7 +105,7 @@ def _construct(scene: Scene, **how: str) -> Construction:
 def _comes_back(scene: Scene) -> bool:
     """Whether every point is back in its place after a full turn of the first drive."""
     there = follow(scene, 2, (0.0, 360.0)).points
-    return all(abs(z[1] - z[0]) <= BACK * float(extent(scene)) for z in there.values())
+    return all(abs(z[1] - z[0]) <= BACK * extent(scene) for z in there.values())
 
 
 def _reached(turn: Turn) -> Any:

@@ -148,7 +148,7 @@ def _picture(found: Round, poses: list[Groups]) -> str:
         clip = picture.defs.add(MAKE.clipPath(id=f"panel-{number}"))
         clip.add(MAKE.rect((left, top), (wide, high)))
     picture.add(MAKE.rect((0, 0), (sheet.width, sheet.height), fill=PAPER))
-    for key in sorted({key for pose in poses for key in pose}, key=_place):
+    for key in sorted(dict.fromkeys(key for pose in poses for key in pose), key=_place):
         panel = panels.index(plans.plan_of_step[int(key)]) if key.isdigit() else 0
         picture.add(_marked(key, poses[0].get(key) or _empty(key, sheet), panel))
     return str(picture.tostring())

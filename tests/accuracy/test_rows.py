@@ -13,9 +13,8 @@ import pytest
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.survey import best_forms
 from graphplan.accuracy.survey.binary import binary, truth
-from graphplan.accuracy.survey.chains import chain
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts, front
-from graphplan.accuracy.survey.growth import STAGES, stages
+from graphplan.accuracy.survey.growth import STAGES, chain, stages
 from graphplan.accuracy.survey.machine import ARITHMETICS, COMPILED, LAPACK, SOLVERS, Measure, measures
 from graphplan.accuracy.survey.table import table
 from graphplan.mechanism.model import Scene

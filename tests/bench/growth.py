@@ -9,7 +9,7 @@ import numpy as np
 from harness import Row, alternate, duration
 
 import graphplan as gp
-from graphplan.accuracy.survey.chains import chain
+from graphplan.accuracy.survey.growth import chain
 
 LINKS = (50, 100, 200, 400, 700, 1000)
 LINEAR = 1.1  # the exponent up to which growth counts as linear

@@ -1,5 +1,9 @@
 """Growth: the time of each stage of the work, and the number of steps, from four links to a thousand.
 
+The chains are a crank and dyads, each between a pivot of the frame and the joint of the dyad before. All rockers are of
+one length and stand aslant by turns to the right and to the left, so that all turn equally fast: velocities neither die
+away along the chain nor grow.
+
 Times are told in single poses of the four-link chain that the analytic solver solves in the same round.
 """
 
@@ -7,13 +11,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from fractions import Fraction
 from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.survey.chains import chain
 from graphplan.accuracy.survey.timing import ROUNDS, ratios
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
 from graphplan.methods.construct import construct
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
@@ -24,6 +28,27 @@ POSES = 1000  # evaluated at once
 LONG = 50  # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
 STAGES = ("planning", "construction", "first replay", "pose in blocks", "pose by replay")
 UNIT = "four links solved"
+ACROSS, UP, PITCH = 3, 4, 10  # of a rocker; from one pivot to the next
+
+
+def chain(dyads: int) -> Scene:
+    """A crank and so many dyads: twice as many links, and the crank and the frame. All joints are asked for."""
+    points: dict[str, Pair] = {}
+    links: dict[str, tuple[str, ...]] = {}
+    for k in range(dyads + 1):
+        across = -ACROSS if k % 2 else ACROSS
+        points[f"R{k}"] = Fraction(PITCH * k), Fraction(0)
+        points[f"P{k}"] = Fraction(PITCH * k + across), Fraction(UP)
+        if k:
+            links[f"{2 * k}"] = f"P{k - 1}", f"P{k}"
+        links[f"{2 * k + 1}"] = f"R{k}", f"P{k}"
+    links[FRAME] = tuple(f"R{k}" for k in range(dyads + 1))
+    joints = tuple(f"P{k}" for k in range(dyads + 1))
+    return Scene(
+        title=f"Chain of {2 * dyads + 2} links", source="", name=f"chain of {2 * dyads + 2} links", units=Units(),
+        points=points, placements={}, links=links, motions={}, find=Find(joints, joints),
+        written=(TurningDrive("1", FRAME, Fraction(1), Fraction(0)),),
+    )
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ scene's own, enlarged by up to a fiftieth: as good a mechanism each, and other r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -16,7 +16,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.preference import FORMS, called
+from graphplan.accuracy.preference import called, led_to
 from graphplan.accuracy.survey.binary import binary, placed, truth
 from graphplan.accuracy.survey.stability import error_of
 from graphplan.accuracy.survey.timing import ratios
@@ -138,45 +138,31 @@ def _refused(refusal: GraphplanError) -> Run:
 def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanError]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in MOTION_PLANS:
-        found: list[tuple[list[str], Construction | GraphplanError]] = []
-        for method in FORMS:
-            one = _constructed(scene, method, plan)
-            same = next((names for names, other in found if _alike(one, other)), None)
-            if same is None:
-                found.append(([method], one))
-            else:
-                same.append(method)
-        for names, one in found:
+        for names, one in led_to(partial(_constructed, scene, plan), lambda drawing: drawing.program):
             yield called(names), plan, one
 
 
-def _constructed(scene: Scene, method: str, plan: str) -> Construction | GraphplanError:
-    try:
-        return construct(scene, method=method, plan=plan)
-    except GraphplanError as refusal:
-        return refusal
-
-
-def _alike(one: Construction | GraphplanError, other: Construction | GraphplanError) -> bool:
-    """Whether two methods lead to the same program, or to the same refusal."""
-    if isinstance(one, GraphplanError) or isinstance(other, GraphplanError):
-        return str(one) == str(other)
-    return [step.key for step in one.program.steps] == [step.key for step in other.program.steps]
+def _constructed(scene: Scene, plan: str, method: str) -> Construction:
+    return construct(scene, method=method, plan=plan)
 
 
 # ---- the construction's arithmetics ----------------------------------------------------------------------------
 
 
+def _each(one: Callable[[Any], Any], poses: Sequence[Any], read: Callable[[Any], Results] = lambda found: found) -> Run:
+    """One sampled pose after the other."""
+    return Run(lambda: [one(pose) for pose in poses], SAMPLED, lambda found, j: read(found[j]))
+
+
 def _walked(domain: Callable[[], Domain], lift: Callable[[float], Any], setting: Setting,
             drawing: Construction) -> Run:
     """The rules, one pose after the other."""
-    given = setting.given(drawing, lift)
-    return Run(lambda: [drawing.read(domain(), numbers) for numbers in given], SAMPLED, lambda found, j: found[j])
+    return _each(lambda numbers: drawing.read(domain(), numbers), setting.given(drawing, lift))
 
 
 def _replayed(setting: Setting, drawing: Construction) -> Run:
     """The replay that was written down from the tape, one pose after the other."""
-    return Run(lambda: [drawing.replay(pose) for pose in setting.sampled], SAMPLED, lambda found, j: found[j])
+    return _each(drawing.replay, setting.sampled)
 
 
 def _by_rules(setting: Setting, drawing: Construction) -> Run:
@@ -247,8 +233,7 @@ def _rates(setting: Setting, rates: Rates) -> Results:
 
 
 def _solved(setting: Setting) -> Run:
-    scenes = [poses.posed(setting.scene, pose, {}) for pose in setting.sampled]
-    return Run(lambda: [solve(scene) for scene in scenes], SAMPLED, lambda found, j: _rates(setting, found[j]))
+    return _each(solve, [poses.posed(setting.scene, pose, {}) for pose in setting.sampled], partial(_rates, setting))
 
 
 def _solved_at_once(setting: Setting) -> Run:
@@ -258,9 +243,8 @@ def _solved_at_once(setting: Setting) -> Run:
 
 
 def _solved_exactly(setting: Setting) -> Run:
-    scenes = [placed(setting.scene, pose) for pose in setting.sampled]
-    return Run(lambda: [solve(scene, exact=True) for scene in scenes], SAMPLED,
-               lambda found, j: _rates(setting, found[j]))
+    return _each(partial(solve, exact=True), [placed(setting.scene, pose) for pose in setting.sampled],
+                 partial(_rates, setting))
 
 
 SOLVERS: dict[str, Callable[[Setting], Run]] = {

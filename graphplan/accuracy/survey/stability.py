@@ -8,7 +8,6 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
-from graphplan.check.measures import difference, size
 from graphplan.errors import GraphplanError
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
@@ -84,11 +83,11 @@ def error_of(results: dict[str, dict[str, Any]], truth: Any) -> float:
     """The largest error of any velocity or acceleration, beside the largest of its kind."""
     worst = 0.0
     for kind in ("velocity", "acceleration"):
-        known = getattr(truth, kind)
-        largest = max((size(known[name]) for name in results.get(kind, {})), default=0)
-        for name, value in results.get(kind, {}).items():
-            ours = tuple(Fraction(number) for number in value)
-            worst = max(worst, float(size(difference(ours, known[name])) / largest) if largest else 0.0)
+        known, named = getattr(truth, kind), results.get(kind, {})
+        largest = max((abs(number) for name in named for number in known[name]), default=0)
+        gap = max((abs(Fraction(ours) - true) for name, value in named.items()
+                   for ours, true in zip(value, known[name], strict=True)), default=0)
+        worst = max(worst, float(gap / largest) if largest else 0.0)
     return worst
 
 

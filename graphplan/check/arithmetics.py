@@ -17,7 +17,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.directions import Misfit, vector
-from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide, TurningDrive
+from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact
 from graphplan.mechanism.placements import placed_by
 from graphplan.solver.bounded import PI, Unproven, bounded, heading
@@ -96,8 +96,8 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
         return one.direction if one.written is None else vector(one.written, points.__getitem__, by.reckoning)[:2]
 
     def driven(one: Drive) -> Drive:
-        if isinstance(one, TurningDrive) and one.rpm:
-            return one.driven_at(by.pi() * one.rpm / 30, one.alpha)
+        if one.rpm:
+            return one.driven_at(by.pi() * one.rpm / 30, one.change)
         return one
 
     try:

@@ -20,10 +20,9 @@ from graphplan.methods import kinds
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
-from graphplan.solver.efficiency import delivered, efficiency
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, held
-from graphplan.solver.friction import Frictional, leaning, with_friction
+from graphplan.solver.friction import Frictional, delivered, efficiency, leaning, with_friction
 from graphplan.solver.loads import acting, asked, resultants
 from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, repeating, without

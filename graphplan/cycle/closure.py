@@ -3,6 +3,10 @@
 Poses are complex arrays of shape (n, 2, links): the base of each link, in reaches of the linkage, and its turn. Each
 link has three freedoms: its base along x and y, and the angle of its turn. Lengths are all counted in reaches, so that
 they weigh as angles do. The same lines serve one pose and a block of n.
+
+A predicted pose is trusted only where the first correction is small beside the step that it predicts, where each
+further one is small beside the one before, and where no determinant of a part has changed its sign: it does wherever
+two branches meet.
 """
 
 from __future__ import annotations
@@ -14,6 +18,15 @@ import numpy as np
 
 from graphplan.cycle.linkage import Array, Linkage, direction
 from graphplan.mechanism.pairs.pair import Along, Turning
+
+_NEAR = 1 / 16
+"""The largest first correction, of the step."""
+
+_SHRINKING = 1 / 4
+"""The largest further correction, of the one before."""
+
+SETTLED = 2.0**-13
+"""A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
 
 
 class Correction(NamedTuple):
@@ -137,3 +150,26 @@ def given(linkage: Linkage) -> Array:
     """The given pose, as a block of one."""
     bases = np.array([linkage.origins[link] for link in linkage.links]) / linkage.reach
     return np.stack([bases, np.ones_like(bases)])[None]
+
+
+def settle(closure: Closure, predicted: Array, travel: Array, step: Array) -> tuple[Array, Array, Array]:
+    """The poses at these travels, the derivatives last used, and the mask of those to be trusted (their senses apart).
+
+    Reads predictions of shape (n, 2, links), travels (n,), and the length (n,) of the step that predicts each.
+    """
+    pose, trusted = predicted, np.ones(len(travel), dtype=bool)
+    allowed, settled = _NEAR * step, np.zeros(len(travel), dtype=bool)
+    while True:
+        correction = closure.correction(pose, travel)
+        size = correction.size
+        trusted = trusted & (size <= allowed)
+        pose = np.where(trusted[:, None, None], closure.corrected(pose, correction), predicted)
+        if np.all(settled | ~trusted):
+            return pose, correction.jacobian, trusted
+        settled = size <= SETTLED * step
+        allowed = np.where(settled, _NEAR * step, _SHRINKING * size)
+
+
+def distance(one: Array, other: Array) -> Array:
+    """How far n poses lie apart: the largest change of a link's base, in reaches, or of its turn; shape (n,)."""
+    return np.max(np.abs(one - other), axis=(1, 2))

@@ -17,10 +17,9 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from graphplan.cycle.closure import Closure, given
+from graphplan.cycle.closure import SETTLED, Closure, distance, given, settle
 from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.memory import afford
-from graphplan.cycle.newton import SETTLED, distance, settle
 from graphplan.cycle.travel import TURN, travel_unit
 
 Progress = Callable[[float], None]

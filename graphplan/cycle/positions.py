@@ -13,16 +13,16 @@ from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from graphplan.cycle.closure import Closure
+from graphplan.cycle.closure import Closure, settle
 from graphplan.cycle.continuation import Path
 from graphplan.cycle.dyads import Attitude, Dyad, Vector, dyad
 from graphplan.cycle.linkage import Array, Linkage, direction
-from graphplan.cycle.newton import settle
 from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.tape.blocks import BLOCK, Blocks
 from graphplan.kernel.tape.record import Symbols
 from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
 
 
@@ -176,46 +176,34 @@ def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
     if len(part) != 1 or len(drives) != 1 or len(pairs) != 1:
         return None
     ((drive, pace),), (pair,) = drives, pairs
-    if isinstance(pair, Slide) and drive.slides:
-        (carrier,) = {*pair.links} - {link}
-        return _Shifted(linkage, link, carrier, direction(pair) * (pace if pair.link == link else -pace))
-    if isinstance(pair, Revolute) and not drive.slides:
+    if isinstance(pair, Slide if drive.slides else Revolute):
         (other,) = {*drive.links} - {link}
-        return _Turned(linkage, link, pair.at, other, pace if drive.links[0] == link else -pace)
+        return _Driven(linkage, link, pair, other, pace if drive.link == link else -pace)
     return None
 
 
-class _Turned:
-    """A link turned about a joint, by `pace` a unit of travel from another link."""
+class _Driven:
+    """A link turned about a joint, by `pace` a unit of travel from another link, or shifted so along a slide on it."""
 
-    def __init__(self, linkage: Linkage, link: str, joint: str, other: str, pace: float):
-        self.joint, self.pace, self.needs = joint, pace, (other,)
-        self.body = _Body(linkage, link, linkage.places[joint])
+    def __init__(self, linkage: Linkage, link: str, pair: KinematicPair, other: str, pace: float):
+        self.pair, self.pace, self.needs = pair, pace, (other,)
+        place = linkage.places[pair.at] if isinstance(pair, Revolute) else linkage.origins[link]
+        self.body, self.lever = _Body(linkage, link, place), place - linkage.origins[other]
 
     def place(self, placed: Placed) -> None:
-        """Turn it."""
-        angle, (other,) = self.pace * placed.travel, self.needs
-        turn = np.empty(len(angle), dtype=complex)
-        np.cos(angle, out=turn.real)  # much faster than a complex exponential
-        np.sin(angle, out=turn.imag)
+        """Turn it, or shift it."""
+        travel, (other,) = self.pace * placed.travel, self.needs
+        if isinstance(self.pair, Slide):
+            turn = placed.turn[other]
+            way = self.lever + direction(self.pair) * travel
+            self.body.put(placed, placed.base[other] + turn * way, turn)
+            return
+        turn = np.empty(len(travel), dtype=complex)
+        np.cos(travel, out=turn.real)  # much faster than a complex exponential
+        np.sin(travel, out=turn.imag)
         if other != FRAME:
             turn *= placed.turn[other]
-        self.body.put(placed, placed.points[self.joint], turn)
-
-
-class _Shifted:
-    """A link shifted along a slide on its carrier, by the vector `way` a unit of travel."""
-
-    def __init__(self, linkage: Linkage, link: str, carrier: str, way: complex):
-        self.needs, self.way = (carrier,), way
-        self.lever = linkage.origins[link] - linkage.origins[carrier]
-        self.body = _Body(linkage, link, linkage.origins[link])
-
-    def place(self, placed: Placed) -> None:
-        """Shift it."""
-        (carrier,) = self.needs
-        turn = placed.turn[carrier]
-        self.body.put(placed, placed.base[carrier] + turn * (self.lever + self.way * placed.travel), turn)
+        self.body.put(placed, placed.points[self.pair.at], turn)
 
 
 def _constructed(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:

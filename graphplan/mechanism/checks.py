@@ -9,19 +9,21 @@ from __future__ import annotations
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, pairwise
+from itertools import combinations, islice, pairwise
 
+from graphplan.errors import by_name
 from graphplan.mechanism.bracing import Bracing, bracing
 from graphplan.mechanism.faults import Faults
 from graphplan.mechanism.items import quoted
 from graphplan.mechanism.model import FRAME, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
-from graphplan.mechanism.pivots import framed, missing_pivots
 from graphplan.mechanism.structure import mobility
 
 _SAME = Fraction(1, 10**12)
 """Rounded points that lie apart by less than this part of their coordinates were meant to coincide."""
+
+TRIED, TOLD = 200, 3  # sets of points, in a scene with many loose ends
 
 
 def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
@@ -145,3 +147,24 @@ def _listed(links: tuple[str, ...]) -> str:
 
 def _are(links: tuple[str, ...]) -> str:
     return "are" if len(links) > 1 else "is"
+
+
+def missing_pivots(scene: Scene, freedoms: int) -> list[tuple[str, ...]]:
+    """The points that would take so many freedoms from a scene if they were on the frame too, in each of a few ways.
+
+    They are on no other link, and with them the drives determine the motion. A pivot takes two freedoms. First come
+    those of the links with the fewest points, which have no other use.
+    """
+    if freedoms % 2 or scene.motions:  # of an open chain it is a motion that is missing
+        return []
+    fixed = scene.links.get(FRAME, ())
+    lone = {point: links[0] for point, links in scene.links_of.items() if len(links) == 1}
+    ends = sorted(lone.keys() - {*fixed}, key=lambda p: (len(scene.links[lone[p]]), by_name(p)))
+    ways = islice(combinations(ends, freedoms // 2), TRIED)
+    held = (way for way in ways if bracing(replace(scene, links={**scene.links, FRAME: (*fixed, *way)})).sound)
+    return list(islice(held, TOLD))
+
+
+def framed(scene: Scene, way: tuple[str, ...]) -> str:
+    """The frame with these points, as it is written."""
+    return f'frame = "{" ".join((*scene.links.get(FRAME, ()), *way))}"'

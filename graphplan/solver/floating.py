@@ -74,15 +74,10 @@ class Floating:
         return frozenset(int(i) for i in np.flatnonzero(self._contradiction(self._sides(right))))
 
 
-def for_rates(equations: Equations) -> Floating:
-    """The equations of a scene, decomposed."""
-    return Floating(*equilibrated(dense(equations.rows, equations.width), equations.reach))
-
-
-def for_forces(equations: Equations) -> Floating:
-    """The transposed equations of a scene, decomposed: what is a factor of rows in the one is one of columns here."""
+def prepared(equations: Equations, forces: bool = False) -> Floating:
+    """The equations of a scene, decomposed; for forces the transposed ones, whose rows' factors are columns'."""
     matrix, rows, columns = equilibrated(dense(equations.rows, equations.width), equations.reach)
-    return Floating(matrix.T, columns, rows)
+    return Floating(matrix.T, columns, rows) if forces else Floating(matrix, rows, columns)
 
 
 def independent(equations: Equations) -> list[int]:

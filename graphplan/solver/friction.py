@@ -12,23 +12,26 @@ import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import Any
 
 from graphplan.errors import SingularPose
-from graphplan.mechanism.model import Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, plus, times, turned
 from graphplan.mechanism.units import metre
-from graphplan.solver.efficiency import delivered, efficiency
 from graphplan.solver.equations import Equations
 from graphplan.solver.loads import asked
-from graphplan.solver.rubbing import Rubbing, rubbing, sign
+from graphplan.solver.rates import Rates
 from graphplan.solver.statics import Reactions, equilibrium, reactions
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
 ROUNDS = 20
 STANDS = 1e-14  # times the condition of the system: how close two rounds are at the end
 NOTHING = 8 * 2.0**-52  # times the condition, of the largest force: a smaller one has no direction
+
+ROUNDING = 8 * 2.0**-52  # times the condition of the rates: what moves more slowly beside the rest stands still
+IDLE = 1e-12  # of the power with friction: what the balances give without it is nothing but rounding
 
 
 @dataclass(frozen=True)
@@ -168,3 +171,95 @@ def drag(slide: Slide, normal: Pair, against: Rubbing) -> Pair:
     across = turned(slide.direction)
     size = dot(across, normal) / dot(across, across)
     return times(against.guides[slide.name] * max(size, -size), slide.direction)
+
+
+# --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
+
+
+@dataclass(frozen=True)
+class Rubbing:
+    """What friction makes of a reaction, negative where it opposes a positive motion.
+
+    `journals`: by point and link, the radius of the friction circle. `guides`: by slide, the coefficient of friction.
+    """
+
+    journals: dict[tuple[str, str], Number]
+    guides: dict[str, Number]
+
+    def part(self, share: Number) -> Rubbing:
+        """The same with all coefficients smaller."""
+        journals = {name: share * circle for name, circle in self.journals.items()}
+        return Rubbing(journals, {name: share * coefficient for name, coefficient in self.guides.items()})
+
+
+def rubbing(scene: Scene, rates: Rates) -> Rubbing:
+    """The frictions of the scene, with the senses of these rates; nothing where a pair does not move."""
+    return Rubbing(
+        {(joint.at, k): -circle(scene, joint.at) * turning(joint, k, rates)
+         for joint in scene.revolutes for k in joint.links[1:]},
+        {slide.name: -coefficient(scene, slide) * slipping(slide, rates) for slide in scene.slides},
+    )
+
+
+def circle(scene: Scene, point: str) -> Number:
+    """The radius of the friction circle of a joint."""
+    return sum((f.radius * f.coefficient for f in asked(scene).frictions if f.at == point), Fraction(0))
+
+
+def coefficient(scene: Scene, slide: Slide) -> Number:
+    """The coefficient of friction of a slide."""
+    found = (f.coefficient for f in asked(scene).frictions if f.slide == slide.links)
+    return sum(found, Fraction(0))
+
+
+def turning(joint: Revolute, link: str, rates: Rates) -> int:
+    """The sense in which a link turns on the one that carries the pin: 1, -1, or 0 where it does not."""
+    omega = {**rates.omega, FRAME: 0}
+    return sense(float(omega[link] - omega[joint.links[0]]) * rates.equations.reach, rates)
+
+
+def slipping(slide: Slide, rates: Rates) -> int:
+    """The sense in which a link slides along its guide's direction."""
+    length = math.hypot(*slide.direction)
+    return sense(float(dot(rates.slide_velocity[slide.name], slide.direction)) / length, rates)
+
+
+def sense(speed: float, rates: Rates) -> int:
+    """The sign of a speed, in length/s; 0 where rounding could make it of what moves fastest."""
+    points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
+    turnings = (abs(float(omega)) * rates.equations.reach for omega in rates.omega.values())
+    fastest = max(*points, *turnings, 0.0)
+    return sign(speed, ROUNDING * rates.condition * fastest)
+
+
+def sign(value: float, least: float) -> int:
+    """1 or -1, or 0 where a number is no larger than what is nothing."""
+    return (value > least) - (value < -least)
+
+
+# --- the efficiency, from the powers of the balances ----------------------------------------------------------------
+
+
+def delivered(found: Reactions) -> Number:
+    """The power that the balances give, in force * length/s."""
+    scene, rates = found.equations.scene, found.rates
+    power: Number = Fraction(0)
+    for balance, value in zip(asked(scene).balances, found.balances, strict=True):
+        if isinstance(value, tuple):
+            power += dot(value, rates.velocity[balance.at])
+        else:
+            power += value * metre(scene.units) * rates.omega[balance.link]
+    return power
+
+
+def efficiency(smooth: Any, rubbed: Any) -> Any:
+    """The efficiency from the powers of the balances without friction and with it; None where neither gives any.
+
+    Where the balances drive, it is the power without by the power with friction. Where the loads drive and the balances
+    hold back, it is the inverse: negative where the loads alone do not overcome the friction.
+    """
+    if not smooth and not rubbed:
+        return None
+    if abs(smooth) <= IDLE * abs(rubbed):
+        return 0 * rubbed
+    return smooth / rubbed if smooth > 0 else rubbed / smooth

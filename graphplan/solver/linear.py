@@ -28,29 +28,29 @@ class Linear(Protocol):
 
 def for_rates(equations: Equations, exact: bool) -> Linear:
     """The rates of every link are unknown: three columns a link, one row a fact."""
-    if exact:
-        require_fractions(equations.scene, numbers(equations))
-        return Elimination(equations.rows, equations.width)
-    from graphplan.solver.floating import for_rates  # numpy is imported there: fractions do without it
-
-    return for_rates(equations)
+    return _prepared(equations, exact, forces=False)
 
 
 def for_forces(equations: Equations, exact: bool) -> Linear:
     """What holds every fact is unknown: one column a fact, the three equilibrium conditions of each link as rows."""
+    return _prepared(equations, exact, forces=True)
+
+
+def _prepared(equations: Equations, exact: bool, forces: bool) -> Linear:
     if exact:
         require_fractions(equations.scene, numbers(equations))
-        return Elimination(transpose(equations.rows, equations.width), len(equations.facts))
-    from graphplan.solver.floating import for_forces
+        columns = transpose(equations.rows, equations.width) if forces else equations.rows
+        return Elimination(columns, len(equations.facts) if forces else equations.width)
+    from graphplan.solver.floating import prepared  # numpy is imported there: fractions do without it
 
-    return for_forces(equations)
+    return prepared(equations, forces)
 
 
 def condition(equations: Equations) -> float:
     """The 2-norm condition of either system, its rows and columns equilibrated."""
-    from graphplan.solver.floating import for_rates
+    from graphplan.solver.floating import prepared
 
-    return for_rates(equations).condition
+    return prepared(equations).condition
 
 
 def numbers(equations: Equations) -> Iterable[Number]:

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Force, Loads, Mass, Moment, Number, Scene
-from graphplan.mechanism.plane import dot, less, times, turned
+from graphplan.mechanism.model import FRAME, Force, Loads, Mass, Moment, Number, Scene
+from graphplan.mechanism.pairs.pair import Along, Rate
+from graphplan.mechanism.plane import less, times
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations
 from graphplan.solver.rates import Rates
@@ -41,9 +42,12 @@ def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
     sums: list[Number] = [0] * equations.width
     for load in loads:
         k = equations.columns[load.on]
-        if isinstance(load, Moment):
-            sums[k + 2] += load.value * metre(equations.scene.units)
-        else:
-            turn = dot(load.value, turned(equations.arm(load.on, load.at)))
-            sums[k : k + 3] = [a + b for a, b in zip(sums[k : k + 3], (*load.value, turn), strict=True)]
+        sums[k : k + 3] = [a + b for a, b in zip(sums[k : k + 3], weights(equations, load), strict=True)]
     return sums
+
+
+def weights(equations: Equations, load: Load) -> Rate:
+    """A load's force (x, y) and, in force * length, its moment about its link's base: what each rate gives of power."""
+    if isinstance(load, Moment):
+        return Rate(0, 0, load.value * metre(equations.scene.units))
+    return Along(load.on, FRAME, load.at, load.value, "held").weights(equations.arm(load.on, load.at))

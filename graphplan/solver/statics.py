@@ -113,7 +113,8 @@ def read(equations: Equations, values: Sequence[Number | None], rates: Rates) ->
 
 def sliding(scene: Scene, slide: Slide, found: dict[str, Any]) -> tuple[Pair, Number]:
     """A slide's force, across its guide, and its moment."""
-    return times(found["across"], turned(slide.direction)), found.get("turn", 0) / metre(scene.units)
+    across = found["across"]
+    return times(across, turned(slide.direction)), found.get("turn", 0 * across) / metre(scene.units)
 
 
 def balancing(scene: Scene, balance: Balance, value: Number) -> Pair | Number:

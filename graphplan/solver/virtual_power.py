@@ -11,12 +11,11 @@ from fractions import Fraction
 
 from graphplan.mechanism.model import Balance, Force, Moment, Number, Pair, Scene
 from graphplan.mechanism.pairs.pair import Rate
-from graphplan.mechanism.plane import dot, times
-from graphplan.mechanism.units import metre
+from graphplan.mechanism.plane import times
 from graphplan.solver.elimination import Elimination
 from graphplan.solver.equations import bound, held
 from graphplan.solver.linear import for_rates, require_fractions
-from graphplan.solver.loads import Load, acting, asked
+from graphplan.solver.loads import Load, acting, asked, weights
 from graphplan.solver.rates import Rates, solve, solved
 from graphplan.solver.statics import not_held
 
@@ -58,8 +57,4 @@ def unit(balance: Balance) -> Load:
 def powers(rates: Rates, loads: Iterable[Load], motion: dict[str, Rate]) -> Iterator[Number]:
     """The power of each load in a motion, in force * length/s."""
     for load in loads:
-        if isinstance(load, Moment):
-            yield load.value * metre(rates.equations.scene.units) * motion[load.on].turn
-        else:
-            point = rates.equations.side(load.on, load.at, motion)
-            yield dot(load.value, point.rate.at(point.arm))
+        yield sum(a * b for a, b in zip(weights(rates.equations, load), motion[load.on], strict=True))

@@ -48,7 +48,7 @@ class Kimech:
 
     def motion(self, travel: NDArray[Any]) -> KinematicSolution:
         """Positions, velocities and accelerations."""
-        omega, alpha = float(self.drive.omega), float(self.drive.alpha)
+        omega, alpha = float(self.drive.rate), float(self.drive.change)
         driver = KinematicDriver(self.crank, position=travel, velocity=omega, acceleration=alpha)
         return solve(self.mechanism, drivers=driver, initial_guess=self.guess)
 

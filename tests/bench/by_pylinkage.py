@@ -31,7 +31,7 @@ class Pylinkage:
         dyad = RRRDyad(crank.output, rest, abs(B - A), abs(B - C), x=B.real, y=B.imag, name="B")
         coupler = FixedDyad(crank.output, dyad, abs(M - A), cmath.phase((M - A) / (B - A)), name="M")
         self.n, self.linkage = n, Linkage([pivot, rest, crank, dyad, coupler], name=scene.name)
-        self.linkage.set_input_velocity(crank, float(drive.omega), float(drive.alpha))
+        self.linkage.set_input_velocity(crank, float(drive.rate), float(drive.change))
         self.linkage.compile()
         self.start: Any = self.linkage.get_coords()
 

@@ -18,7 +18,7 @@ from graphplan.check.json_results import data
 from graphplan.check.trusted import report
 from graphplan.commands import main
 from graphplan.errors import ConstructionError, SingularPose
-from graphplan.mechanism.model import FRAME, Drive, Scene, TurningDrive
+from graphplan.mechanism.model import FRAME, Drive, Scene
 from graphplan.mechanism.scene import load, packaged, parse
 
 RATIONAL = [name for name in packaged() if not load(name).irrational]
@@ -195,8 +195,8 @@ def test_rounding_is_no_alarm_and_a_given_rate_is_kept(text: str) -> None:
     found = report(scene)
     assert lies(found, scene) == []
     for drive in scene.drives:
-        if isinstance(drive, TurningDrive) and drive.relative_to == FRAME and drive.link in found.results["alpha"]:
-            assert found.results["alpha"][drive.link] == pytest.approx(float(drive.alpha), rel=1e-9)
+        if not drive.slides and drive.on == FRAME and drive.link in found.results["alpha"]:
+            assert found.results["alpha"][drive.link] == pytest.approx(float(drive.change), rel=1e-9)
 
 
 def frictionless(scene: Scene) -> Scene:

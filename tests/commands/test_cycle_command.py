@@ -125,7 +125,7 @@ def test_curves_are_their_own_rates(name: str, of: str) -> None:
 def test_a_drive_that_runs_back_gives_the_same_curve_backwards() -> None:
     """With the crank turning clockwise the diagrams run over growing time too."""
     scene = gp.load("slider-crank")
-    back = scene.with_drives([replace(scene.drives[0], omega=-10)])
+    back = scene.with_drives([replace(scene.drives[0], rate=-10)])
     wanted = quantities(back, ["3 along frame"])
     (curve,) = curves(cycle(asking(back, wanted), 90), wanted)
     assert (np.diff(curve.time) > 0).all()

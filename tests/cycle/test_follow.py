@@ -358,7 +358,7 @@ def test_the_construction_can_be_replayed_over_the_cycle(name: str) -> None:
     found = gp.construct(scene).evaluate(points=turn.points)
     for point in scene.find.velocity:
         if point in own(scene, turn, next(link for link in scene.links_of[point])):
-            by_turning = found.velocity[point] / float(scene.drives[0].omega)
+            by_turning = found.velocity[point] / float(scene.drives[0].rate)
             moved = np.gradient(turn.points[point], turn.travel)
             assert np.allclose(by_turning[1:-1], moved[1:-1], rtol=0, atol=1e-5 * np.max(np.abs(moved)))
 
@@ -380,8 +380,8 @@ def test_a_first_drive_that_stands_still_leads_nothing() -> None:
     scene = gp.load("five-bar")
     first, second = (drive for drive in scene.drives if not isinstance(drive, SlidingDrive))
     with pytest.raises(Refused, match="stands still"):
-        follow(scene.with_drives([replace(first, omega=0), second]), 12)
-    turn = follow(scene.with_drives([replace(first, omega=0), replace(second, omega=0)]), 12, (0, 11))
+        follow(scene.with_drives([replace(first, rate=0), second]), 12)
+    turn = follow(scene.with_drives([replace(first, rate=0), replace(second, rate=0)]), 12, (0, 11))
     assert np.all(turn.points["B"] == place(scene, "B"))
     assert np.allclose(turn.points["A"] - place(scene, "O"),
                        (place(scene, "A") - place(scene, "O")) * np.exp(1j * turn.travel))

@@ -93,7 +93,7 @@ def test_its_rates_are_those_of_its_closure(machine: Machine) -> None:
     omega, step, drive = solve(scene).omega, 1e-4, scene.drives[0]
     sliding = isinstance(drive, SlidingDrive)
     reach = max(abs(complex(*map(float, at))) for at in scene.points.values())
-    pace = float(drive.speed) / reach if sliding else float(drive.omega)
+    pace = float(drive.rate) / (reach if sliding else 1)
     ahead, behind = (closed(scene, sign * step, reach) for sign in (1, -1))
     fastest = max(abs(pace), *(abs(float(value)) for value in omega.values()))
     for k, link in enumerate(scene.moving):
@@ -126,7 +126,7 @@ def gaps(scene: Scene, pose: Any, travel: float, reach: float) -> Any:
     slips = {(s.link, s.along): (place(s.link, s.at) - place(s.along, s.at)) / complex(*map(float, s.direction))
              / turn(s.along) * abs(complex(*map(float, s.direction))) for s in scene.slides}
     drive = scene.drives[0]
-    driven = slips[drive.link, drive.along].real if isinstance(drive, SlidingDrive) else moved[drive.link][2]
+    driven = slips[drive.links].real if isinstance(drive, SlidingDrive) else moved[drive.link][2]
     return np.array([*(part for gap in joints for part in (gap.real, gap.imag)), *(gap.imag for gap in slips.values()),
                      *(moved[s.link][2] - moved[s.along][2] for s in scene.slides), driven - travel])
 

@@ -176,7 +176,7 @@ def test_at_rest_there_is_no_friction() -> None:
     scene = load("kinytskyi")
     drive = scene.drives[0]
     assert isinstance(drive, TurningDrive)
-    assert "friction" not in data(report(scene.with_drives([replace(drive, omega=Fraction(0))])))
+    assert "friction" not in data(report(scene.with_drives([replace(drive, rate=Fraction(0))])))
 
 
 def test_exact_leaves_journals_out() -> None:

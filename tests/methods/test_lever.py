@@ -36,7 +36,7 @@ def test_lever_at_rest(names: list[str], seed: int) -> None:
     drive = scene.drives[0]
     assert isinstance(drive, TurningDrive)
     try:
-        found = report(scene.with_drives([replace(drive, omega=Fraction(0))]), exact=True)
+        found = report(scene.with_drives([replace(drive, rate=Fraction(0))]), exact=True)
     except SingularPose:
         assume(False)
         raise

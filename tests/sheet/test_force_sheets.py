@@ -175,7 +175,7 @@ def test_the_lever_is_whole(name: str) -> None:
 def test_a_lever_with_assumed_velocities_has_no_scale_of_them() -> None:
     """At rest the lever's velocities are of any size, and only the forces have a scale."""
     scene = gp.load("jaanimets-10")
-    rest = scene.with_drives([replace(scene.drives[0], omega=0)])
+    rest = scene.with_drives([replace(scene.drives[0], rate=0)])
     assert "lever: k_F = " in gp.sheet.svg(gp.construct(rest))
     assert "lever: k_v = " in gp.sheet.svg(drawing_of("jaanimets-10"))
 

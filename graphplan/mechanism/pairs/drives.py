@@ -18,94 +18,51 @@ if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
 
 
+@dataclass(frozen=True)
 class Drive(KinematicPair):
-    """A drive between two links, of the first on the second: whether it `slides`, and otherwise turns."""
+    """A drive of `link` on the link `on`: the velocity that it prescribes, `rate`, and how that changes.
+
+    It turns (rad/s), or it `slides` along the guide of a slide, in lengths. `rpm` is the angular velocity in turns a
+    minute, where the scene writes it so.
+    """
 
     binds = 1
     slides: ClassVar[bool]
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The driven link, and the one on which it is driven."""
-        raise NotImplementedError
-
-    @property
-    def rates(self) -> tuple[Number, Number]:
-        """What it prescribes: a velocity and an acceleration, of turning or of sliding."""
-        raise NotImplementedError
-
-    @property
-    def rate(self) -> Number:
-        """The velocity alone."""
-        return self.rates[0]
-
-    @property
-    def change(self) -> Number:
-        """The acceleration alone."""
-        return self.rates[1]
-
-    def driven_at(self, rate: Any, change: Any) -> Drive:
-        """The same drive with other rates."""
-        raise NotImplementedError
-
-
-@dataclass(frozen=True)
-class TurningDrive(Drive):
-    """A prescribed angular velocity (rad/s) and acceleration (rad/s^2) of `link` relative to `relative_to`.
-
-    `rpm` is the angular velocity in turns a minute, where the scene writes it so.
-    """
-
-    letter = "T"
-    slides = False
     link: str
-    relative_to: str
-    omega: Number
-    alpha: Number
+    on: str
+    rate: Number
+    change: Number
     rpm: Number | None = field(default=None, compare=False)
 
     @property
     def links(self) -> tuple[str, str]:
         """The driven link, and the one on which it is driven."""
-        return self.link, self.relative_to
+        return self.link, self.on
 
     @property
     def rates(self) -> tuple[Number, Number]:
-        """The angular velocity and acceleration."""
-        return self.omega, self.alpha
+        """The velocity and its change."""
+        return self.rate, self.change
 
     def driven_at(self, rate: Any, change: Any) -> Drive:
-        """The same drive, turning otherwise."""
-        return replace(self, omega=rate, alpha=change, rpm=None)
+        """The same drive with other rates."""
+        return replace(self, rate=rate, change=change, rpm=None)
+
+
+class TurningDrive(Drive):
+    """A prescribed angular velocity and acceleration of one link relative to another, counter-clockwise positive."""
+
+    letter, slides = "T", False
 
     def states(self, scene: Scene) -> Iterator[Statement]:
         """How the link turns on the other."""
         yield Turning(*self.links, *self.rates)
 
 
-@dataclass(frozen=True)
 class SlidingDrive(Drive):
-    """A prescribed speed and acceleration of `link` along its guide on `along`, positive along the direction."""
+    """A prescribed speed and acceleration of a link along its guide, positive along the direction."""
 
     slides = True
-    link: str
-    along: str
-    speed: Number
-    acceleration: Number
-
-    @property
-    def links(self) -> tuple[str, str]:
-        """The driven link, and that of the guide."""
-        return self.link, self.along
-
-    @property
-    def rates(self) -> tuple[Number, Number]:
-        """The speed and the acceleration."""
-        return self.speed, self.acceleration
-
-    def driven_at(self, rate: Any, change: Any) -> Drive:
-        """The same drive, sliding otherwise."""
-        return replace(self, speed=rate, acceleration=change)
 
     def states(self, scene: Scene) -> Iterator[Statement]:
         """How the point of its slide runs along the guide."""

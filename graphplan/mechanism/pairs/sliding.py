@@ -10,6 +10,7 @@ from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import LINK, POINT, Field, Row, Rows, Table, on_link
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, KinematicPair, Statement, Turning
 from graphplan.mechanism.plane import Pair, turned
+from graphplan.phrases import phrase
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene
@@ -26,6 +27,8 @@ class Slide(KinematicPair):
 
     letter: ClassVar[str] = "P"
     passes: ClassVar[tuple[str, ...]] = (LINE, TURNING)
+    symbol: ClassVar[str] = "block"
+    sentence = phrase("Sliding pairs: {0}.")
     link: str
     along: str
     at: str

@@ -9,7 +9,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods.forces.letters import pair_letter, reaction_letter
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
-from graphplan.methods.forces.unknown_forces import Group, Joint, Site
+from graphplan.methods.forces.unknown_forces import Group, Joint, Site, has_line
 from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.methods.poses import Pose
 
@@ -37,6 +37,11 @@ class Parts:
                 at = pose.points[site.at]
                 line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
             self.known[site] = Known(None, line, at)
+        for slide in group.scene.slides:
+            if has_line(slide) and not group.done.intersection(slide.links) and {*slide.links} & {*group.links}:
+                with board.on(MECHANISM, group.links):
+                    line = board.perpendicular(pose.guide(slide), pose.points[slide.at])
+                self.known[slide] = Known(None, line, pose.points[slide.at])
 
     def numbered(self, mark: Mark) -> Mark:
         """A corner of the polygon, with the next number if it has none."""

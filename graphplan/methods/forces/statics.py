@@ -15,7 +15,7 @@ from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
-from graphplan.methods.forces.unknown_forces import FAR, Group, Joint, Position, Site, Span, equation
+from graphplan.methods.forces.unknown_forces import FAR, Group, Joint, Position, Site, Span, equation, has_line
 from graphplan.methods.motion.residues import Triple, cross, dot
 
 DEEPEST = 3  # trials within trials
@@ -136,8 +136,8 @@ class Equilibrium:
         self.options = 1
         whole = [site for part in group.parts for site, _ in group.boundary(part)]
         for site in dict.fromkeys(whole):
-            self.rank[site] = int(isinstance(site, Balance))
-            if isinstance(site, Balance):
+            self.rank[site] = int(has_line(site))
+            if has_line(site):
                 self.lines[site] = tuple(position.line(site) for position in positions)
                 self.through[site] = AtPoint(site.at)
 

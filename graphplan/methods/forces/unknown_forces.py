@@ -12,6 +12,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from random import Random
+from typing import TypeGuard
 
 from graphplan.mechanism.equations import PRIME, System
 from graphplan.mechanism.model import Balance, Scene, Slide
@@ -31,6 +32,11 @@ class Joint:
 
 
 Site = Joint | Slide | Balance
+
+
+def has_line(site: Site) -> TypeGuard[Balance | Slide]:
+    """Whether the line of a force is known beforehand: of a balance, and of a pair with a guide whose links turn."""
+    return isinstance(site, Balance) or (isinstance(site, Slide) and not site.turns_alike)
 
 
 def groups(scene: Scene) -> list[tuple[str, ...]]:
@@ -137,9 +143,9 @@ class Position:
             return self.points[site.point]
         return self.ways[site] if isinstance(site, Slide) else None
 
-    def line(self, balance: Balance) -> Triple:
-        """The one line of a balance."""
-        return cross(self.points[balance.at], self.ways[balance]) if balance.at else FAR
+    def line(self, site: Balance | Slide) -> Triple:
+        """The one line of a balance, or of a pair that leaves its links to turn."""
+        return cross(self.points[site.at], self.ways[site]) if site.at else FAR
 
     def finite(self, site: Site) -> Triple:
         """Any point where a site's force acts."""

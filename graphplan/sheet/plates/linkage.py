@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphplan.mechanism.model import FRAME, Scene, Slide, TurningDrive
+from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Run, sentence_runs
 from graphplan.sheet.plates import symbols
@@ -39,9 +39,9 @@ class Linkage:
         for link in self.scene.moving:
             yield from self._link(link)
         for slide in self.scene.slides:
-            yield symbols.block(self._seat(slide), self._along(slide))
+            yield symbols.PAIRS[slide.symbol](self._seat(slide), self._along(slide))
         for drive in self.scene.drives:
-            if isinstance(drive, TurningDrive) and drive.rate:
+            if not drive.slides and drive.rate:
                 yield from self._driven(drive)
         yield from self._pairs()
 
@@ -165,14 +165,14 @@ class Linkage:
         lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._around(inner))
         return -1.0 if lean > 0 else 1.0
 
-    def _driven(self, drive: TurningDrive) -> Iterator[Item]:
+    def _driven(self, drive: Drive) -> Iterator[Item]:
         """The sense of turning, about the pair of the driving link."""
-        pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.relative_to, ())]
+        pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.on, ())]
         others = [p for p in self.scene.links[drive.link] if p not in pairs]
         if pairs and others:
             here = self.spots[pairs[0]]
             ground = self._ground(pairs[0]) if pairs[0] in self._pivots else None
-            sign = 1.0 if drive.omega > 0 else -1.0
+            sign = 1.0 if drive.rate > 0 else -1.0
             yield from symbols.drive(here, unit(here, self.spots[others[0]]), sign, ground)
 
     # ---- letters ---------------------------------------------------------------------------------------------------

@@ -78,6 +78,10 @@ def block(at: Spot, along: Vector) -> Item:
     return Polygon(pens.BLOCK, "blocks", None, corners)
 
 
+PAIRS = {"block": block}
+"""The symbols of the pairs with a guide, by the names that their records have."""
+
+
 def bar(spots: Sequence[Spot]) -> Iterator[Item]:
     """A link whose points lie on one line, in their order along it; inner joints do not cut it."""
     yield Polyline(pens.BAR, "links", None, tuple(spots))

@@ -24,9 +24,9 @@ def data(scene: Scene) -> Iterator[Said]:
                ", ".join(f"{name} {_pair(at)}" for name, at in scene.points.items()))
     yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
                                      for link, names in scene.links.items()))
-    if scene.slides:
-        yield said("Sliding pairs: {0}.", joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
-                                                 for slide in scene.slides))
+    for kind in dict.fromkeys(type(slide) for slide in scene.slides):
+        yield kind.sentence(joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
+                                   for slide in scene.slides if type(slide) is kind))
     yield from _motion(scene)
     if scene.loads:
         yield from _loads(scene, scene.loads)

@@ -22,7 +22,7 @@ from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
-    from graphplan.sheet.cycle_frames import Round
+    from graphplan.sheet.cycle_frames import CycleFrames
     from graphplan.sheet.layout.composition import Composition
     from graphplan.sheet.plates.display import Sheet
 
@@ -76,7 +76,7 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     return [sheet for part in PARTS if only in (None, part) for sheet in pages[part]()]
 
 
-def _round(drawing: Construction, composition: Composition, positions: int) -> Round:
+def _round(drawing: Construction, composition: Composition, positions: int) -> CycleFrames:
     """The construction around its cycle, or where there is none, or none is wanted, in its own pose."""
     from math import degrees
 

@@ -19,7 +19,7 @@ from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import GREY, PAPER, Pen
 
 if TYPE_CHECKING:
-    from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Series
+    from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart
 
 SMALL = 2.2  # letters at the axes, in mm
 LEFT, RIGHT, ABOVE, BELOW = 16.0, 8.0, 10.0, 13.0  # around a picture: readings and labels
@@ -142,7 +142,7 @@ class _Scale:
         return kept
 
 
-def _draw(canvas: Canvas, panel: Panel, rect: Rect) -> None:
+def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
     """One picture: frame and divisions, areas and lines, then marks over them."""
     spots = [spot for series in panel.series for spot in (*series.spots, *(end for pair in series.spreads
                                                                           for end in pair))]
@@ -156,7 +156,7 @@ def _draw(canvas: Canvas, panel: Panel, rect: Rect) -> None:
             _mark(canvas, (x(a), y(b)), series.look)
 
 
-def _frame(canvas: Canvas, panel: Panel, rect: Rect, x: _Scale, y: _Scale) -> None:
+def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -> None:
     """The axes with their readings; thin divisions, and a line where numbers end and rails begin."""
     for at, words in x.ticks():
         canvas.line([(at, rect.bottom), (at, rect.top)], DIVISION)

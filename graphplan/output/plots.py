@@ -232,19 +232,17 @@ class _Column:
 
     def _errors(self, canvas: Canvas, left: float, level: float) -> None:
         """How far what was found is from the plans, in parts of the largest ordinate."""
-        rows = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
+        table = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
         for error in self.diagram.errors:
             letter, way = self.diagram.curve.letters[error.found.quantity], METHODS[error.found.method][0]
             order = "–" if error.order is None else digits(round(error.order, 2))
             sizes = [digits(100 * size, 2) for size in (error.largest, error.rms)]
-            rows.append([f"{letter} {self.say(way())}", *sizes, order])
-        stops = 0.0, 46.0, 60.0, 74.0
-        for k, row in enumerate(rows, 1):
-            for stop, word in zip(stops, row, strict=True):
+            table.append([f"{letter} {self.say(way())}", *sizes, order])
+        table.append([self.say(said("of the plans' largest ordinate at the same abscissas"))])
+        for k, row in enumerate(table, 1):
+            for stop, word in zip((0.0, 46.0, 60.0, 74.0), row, strict=False):
                 canvas.text((left + stop, level - k * LINE), self._set(word), anchor="end" if stop else "start")
-        canvas.line([(left + x, level - LINE - 1.2) for x in (stops[0], stops[-1])], AXIS)
-        told = self.say(said("of the plans' largest ordinate at the same abscissas"))
-        canvas.text((left, level - (len(rows) + 1.2) * LINE), sentence_runs(told))
+        canvas.line([(left, level - LINE - 1.2), (left + 74.0, level - LINE - 1.2)], AXIS)
 
     def _key(self, canvas: Canvas, left: float, level: float) -> None:
         """What each kind of line and mark says, of those that are drawn."""

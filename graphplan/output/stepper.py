@@ -21,7 +21,7 @@ from svgwrite.container import SVG
 
 from graphplan.output.svg import MAKE, Element, group, groups
 from graphplan.phrases import arranged, said
-from graphplan.sheet.cycle_frames import Round, Still
+from graphplan.sheet.cycle_frames import CycleFrames, Still
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
@@ -43,14 +43,14 @@ WORDS = {  # what stands on the page
 Groups = dict[str, Element]  # every group of a sheet, by layer or step
 
 
-def stepper(found: Round) -> str:
+def stepper(found: CycleFrames) -> str:
     """The page of a construction, in the tongue of its sheet."""
     page = files(__package__).joinpath("stepper.html").read_text("utf-8")
     parts = {**{f"word:{name}": escape(_say(found, word)) for name, word in WORDS.items()}, **_parts(found)}
     return re.sub(r"\{\{([\w:]+)\}\}", lambda place: parts[place[1]], page)
 
 
-def _parts(found: Round) -> dict[str, str]:
+def _parts(found: CycleFrames) -> dict[str, str]:
     """What the page is filled with besides words."""
     sheet = found.stills[0].sheet
     poses = [_groups(still) for still in found.stills]
@@ -63,18 +63,18 @@ def _parts(found: Round) -> dict[str, str]:
     }  # fmt: skip
 
 
-def _say(found: Round, text: str) -> str:
+def _say(found: CycleFrames, text: str) -> str:
     return found.composition.plans.tongue(text)
 
 
-def _set(found: Round, text: str) -> str:
+def _set(found: CycleFrames, text: str) -> str:
     """Words with the names of marks set as on the sheet."""
     names = tuple(step.name for step in found.drawing.drawn.steps if step.name)
     runs = sentence_runs(_say(found, text), names)
     return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
 
 
-def _remark(found: Round) -> str:
+def _remark(found: CycleFrames) -> str:
     """Why there is no turn, or which poses of it are left out."""
     if found.why:
         return _say(found, said("The drive cannot be turned here: {0}.", found.why))
@@ -85,7 +85,7 @@ def _remark(found: Round) -> str:
     return ""
 
 
-def _entries(found: Round) -> Iterator[str]:
+def _entries(found: CycleFrames) -> Iterator[str]:
     """The steps as items of an ordered list."""
     drawn, panel = found.drawing.drawn, ""
     for step in drawn.steps[drawn.givens:]:
@@ -95,7 +95,7 @@ def _entries(found: Round) -> Iterator[str]:
         yield f'<li>{head}<button type="button">{_set(found, drawn.sentence(step.index))}</button></li>'
 
 
-def _data(found: Round) -> dict[str, Any]:
+def _data(found: CycleFrames) -> dict[str, Any]:
     """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
     drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.stills[0].sheet
     panels = list(sheet.panels)
@@ -137,7 +137,7 @@ def _parted(item: Item) -> Item:
     return item
 
 
-def _picture(found: Round, poses: list[Groups]) -> str:
+def _picture(found: CycleFrames, poses: list[Groups]) -> str:
     """The sheet of the given pose, with a group for whatever is drawn in any pose."""
     sheet, plans = found.stills[0].sheet, found.composition.plans
     panels, size = list(sheet.panels), f"0 0 {sheet.width:g} {sheet.height:g}"
@@ -180,7 +180,7 @@ def _marked(key: str, group: Element, panel: int) -> Element:
 # ---- the poses ---------------------------------------------------------------------------------------------------
 
 
-def _packed(found: Round, poses: list[Groups]) -> str:
+def _packed(found: CycleFrames, poses: list[Groups]) -> str:
     """The groups that are not the same in all poses, with the places of marks, packed; nothing for one pose.
 
     The poses of a group stand in a row, as they are alike.

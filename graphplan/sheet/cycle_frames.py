@@ -104,7 +104,7 @@ class Still:
 
 
 @dataclass(frozen=True)
-class Round:
+class CycleFrames:
     """The poses of a cycle that are drawn alike, the given one first; `lost` are the stretches of travel, ends
     included, with those that are not.
 
@@ -118,13 +118,13 @@ class Round:
     why: str = ""
 
 
-def standing(drawing: Construction, composition: Composition, why: str = "") -> Round:
+def standing(drawing: Construction, composition: Composition, why: str = "") -> CycleFrames:
     """The given pose alone."""
-    return Round(drawing, composition, (_still(0.0, composition),), why=why)
+    return CycleFrames(drawing, composition, (_still(0.0, composition),), why=why)
 
 
 def turning(drawing: Construction, composition: Composition, travel: Sequence[float],
-            points: Mapping[str, Sequence[complex]], guides: Mapping[str, Sequence[complex]]) -> Round:
+            points: Mapping[str, Sequence[complex]], guides: Mapping[str, Sequence[complex]]) -> CycleFrames:
     """The construction in the poses of a turn, the first of which is the given pose.
 
     Reads a composed construction, the drive's travel in degrees, and where points and guides are; nan where nowhere.
@@ -143,7 +143,7 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
     base = _roomy(composition, [Plans(found) for found in poses.values()])
     stills = (_still(travel, _composed(base, found)) for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
-    return Round(drawing, base, (_still(0.0, base), *stills), ends)
+    return CycleFrames(drawing, base, (_still(0.0, base), *stills), ends)
 
 
 def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:

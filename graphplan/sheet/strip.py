@@ -76,13 +76,14 @@ class Strip:
         return self.plans.plan_of_step[step.index]
 
     @cached_property
-    def pictured(self) -> dict[str, Plan]:
+    def pictured(self) -> dict[str, DrawnPlan]:
         """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
         for wide in WIDTHS:
             frame = Rect(0.0, 0.0, wide, ASPECT * wide)
             views: dict[str, View] = {panel: self._window(panel, frame) for panel in self.plans.panels}
             plates = Plates(self.plans, views)
-            found: dict[str, Plan] = {plate.panel: Plan(plate.view, tuple(stacked(picture(plate)))) for plate in plates}
+            found: dict[str, DrawnPlan] = {
+                plate.panel: DrawnPlan(plate.view, tuple(stacked(picture(plate)))) for plate in plates}
             if not any(plan.crowded for plan in found.values()):
                 break
         return found
@@ -176,7 +177,7 @@ class Strip:
 
 
 @dataclass(frozen=True)
-class Plan:
+class DrawnPlan:
     """A plan as the pictures show it."""
 
     window: View

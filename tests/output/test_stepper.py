@@ -21,7 +21,7 @@ import pytest
 import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.output.stepper import stepper
-from graphplan.sheet.cycle_frames import Round, standing, turning
+from graphplan.sheet.cycle_frames import CycleFrames, standing, turning
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.lettering.lettering import sentence_runs
 
@@ -30,7 +30,7 @@ VOID = {"meta", "br", "hr", "input", "link", "img"}
 
 
 @cache
-def round_of(name: str) -> Round:
+def round_of(name: str) -> CycleFrames:
     """A scene in twelve poses of its cycle."""
     drawing = gp.construct(gp.load(name))
     turn = follow(drawing.scene, POSES)

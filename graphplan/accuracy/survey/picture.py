@@ -46,7 +46,7 @@ class Axis:
 
 
 @dataclass(frozen=True)
-class Panel:
+class SubChart:
     """One pair of axes and what is drawn on it."""
 
     title: str
@@ -61,12 +61,7 @@ class Chart:
 
     title: str
     remarks: str
-    panels: tuple[Panel, ...]
+    panels: tuple[SubChart, ...]
     columns: int
     size: tuple[float, float]
     key: tuple[tuple[str, Look], ...]
-
-    @property
-    def marks(self) -> int:
-        """How many marks stand on it."""
-        return sum(len(series.spots) for panel in self.panels for series in panel.series if series.look.marker)

@@ -7,7 +7,7 @@ words above it. The projection symbol is left out: a plan has none.
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import NamedTuple
 
 from graphplan.errors import Refused
@@ -62,11 +62,10 @@ class _Filled(NamedTuple):
 
 @dataclass(frozen=True)
 class IsoBlock:
-    """The title block of a scene after ISO 7200; its height is worked out once for a width."""
+    """The title block of a scene after ISO 7200."""
 
     scene: Scene
     tongue: Tongue
-    _heights: dict[float, float] = field(default_factory=dict)
 
     def width(self, frame: Rect, pitch: float) -> float:
         """The whole frame where the block has room for no more, else the pitch of the columns."""
@@ -74,10 +73,8 @@ class IsoBlock:
 
     def height(self, wide: float) -> float:
         """The same for every page."""
-        if wide not in self._heights:
-            rows = sum(_high(row, wide) for row in self._rows(wide))
-            self._heights[wide] = rows + 2 * PAD + sum(LEADING * size for _, size, _ in self._title(wide))
-        return self._heights[wide]
+        rows = sum(_high(row, wide) for row in self._rows(wide))
+        return rows + 2 * PAD + sum(LEADING * size for _, size, _ in self._title(wide))
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in its rectangle."""

@@ -74,7 +74,7 @@ class Wish:
 
 
 @dataclass(frozen=True)
-class Places:
+class Candidates:
     """Candidates, letter by letter: boxes, the spots they stand for, what their distance costs, which need a leader.
 
     Boxes are rows of left, bottom, right, top.
@@ -91,11 +91,11 @@ class Places:
         """The boxes with the air around them."""
         return self.boxes + AIR * OUTWARDS
 
-    def __getitem__(self, chosen: Any) -> Places:
-        return Places(self.letters[chosen], self.boxes[chosen], self.spots[chosen], self.cost[chosen], self.led[chosen])
+    def __getitem__(self, chosen: Any) -> Candidates:
+        return Candidates(*(part[chosen] for part in vars(self).values()))
 
 
-def places(wishes: Sequence[Wish], rect: Rect) -> Places:
+def candidates(wishes: Sequence[Wish], rect: Rect) -> Candidates:
     """All the places for letters inside the panel: spot by spot, from the nearest ring outwards."""
     counts = [len(wish.spots) for wish in wishes]
     spots = np.array([spot for wish in wishes for spot in wish.spots])
@@ -112,21 +112,20 @@ def places(wishes: Sequence[Wish], rect: Rect) -> Places:
     cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
-    found = Places(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
+    found = Candidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])
     return _with_outsiders(found, wishes, rect)
 
 
-def _with_outsiders(found: Places, wishes: Sequence[Wish], rect: Rect) -> Places:
+def _with_outsiders(found: Candidates, wishes: Sequence[Wish], rect: Rect) -> Candidates:
     """The places, and for each letter whose mark is at the edge one that is as near as the panel allows."""
     outside = np.flatnonzero(np.bincount(found.letters, minlength=len(wishes)) == 0).tolist()
     if not outside:
         return found
     boxes = [_pushed_in(wishes[letter], rect) for letter in outside]
     spots = [wishes[letter].spots[0] for letter in outside]
-    letters, cost = np.append(found.letters, outside), np.append(found.cost, np.full(len(outside), EDGE))
-    led = np.append(found.led, np.zeros(len(outside), dtype=bool))
-    every = Places(letters, np.concatenate([found.boxes, boxes]), np.concatenate([found.spots, spots]), cost, led)
-    return every[letters.argsort(kind="stable")]
+    more: tuple[Any, ...] = outside, boxes, spots, np.full(len(outside), EDGE), np.zeros(len(outside), dtype=bool)
+    every = Candidates(*(np.concatenate(pair) for pair in zip(vars(found).values(), more, strict=True)))
+    return every[every.letters.argsort(kind="stable")]
 
 
 def _pushed_in(wish: Wish, rect: Rect) -> tuple[float, float, float, float]:

@@ -12,7 +12,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import AIR, BALLOON, SMALL, Array, Places, Wish, places
+from graphplan.sheet.lettering.label_candidates import AIR, BALLOON, SMALL, Array, Candidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import CAPS
 from graphplan.sheet.lettering.obstacles import Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
@@ -30,7 +30,7 @@ class Prices:
     found, part by part, only for places that would win without it.
     """
 
-    def __init__(self, found: Places, parts: Sequence[Lines | Marks | Surfaces]):
+    def __init__(self, found: Candidates, parts: Sequence[Lines | Marks | Surfaces]):
         self.found, self.parts, self.cost = found, parts, found.cost.copy()
         self.known = np.zeros(len(found.cost), dtype=int)  # how many parts a place's price holds
 
@@ -64,7 +64,7 @@ def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot],
     """The letters in their places, with leaders where they had to go far."""
     if not wishes:
         return []
-    found = places(wishes, rect)
+    found = candidates(wishes, rect)
     choice = _chosen(Prices(found, (Lines(items), Marks(marks), Surfaces(items))), len(wishes))
     return [item for wish, place in zip(wishes, choice, strict=True) for item in _items(wish, found[place])]
 
@@ -107,7 +107,7 @@ def _overlap(boxes: Array, others: Array) -> Array:
     return np.asarray((touch * (1.0 + np.clip(wide, 0, None) * np.clip(high, 0, None))).sum(axis=1))
 
 
-def _items(wish: Wish, place: Places) -> Iterator[Item]:
+def _items(wish: Wish, place: Candidates) -> Iterator[Item]:
     """A letter at its place."""
     left, low, right, top = map(float, place.boxes)
     x, y = map(float, place.spots)

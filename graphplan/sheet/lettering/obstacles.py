@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 import shapely
 
-from graphplan.sheet.lettering.label_candidates import OUTWARDS, Array, Places
+from graphplan.sheet.lettering.label_candidates import OUTWARDS, Array, Candidates
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Spot
 
 TOUCH = 0.15  # the price of touching, in mm or mm^2 of what is touched
@@ -32,7 +32,7 @@ class Lines:
         self.stroke = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain, _ in chains])
         self.prices = np.array([price for _, price in chains])
 
-    def price(self, found: Places) -> Array:
+    def price(self, found: Candidates) -> Array:
         """For every stroke its length in a place and the air around it, and for touching it."""
         cells, count = found.cells, len(self.prices)
         who, what = self.tree.query(shapely.box(*cells.T))
@@ -76,7 +76,7 @@ class Marks:
         self.spots = np.array(spots, dtype=float).reshape(-1, 2)
         self.tree = shapely.STRtree(shapely.points(self.spots))
 
-    def price(self, found: Places) -> Array:
+    def price(self, found: Candidates) -> Array:
         """For every mark that is nearer than the place's own."""
         own = _gap(found.boxes, found.spots)
         who, what = self.tree.query(shapely.box(*(found.boxes + (own + BESIDE)[:, None] * OUTWARDS).T))
@@ -98,7 +98,7 @@ class Surfaces:
         self.figures, self.rates = np.array([f for f, _ in figures]), np.array([price for _, price in figures])
         self.tree = shapely.STRtree(self.figures)
 
-    def price(self, found: Places) -> Array:
+    def price(self, found: Candidates) -> Array:
         """For the area of every surface that a place and the air around it cover, and for touching it."""
         cells = shapely.box(*found.cells.T)
         who, what = self.tree.query(cells, predicate="intersects")

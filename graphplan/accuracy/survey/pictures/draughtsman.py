@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from graphplan.accuracy.survey.draughtsman import STRICT, Draft
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up",
@@ -31,7 +31,7 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
                  min(6, len(panels) or 1), (44.0, 36.0), tuple(_key()))
 
 
-def _panel(scene: str, rows: Sequence[Draft]) -> Panel:
+def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:
     """One scene: its front, from the worst error that is drawn to the most operations, and every form."""
     missing = sum(row.operations is None for row in rows)
     best = sorted({_spot(row) for row in rows if row.front})
@@ -41,7 +41,7 @@ def _panel(scene: str, rows: Sequence[Draft]) -> Panel:
         most, worst = (max(ends) for ends in zip(*map(_spot, there), strict=True))
         best = [(best[0][0], worst), *best, (most, best[-1][1])]
     stairs = [corner for (a, b), (c, d) in pairwise(best) for corner in ((a, b), (c, b), (c, d))]
-    return Panel(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
+    return SubChart(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
                  (Series(FRONT, tuple(dict.fromkeys(stairs))), *marks))
 
 

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from graphplan.accuracy.survey.growth import LONG, STAGES, Stage, exponent
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Series
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED
 
 LOOKS = {stage: Look(colour, marker, size=1.8, width=0.25, dash=dash) for stage, (colour, marker, dash) in zip(STAGES, (
@@ -24,10 +24,10 @@ REMARKS = (
 
 def picture(rows: Sequence[Stage]) -> Chart:
     """The chart of these stages."""
-    times = Panel("time", LINKS, Axis("time, in single poses of four links solved"), tuple(
+    times = SubChart("time", LINKS, Axis("time, in single poses of four links solved"), tuple(
         _times(look, [row for row in rows if row.stage == stage]) for stage, look in LOOKS.items()))
     counts = sorted({(row.links, row.steps) for row in rows})
-    steps = Panel("size of the program", LINKS, Axis("steps"), (Series(STEPS, tuple(counts)),))
+    steps = SubChart("size of the program", LINKS, Axis("steps"), (Series(STEPS, tuple(counts)),))
     return Chart("Growth with the number of links", REMARKS, (times, steps), 2, (120.0, 90.0),
                  (*((_told(rows, stage), look) for stage, look in LOOKS.items()), (_steps(counts), STEPS)))
 

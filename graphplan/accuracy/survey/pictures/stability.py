@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Panel, Place, Series, Spot
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, Spot, SubChart
 from graphplan.accuracy.survey.stability import EPSILON, METHODS, Sample
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, GREY, INK, RED, VIOLET
 
@@ -39,9 +39,9 @@ def picture(rows: Sequence[Sample]) -> Chart:
                  min(3, len(panels) or 1), (116.0, 70.0), tuple(_key()))
 
 
-def _panel(title: str, rows: Sequence[Sample]) -> Panel:
+def _panel(title: str, rows: Sequence[Sample]) -> SubChart:
     """One way to a special pose: the mechanism's own cost, and a line for each method."""
-    return Panel(title, DISTANCE, ERROR, (*_costs(rows), *(
+    return SubChart(title, DISTANCE, ERROR, (*_costs(rows), *(
         Series(look, tuple(_spot(row) for row in rows if row.method == name)) for name, look in LOOKS.items())))
 
 

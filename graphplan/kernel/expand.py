@@ -79,7 +79,7 @@ class Expander:
                     mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
-            place.append(self.board.named(mark, step.name) if step.name else mark)
+            place.append(self.board.named(mark, step.name))
         return Program(tuple(self.board.steps), tuple(place[index].step.index for index in self.program.wanted))
 
     def _params(self, step: Step, args: tuple[Mark, ...]) -> Mapping[str, Any]:
@@ -224,7 +224,7 @@ class Pencil(Verbs):
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
         expander, letter = self._expander, (self._names or {}).get(name, "")
         mark = expander.draw(op, args, params, tried=self._names is None)
-        return expander.board.named(mark, letter) if letter else mark
+        return expander.board.named(mark, letter)
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
         """How a mark was drawn: the operation, as a compound if it was one, and what it read."""

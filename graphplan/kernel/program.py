@@ -170,34 +170,26 @@ class Board(Verbs):
         key = _key(op, places, params)
         same = self._drawn.get(key)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
-            if name and not same.step.name:
-                self._rename(same, name)
-            return same
+            return self.named(same, name)
         panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, names or {})
         mark = Mark(self, step)
         self.steps.append(step)
         self.marks.append(mark)
         self._drawn[key] = mark
-        if name:
-            self._rename(mark, name)
-        return mark
-
-    def _rename(self, mark: Mark, name: str) -> None:
-        while name in self._names:
-            name += "'"
-        self._names.add(name)
-        named = replace(mark.step, name=name)
-        self.steps[named.index] = mark.step = named
+        return self.named(mark, name)
 
     def named(self, mark: Mark, name: str) -> Mark:
-        """The same mark, bearing this letter if it has none yet."""
-        if not mark.step.name:
-            self._rename(mark, name)
+        """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""
+        if name and not mark.step.name:
+            while name in self._names:
+                name += "'"
+            self._names.add(name)
+            self.annotate(mark.step.index, name=name)
         return mark
 
     def annotate(self, index: int, **notes: Any) -> None:
-        """Add notes (why, choice) to a step that is drawn."""
+        """Add notes (name, why, choice) to a step that is drawn."""
         self.steps[index] = self.marks[index].step = replace(self.steps[index], **notes)
 
     def rewind(self, length: int) -> None:

@@ -17,7 +17,7 @@ BLUNT = math.sin(math.radians(1))
 
 
 @dataclass(frozen=True)
-class Trial:
+class Rating:
     """How well one form draws in this pose; of one that was left off, how well it could at best."""
 
     form: str
@@ -45,8 +45,8 @@ class Choice:
     """The form in which a compound is drawn, and the others that can be drawn in this pose, the next best first."""
 
     compound: Primitive
-    best: Trial
-    others: tuple[Trial, ...]
+    best: Rating
+    others: tuple[Rating, ...]
 
     def __str__(self) -> str:
         return f"{self.compound.name}: {self.best.form}"

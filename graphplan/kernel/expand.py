@@ -15,7 +15,7 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.choice import Choice, Trial
+from graphplan.kernel.choice import Choice, Rating
 from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
 from graphplan.kernel.numbers.floats import Floats
@@ -102,36 +102,36 @@ class Expander:
 
         What is only `tried` is taken back, so it gets neither letters nor reasons.
         """
-        trials = [] if op.name in self.keep else self._trials(op, args, params, tried)
-        if not trials:
+        ratings = [] if op.name in self.keep else self._ratings(op, args, params, tried)
+        if not ratings:
             return self._record(op, args, params, why)
         before = len(self.board.steps)
-        out: Mark = op.forms[trials[0].form](Pencil(self, None if tried else dict(names or {})), *args, **params)
+        out: Mark = op.forms[ratings[0].form](FormBoard(self, None if tried else dict(names or {})), *args, **params)
         self._made.setdefault(out.step.index, (op.name, args))
         if not tried:
-            self._explain(op, before, trials, why, out)
+            self._explain(op, before, ratings, why, out)
         return out
 
-    def _trials(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
-                tried: bool = False) -> list[Trial]:
+    def _ratings(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
+                tried: bool = False) -> list[Rating]:
         """The forms that can be drawn, the best first; inside a form that is `tried` only the first is sure."""
         truth = op.rule(FLOATS, *map(self.value, args), **params)
-        found: list[Trial] = []
+        found: list[Rating] = []
         for form in op.forms:
-            trial = self._try(op, args, params, truth, form, self._allowed(form, found) if tried else math.inf)
-            found += [trial] if trial else []
+            rating = self._try(op, args, params, truth, form, self._allowed(form, found) if tried else math.inf)
+            found += [rating] if rating else []
         found.sort(key=self._rank)
         if found and found[0].left_off:
             raise Outdone
         return found
 
-    def _allowed(self, form: str, found: list[Trial]) -> float:
+    def _allowed(self, form: str, found: list[Rating]) -> float:
         """The movements that a form may take and still be better than those found."""
-        *ideal, _ = self._rank(Trial(form, 0))
-        return min((trial.movements - 1 for trial in found if self._rank(trial)[:-1] <= tuple(ideal)), default=math.inf)
+        *ideal, _ = self._rank(Rating(form, 0))
+        return min((one.movements - 1 for one in found if self._rank(one)[:-1] <= tuple(ideal)), default=math.inf)
 
-    def _rank(self, trial: Trial) -> tuple[Any, ...]:
-        return not (self.prefer and trial.form.startswith(self.prefer)), *trial.rank
+    def _rank(self, rating: Rating) -> tuple[Any, ...]:
+        return not (self.prefer and rating.form.startswith(self.prefer)), *rating.rank
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "") -> Mark:
         """Record one step and give it its value."""
@@ -143,19 +143,19 @@ class Expander:
         return mark
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             form: str, allowed: float) -> Trial | None:
+             form: str, allowed: float) -> Rating | None:
         """Draw a form without letters, in no more than the movements allowed; look at it, take it back."""
         before, size, limit = len(self.board.steps), self.size, self._limit
         self._limit = min(limit, before + allowed)
         try:
-            out: Mark | None = op.forms[form](Pencil(self, None), *args, **params)
+            out: Mark | None = op.forms[form](FormBoard(self, None), *args, **params)
             if out is None or not self._agrees(op, self.value(out), truth, size):
                 return None
             return self._judge(form, before)
         except (Undrawable, ZeroDivisionError):
             return None
         except Outdone:
-            return Trial(form, int(self._limit) + 1 - before, left_off=True)
+            return Rating(form, int(self._limit) + 1 - before, left_off=True)
         finally:
             self._limit = limit
             drawn = len(self.board.steps)
@@ -182,7 +182,7 @@ class Expander:
                 bool(locus) or not _runs_against(truth, value))
         return math.dist(value, truth) <= AGREE * size
 
-    def _judge(self, form: str, before: int) -> Trial | None:
+    def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
         if any(self._crosses_plans(step) for step in steps):
             return None
@@ -190,7 +190,7 @@ class Expander:
                        for step in steps if step.op.gives == POINT)
         crossings = [crossing(step, self.values) for step in steps if step.op.crossing]
         undrawn = sum(step.op.name not in self.keep for step in steps)
-        return Trial(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
+        return Rating(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
 
     def _crosses_plans(self, step: Step) -> bool:
         """Whether a step joins points of two plans, which stand apart, each at its own scale.
@@ -202,7 +202,7 @@ class Expander:
         return len({self.board.steps[arg].panel for arg in step.args}) > 1
 
 
-    def _explain(self, op: Primitive, before: int, ranked: list[Trial], why: str, out: Mark) -> None:
+    def _explain(self, op: Primitive, before: int, ranked: list[Rating], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is and why; at its last what it is good for."""
         if out.step.index < before or len(self.board.steps) == before:
             return
@@ -212,7 +212,7 @@ class Expander:
             self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:])))
 
 
-class Pencil(Verbs):
+class FormBoard(Verbs):
     """The board as a form sees it: the same verbs, and compounds inside are drawn out in turn.
 
     `names` are the letters for the marks inside; a form that is only tried has none.

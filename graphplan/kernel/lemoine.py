@@ -69,7 +69,7 @@ BY = {SET_SQUARES: phrase("by set squares {0}"), DIVIDERS: phrase("by dividers {
       COMPASSES: phrase("by compasses {0}")}
 
 
-class Hand:
+class Tally:
     """Plays a program through: what is in the compasses, and where they stand."""
 
     def __init__(self, program: Program):
@@ -127,7 +127,7 @@ class Hand:
 
 def counts(program: Program) -> Counts:
     """What drawing a program costs; in full only for a strict one, as Lemoine knew no set squares."""
-    hand = Hand(program)
+    tally = Tally(program)
     for step in program.steps:
-        hand.play(step)
-    return Counts(**hand.counts, others=dict(hand.others))
+        tally.play(step)
+    return Counts(**tally.counts, others=dict(tally.others))

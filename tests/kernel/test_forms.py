@@ -13,7 +13,7 @@ from figures import COMPOUNDS, Place, corners, drawn, figure, quarters, size
 from graphplan.errors import Undrawable
 from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
 from graphplan.kernel.claims import broken
-from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Pencil
+from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import pruned
 
@@ -61,8 +61,8 @@ def test_form_draws_the_value(name: str, form: str) -> None:
             reach = 50 * size(program, values)
             assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]], reach)
             expander, marks = laid_out(program, values, name)
-            found = expander._trials(TABLE[name], marks, program.steps[-1].params)
-            chosen += any(trial.form == form for trial in found)
+            found = expander._ratings(TABLE[name], marks, program.steps[-1].params)
+            chosen += any(rating.form == form for rating in found)
     assert chosen
 
 
@@ -72,7 +72,7 @@ def test_leaving_off_finds_the_best(name: str) -> None:
     for program, values in figures(name, corners, 40):
         expander, marks = laid_out(program, values, name)
         expander.keep = STRICT
-        ask = partial(expander._trials, TABLE[name], marks, program.steps[-1].params)
+        ask = partial(expander._ratings, TABLE[name], marks, program.steps[-1].params)
         assert ask(tried=True)[:1] == ask()[:1]
 
 
@@ -82,7 +82,7 @@ def test_form_fails_cleanly(name: str, form: str) -> None:
     for program, values in figures(name, corners, 100):
         expander, marks = laid_out(program, values, name)
         try:
-            TABLE[name].forms[form](Pencil(expander, None), *marks, **program.steps[-1].params)
+            TABLE[name].forms[form](FormBoard(expander, None), *marks, **program.steps[-1].params)
         except Undrawable as fault:
             assert fault.code in FAILURES
 

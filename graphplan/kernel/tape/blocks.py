@@ -35,7 +35,7 @@ class Blocks:
         if machine:
             self._block = loop(tape, inputs, outputs)
         else:
-            writer = _Writer(tape, inputs, outputs)
+            writer = BlockWriter(tape, inputs, outputs)
             self._block = compiled(writer.text(), "block")
             self._registers = writer.registers
 
@@ -103,7 +103,7 @@ def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[
     return block
 
 
-class _Writer:
+class BlockWriter:
     """Writes the function for one block; numbers are kept in registers, each taken again when its number is done with.
     """
 

@@ -26,7 +26,7 @@ def statements(tape: Tape, outputs: Sequence[int], hand_back: str) -> Iterator[s
 
     Inputs are names i0, i1, ... in the order of the tape's inputs; outputs are afterwards told by :func:`spoken`.
     """
-    yield from _Writer(tape, outputs, hand_back).lines
+    yield from StatementWriter(tape, outputs, hand_back).lines
 
 
 def spoken(tape: Tape, place: int) -> str:
@@ -34,7 +34,7 @@ def spoken(tape: Tape, place: int) -> str:
     return repr(tape.entries[place][1]) if tape.is_constant(place) else f"v{place}"
 
 
-class _Writer:
+class StatementWriter:
     def __init__(self, tape: Tape, outputs: Sequence[int], hand_back: str):
         self.tape, self.hand_back = tape, hand_back
         roots = [*outputs, *(place for q in tape.questions for place in _places(q))]

@@ -63,17 +63,26 @@ OPPOSITE = {"left": "right", "right": "left", "on": "back", "back": "on"}
 class Primitive:
     """One operation of the drawing board: everything that graphplan knows of it.
 
-    `reads` and `gives` are kinds; `rule(domain, *values, **params)` gives the value; `sentence` is spoken with the
-    names of what it reads as {0}, {1}, ... and of what it makes as {out}; `claims` are what the drawn thing must
-    satisfy; `fails` are the failure codes with what each means and what to do; `forms` are the ways to draw a
-    compound from earlier primitives, by name. `where` is the operand on whose plan it is drawn (-1: the last). Where
-    it is `symmetric` the order of its operands does not matter.
-
-    `movement` is what the hand does. The operands `afar` may lie on another plan, together on any one: of them only
-    directions and lengths count. `reversal` is the parameter that turns round where the first operand runs the other
-    way, or where two curves change places. `described` is how a line is spoken of where its number says nothing.
-    Of a compound that is `weighed` the choice of form is told, with its reason; `method` is what it is called where
-    the ways are listed in which forces are found.
+    | field | what it says |
+    |---|---|
+    | `name` | the verb of the board, and the key of its sentence in the catalogues |
+    | `reads`, `gives` | the kinds of its operands and of what it makes |
+    | `instrument` | what is taken in hand |
+    | `sentence` | how it is spoken: operands {0}, {1}, ..., what is made {out}, parameters by name |
+    | `rule` | `rule(domain, *values, **params)` gives the value; its docstring says what that is |
+    | `claims` | what the drawn thing must satisfy, whatever the rule: see :mod:`graphplan.kernel.claims` |
+    | `fails` | the codes of what may go wrong |
+    | `params` | the names of what it is given beside its operands |
+    | `source` | author, year and section |
+    | `where` | the operand on whose plan it is drawn (-1: the last) |
+    | `symmetric` | whether the order of its operands does not matter |
+    | `movement` | what the hand does |
+    | `afar` | operands that may lie on another plan, all on one: of them only directions and lengths count |
+    | `reversal` | the parameter that turns round where the first operand runs the other way, or curves change places |
+    | `described` | how a line is spoken of where its number says nothing |
+    | `forms` | the ways to draw a compound from other operations, by name, the textbook's first |
+    | `weighed` | whether the choice of its form is told, with its reason |
+    | `method` | what it is called where the ways are listed in which forces are found |
     """
 
     name: str
@@ -142,11 +151,6 @@ class Primitive:
         """The parameters with that of its reversal turned round: to the other side, or negative."""
         given = params[self.reversal]
         return {**params, self.reversal: OPPOSITE[given] if isinstance(given, str) else -given}
-
-    @property
-    def doc(self) -> str:
-        """What it gives, in one line."""
-        return (self.rule.__doc__ or "").strip().splitlines()[0]
 
 
 TABLE: dict[str, Primitive] = {}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from dataclasses import fields
 from fractions import Fraction
 from random import Random
 from string import Formatter
@@ -33,7 +34,7 @@ def test_sentence_speaks_of_everything(op: Primitive) -> None:
 
 def test_doc_is_one_line(op: Primitive) -> None:
     """What a primitive gives is told in one line that ends with a full stop."""
-    assert re.fullmatch(r"[A-Z].*\.", op.doc)
+    assert re.fullmatch(r"[A-Z].*\.", (op.rule.__doc__ or "").strip().splitlines()[0])
 
 
 def test_failure_codes_are_explained(op: Primitive) -> None:
@@ -93,6 +94,12 @@ def moved(kind: str, value: Any) -> Any:
     if kind in (POINT, CIRCLE):
         return value[0] + 3, value[1] - 2, *value[2:]
     return (*value[:2], value[2] - 3 * value[0] + 2 * value[1]) if kind == LINE else value
+
+
+def test_every_field_is_documented_once() -> None:
+    """The record says of each of its fields what it is, in one row."""
+    rows = re.findall(r"(?m)^ *\| (`.*`) \|", Primitive.__doc__ or "")
+    assert sorted(re.findall(r"`(\w+)`", " ".join(rows))) == sorted(field.name for field in fields(Primitive))
 
 
 def test_every_movement_is_made() -> None:

@@ -40,6 +40,18 @@ class Marked:
         """Whether something could be judged, and no step is wrong."""
         return self.score.total is not None and self.judgement.first is None
 
+    @property
+    def mistake(self) -> Said | None:
+        """What was probably done at the first wrong step."""
+        return self.judgement.first.mistake if self.judgement.first else None
+
+    @property
+    def told(self) -> Said:
+        """The verdict in words."""
+        if self.judgement.first is not None:
+            return complaint(self.judgement, self.judgement.first)
+        return said("no wrong step") if self.faultless else NOTHING()
+
 
 @dataclass(frozen=True)
 class Unread:
@@ -50,28 +62,12 @@ class Unread:
 
 
 @dataclass(frozen=True)
-class ReportRow:
-    """A drawing in one line: its score, its first wrong step, if there is one, the verdict in words, its mistake."""
-
-    file: str
-    score: float | None
-    step: Called | None
-    told: Said
-    mistake: Said | None
-
-
-@dataclass(frozen=True)
 class Classroom:
     """All drawings of a class, in the order of their files; each is judged by the construction that it follows."""
 
     title: str
     marked: tuple[Marked, ...]
     unread: tuple[Unread, ...] = ()
-
-    @property
-    def rows(self) -> list[ReportRow]:
-        """A line for every drawing."""
-        return [_row(one) for one in self.marked]
 
     @property
     def mean(self) -> float | None:
@@ -119,8 +115,8 @@ class Classroom:
         kind = next(iter(self.mistakes), None)
         return {
             "title": self.title,
-            "drawings": [{"file": row.file, "score": row.score, "first_wrong": row.step and row.step.number,
-                          "mistake": None if row.mistake is None else str(row.mistake)} for row in self.rows],
+            "drawings": [{"file": one.file, "score": one.score.total, "first_wrong": one.guilty and one.guilty.number,
+                          "mistake": None if one.mistake is None else str(one.mistake)} for one in self.marked],
             "not_judged": [{"file": one.file, "why": one.why} for one in self.unread],
             "mean_score": self.mean,
             "most_frequent_mistake": kind,
@@ -136,16 +132,9 @@ def mistaken(kind: str) -> Said:
     return MISTAKES[kind].words()
 
 
-def _row(one: Marked) -> ReportRow:
-    first, total = one.judgement.first, one.score.total
-    if first is None:
-        return ReportRow(one.file, total, None, said("no wrong step") if one.faultless else NOTHING(), None)
-    return ReportRow(one.file, total, one.guilty, complaint(one.judgement, first), first.mistake)
-
-
 def lines(found: Classroom) -> Iterator[Said]:
     """The class as text: a line for each drawing and each file that could not be judged, then the findings."""
-    for row in found.rows:
-        points = [] if row.score is None else [said("{0} of 100", f"{row.score:.0f}")]
-        yield arranged("{0}: {1}", row.file, joined((*points, row.told), "; "))
+    for one in found.marked:
+        points = [] if one.score.total is None else [said("{0} of 100", f"{one.score.total:.0f}")]
+        yield arranged("{0}: {1}", one.file, joined((*points, one.told), "; "))
     yield from found.findings()

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from html import escape
 
-from graphplan.marking.classroom import NOT_JUDGED, Classroom, ReportRow, mistaken
+from graphplan.marking.classroom import NOT_JUDGED, Classroom, Marked, mistaken
 from graphplan.output.report_page import FIGURE, HtmlCell, page, table
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue
@@ -43,16 +43,16 @@ class _ClassList:
 
     def _drawings(self) -> Iterator[str]:
         heads = (said("Drawing"), said("Score"), said("First wrong step"), said("Likely mistake"), said("Verdict"))
-        rows = [("" if row.step is None else "wrong", self._row(row)) for row in self.found.rows]
+        rows = [("" if one.guilty is None else "wrong", self._row(one)) for one in self.found.marked]
         yield f"<h2>{self.say(said('Drawings'))}</h2>"
         yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
                          [self.say(head) for head in heads], rows)
 
-    def _row(self, row: ReportRow) -> tuple[HtmlCell, ...]:
+    def _row(self, one: Marked) -> tuple[HtmlCell, ...]:
         return (
-            HtmlCell(escape(row.file)), HtmlCell("" if row.score is None else f"{row.score:.0f}", FIGURE),
-            HtmlCell("" if row.step is None else escape(row.step.short), FIGURE), HtmlCell(self.say(row.mistake or "")),
-            HtmlCell(self.say(row.told)),
+            HtmlCell(escape(one.file)), HtmlCell("" if one.score.total is None else f"{one.score.total:.0f}", FIGURE),
+            HtmlCell("" if one.guilty is None else escape(one.guilty.short), FIGURE),
+            HtmlCell(self.say(one.mistake or "")), HtmlCell(self.say(one.told)),
         )  # fmt: skip
 
     def _unread(self) -> Iterator[str]:

@@ -78,7 +78,7 @@ def test_a_class_may_follow_several_constructions() -> None:
     assert orthogonal != polar
     found = room(*drawings)
     assert found.histogram == {orthogonal: 1, polar: 2}
-    assert [row.step for row in found.rows] == [orthogonal, polar, polar]
+    assert [one.guilty for one in found.marked] == [orthogonal, polar, polar]
     assert found.data["most_frequent_first_wrong"] == polar.number
     assert f"Most frequent first wrong step: {polar.told} (2)." in map(str, lines(found))
 

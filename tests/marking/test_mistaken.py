@@ -13,11 +13,10 @@ from hands import Drawn, draw, frames, slipped, traced
 import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.evidence import FAINT, FILED, GONE, THERE, weighed
 from graphplan.marking.judge.findings import remark
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import Residual
+from graphplan.marking.judge.student_sheet import FAINT, FILED, GONE, THERE, Residual, weighed
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
 from graphplan.phrases import said

@@ -136,14 +136,9 @@ def record(judgement: Judgement, score: Score) -> dict[str, Any]:
 
 def _step(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """One step, with how far off it is where it can be seen."""
-    seen = judgement.measured(verdict)
-    return {
-        **_mark(judgement, verdict.step), "verdict": verdict.state,
-        "off_mm": _finite(verdict.off) if seen else None,
-        "tolerance_mm": _finite(verdict.tolerance) if seen else None,
-        "astray_mm": _finite(verdict.astray) if seen else None,
-        "mistake": None if verdict.mistake is None else str(verdict.mistake),
-    }  # fmt: skip
+    sizes = {f"{size}_mm": _finite(getattr(verdict, size)) if judgement.measured(verdict) else None
+             for size in ("off", "tolerance", "astray")}
+    return {**_mark(judgement, verdict.step), "verdict": verdict.state, **sizes, "mistake": _told(verdict)}
 
 
 def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
@@ -154,19 +149,12 @@ def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
 
 def _complaint(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """The first wrong step; `guilty` is the earlier one that is probably to blame, where there is one."""
-    drawn, guilty = judgement.drawing.drawn, verdict.blamed
+    guilty = verdict.blamed
     return {
-        **_mark(judgement, verdict.step), "sentence": str(drawn.sentence(verdict.step)),
-        "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance),
-        "mistake": None if verdict.mistake is None else str(verdict.mistake),
-        "kind": verdict.kind or None,
-        "guilty": None if guilty is None else _mark(judgement, guilty),
+        **_mark(judgement, verdict.step), "sentence": str(judgement.drawing.drawn.sentence(verdict.step)),
+        "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance), "mistake": _told(verdict),
+        "kind": verdict.kind or None, "guilty": None if guilty is None else _mark(judgement, guilty),
     }  # fmt: skip
-
-
-def _finite(size: float) -> float | None:
-    """A size as JSON takes it: what cannot be drawn from the student's marks is off by nothing that could be told."""
-    return size if math.isfinite(size) else None
 
 
 def _number(verdict: NumberVerdict) -> dict[str, Any]:
@@ -174,7 +162,15 @@ def _number(verdict: NumberVerdict) -> dict[str, Any]:
     number = verdict.number
     return {
         "kind": number.kind, "of": number.of, "value": list(number.value), "unit": number.unit,
-        "verdict": verdict.state, "true": list(verdict.true),
-        "off": _finite(verdict.off), "tolerance": _finite(verdict.tolerance),
-        "mistake": None if verdict.mistake is None else str(verdict.mistake),
+        "verdict": verdict.state, "true": list(verdict.true), "off": _finite(verdict.off),
+        "tolerance": _finite(verdict.tolerance), "mistake": _told(verdict),
     }  # fmt: skip
+
+
+def _told(verdict: Verdict | NumberVerdict) -> str | None:
+    return None if verdict.mistake is None else str(verdict.mistake)
+
+
+def _finite(size: float) -> float | None:
+    """A size as JSON takes it: what cannot be drawn from the student's marks is off by nothing that could be told."""
+    return size if math.isfinite(size) else None

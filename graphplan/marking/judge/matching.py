@@ -18,11 +18,21 @@ import numpy as np
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.evidence import ASSUMED, FAINT, FILED, GONE, SHARED, THERE, weighed
 from graphplan.marking.judge.image_search import ImageSearch, KnownMarks
 from graphplan.marking.judge.labels import sure
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import Residual, StudentSheet, plain
+from graphplan.marking.judge.student_sheet import (
+    ASSUMED,
+    FAINT,
+    FILED,
+    GONE,
+    SHARED,
+    THERE,
+    Residual,
+    StudentSheet,
+    plain,
+    weighed,
+)
 from graphplan.marking.judge.unlabelled import Unlabelled
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.traces import Trace

@@ -12,11 +12,10 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.evidence import FILED, GONE, THERE, weighed
 from graphplan.marking.judge.image_search import NEAR, KnownMarks
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import plain
+from graphplan.marking.judge.student_sheet import FILED, GONE, THERE, plain, weighed
 
 ROUGH = 0.6  # what is seen at a glance weighs as much less
 DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another

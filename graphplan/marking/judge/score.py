@@ -53,42 +53,34 @@ def _size(name: str, text: str) -> float:
     return size
 
 
-@dataclass(frozen=True)
-class Share:
-    """What was earned, of how much."""
-
-    earned: float
-    most: float
-
-    @property
-    def percent(self) -> float | None:
-        """Out of 100; none where there was nothing to earn."""
-        return 100.0 * min(max(self.earned / self.most, 0.0), 1.0) if self.most else None
+def percent(earned: float, most: float) -> float:
+    """What was earned out of 100."""
+    return 100.0 * min(max(earned / most, 0.0), 1.0)
 
 
 @dataclass(frozen=True)
 class Score:
-    """What each group of steps, and the numbers, have earned."""
+    """What each group of steps, and the numbers, have earned, and of how much; no group of nothing to earn."""
 
-    shares: Mapping[str, Share]
+    shares: Mapping[str, tuple[float, float]]
 
     @property
     def total(self) -> float | None:
         """Out of 100, of everything together; none where there was nothing to judge."""
-        return Share(sum(s.earned for s in self.shares.values()), sum(s.most for s in self.shares.values())).percent
+        return percent(*map(sum, zip(*self.shares.values(), strict=True))) if self.shares else None
 
     @property
     def told(self) -> Said:
         """In words, group by group."""
         if self.total is None:
             return arranged("{0:capital}.", NOTHING())
-        parts = joined(arranged("{0} {1}", GROUPS[group](), f"{percent:.0f}") for group, percent in self.groups.items())
+        parts = joined(arranged("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items())
         return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", parts)
 
     @property
     def groups(self) -> dict[str, float]:
         """Out of 100, group by group."""
-        return {group: percent for group, share in self.shares.items() if (percent := share.percent) is not None}
+        return {group: percent(*share) for group, share in self.shares.items()}
 
 
 def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
@@ -99,7 +91,7 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     for group, state, count in _counted(judgement, weighed):
         earned[group].append(count * float(getattr(weighed, state)))
         most[group] += count * weighed.right
-    return Score({group: Share(math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]})
+    return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]})
 
 
 def _counted(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:

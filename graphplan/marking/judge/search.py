@@ -14,11 +14,10 @@ from dataclasses import dataclass
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.evidence import FILED, THERE
 from graphplan.marking.judge.matching import ASTRAY, UNMARKED, Match, Matching
 from graphplan.marking.judge.mistakes import Mistake, mistakes
 from graphplan.marking.judge.quick_score import ROUGH, QuickScore
-from graphplan.marking.judge.student_sheet import apart, plain
+from graphplan.marking.judge.student_sheet import FILED, THERE, apart, plain
 from graphplan.marking.judge.verdict import WRONG
 
 TRIED = 16  # how many whole ways are gone through, to try the most promising mistakes

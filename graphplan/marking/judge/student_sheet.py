@@ -3,7 +3,9 @@
 Everything is reckoned with its derivatives by every slip of the hand, every reading of the sheet and every frame. So a
 mark's deviation from what the student's own earlier marks ask for comes with its own covariance; what all marks of a
 plan have in common, such as the frame they were read in, falls out by itself.
-"""
+
+How much a mark that is found, or is not, speaks for a way through a drawing is weighed in natural logarithms of odds:
+how much likelier what is seen is if the mark was drawn there than if it was not."""
 
 from __future__ import annotations
 
@@ -263,3 +265,19 @@ def _around(P: tuple[Any, Any], Q: tuple[Any, Any], R: tuple[Any, Any]) -> Any:
     uu, vv, cross = u[0] * u[0] + u[1] * u[1], v[0] * v[0] + v[1] * v[1], 2 * (u[0] * v[1] - u[1] * v[0])
     p, q = (uu * v[1] - vv * u[1]) / cross, (vv * u[0] - uu * v[0]) / cross
     return P[0] + p, P[1] + q, p * p + q * q
+
+
+THERE = {LINE: 5.0, CIRCLE: 2.5, POINT: 8.0}  # a mark of a picture where it should be; not many are there by chance
+FAINT = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only by seeking it
+FILED = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # a mark of a file, in which nothing is there by chance
+GONE = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # no mark, where one could be seen
+SHARED = 0.0  # a mark that was drawn for another step
+ASSUMED = -2.0  # a slip at a mark that is not to be seen itself
+HALF, WHOLE = 0.4, 0.8  # the share of a stroke that is hardly there, and that is as good as all
+
+
+def weighed(most: float, none: float, residual: Residual | None, share: float = 1.0) -> float:
+    """The weight, from none to most, of a mark that is so far off, and of whose stroke a share is to be seen."""
+    part = min(max((share - HALF) / (WHOLE - HALF), 0.0), 1.0)
+    beyond = max(0.0, residual.square - len(residual.off)) / 2 if residual else 0.0
+    return max(part * most + (1 - part) * none - beyond, none)

@@ -10,21 +10,24 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
+from graphplan.kernel.compounds import foot
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.marking.files.curves import circle
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.sheet.plates import clip
-from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
 from graphplan.sheet.plates.pens import PAPER, Pen
 from graphplan.sheet.plates.view import View
 
 LAYER = "student"
 BLUE, GREEN, RED, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8a5a7a", "#333333"
-PENS = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED)}
+PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED)}
 SPARE = Pen(0.3, PLUM, (0.3, 0.8))
 ALLOWED = Pen(0.13, DARK)
 WANTED = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
-SIZES = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3}  # half of a mark, in mm
+SIZES: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3}  # half of a mark, in mm
 REACH = 12.0  # mm of a line past the mark that it should have been, each way
 CORNERS = 36  # of an ellipse
 WHOLE = 0.99  # of a diameter: spots farther apart are opposite each other
@@ -45,7 +48,7 @@ class StudentStrokes:
         """What is spare, then the marks, wrong ones over the others, then tolerances, cut off at the panel's edge."""
         for trace in self.judgement.spare:
             if panel := self._under(trace):
-                yield from self._clipped(_drawn(trace, self.spots(trace, panel), SPARE, None, 0.6), panel)
+                yield from self._clipped(_drawn(trace, self.spots(trace, panel), None), panel)
         for verdict in sorted(self.judgement.verdicts, key=lambda verdict: verdict.state == WRONG):
             yield from self._mark(verdict)
         for verdict in self.judgement.verdicts:
@@ -81,8 +84,8 @@ class StudentStrokes:
 
     def _clipped(self, items: Iterator[Item], panel: str) -> Iterator[Item]:
         rect = self.views[panel].rect
-        for item in items:
-            if _held(item, rect):
+        for item in items:  # what is left whole is there if it lies on the panel
+            if not isinstance(item, Circle) or rect.holds(item.centre):
                 yield from clip.clipped(item, rect)
 
     def _mark(self, verdict: Verdict) -> Iterator[Item]:
@@ -92,9 +95,8 @@ class StudentStrokes:
             return
         if verdict.state == WRONG:
             yield from self._clipped(self._wanted(verdict, panel), panel)
-        drawn = _drawn(verdict.trace, self.spots(verdict.trace, panel), PENS[verdict.state], verdict.step,
-                       SIZES[verdict.state], verdict.state)
-        yield from self._clipped(drawn, panel)
+        yield from self._clipped(_drawn(verdict.trace, self.spots(verdict.trace, panel), verdict.state, verdict.step),
+                                 panel)
 
     def _wanted(self, verdict: Verdict, panel: str) -> Iterator[Item]:
         """Where a wrong mark should be, after the student's own earlier ones."""
@@ -106,10 +108,11 @@ class StudentStrokes:
             there = window((verdict.own[0], verdict.own[1]))
             yield Polyline(WANTED, LAYER, verdict.step, (here, there))
         elif verdict.trace.kind == LINE:
-            foot, way = _nearest(verdict.own, window, here)
-            long = max(REACH, math.dist(*_ends(self.spots(verdict.trace, panel))) / 2)
-            ends = tuple((foot[0] + side * long * way[0], foot[1] + side * long * way[1]) for side in (-1.0, 1.0))
-            yield Polyline(WANTED, LAYER, verdict.step, ends)
+            a, b, _ = verdict.own
+            at = [(here[i] - window.origin[i]) / window.scale for i in (0, 1)]
+            (x, y), size = window(foot(Floats(), verdict.own, at)), math.hypot(a, b)
+            long = max(REACH, math.dist(*self.spots(verdict.trace, panel)[:2]) / 2) / size
+            yield Polyline(WANTED, LAYER, verdict.step, ((x - long * b, y + long * a), (x + long * b, y - long * a)))
         else:
             x, y, r2 = verdict.own
             centre, radius = window((x, y)), math.sqrt(max(r2, 0.0)) * window.scale
@@ -140,25 +143,25 @@ class StudentStrokes:
 
 def sample(state: str | None, spot: Spot) -> Iterator[Item]:
     """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
-    (x, y), pen = spot, PENS.get(state or "", SPARE)
-    yield Polyline(pen, LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
-    yield from _point(spot, pen, None, SIZES.get(state or "", 0.6), state)
+    x, y = spot
+    yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
+    yield from _point(spot, state, None)
 
 
-def _drawn(trace: Trace, spots: Sequence[Spot], pen: Pen, step: int | None, size: float,
-           state: str | None = None) -> Iterator[Item]:
+def _drawn(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | None = None) -> Iterator[Item]:
     """A trace as it was drawn: a point by its shape, a stroke from end to end, an arc as far as it goes."""
     if trace.kind == POINT:
-        yield from _point(spots[0], pen, step, size, state)
+        yield from _point(spots[0], state, step)
     elif trace.kind == CIRCLE:
-        yield _arc(spots, pen, step)
+        yield _arc(spots, PENS.get(state, SPARE), step)
     else:
-        yield Polyline(pen, LAYER, step, tuple(spots[:2]))
+        yield Polyline(PENS.get(state, SPARE), LAYER, step, tuple(spots[:2]))
 
 
-def _point(spot: Spot, pen: Pen, step: int | None, size: float, state: str | None) -> Iterator[Item]:
+def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
     """A ring, a square if it is right after a slip, a cross if it is wrong."""
-    (x, y), firm = spot, Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
+    (x, y), pen, size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
+    firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
     corners = (x - size, y - size), (x + size, y - size), (x + size, y + size), (x - size, y + size)
     if state == WRONG:
         yield Polyline(firm.filled("none"), LAYER, step, (corners[0], corners[2]))
@@ -172,10 +175,10 @@ def _point(spot: Spot, pen: Pen, step: int | None, size: float, state: str | Non
 def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
     """The arc through the first, the middle and the last spot; a whole circle where the four are a quarter apart."""
     first, middle, last = spots[0], spots[len(spots) // 2], spots[-1]
-    centre = _centre(first, middle, last)
-    if centre is None:
+    found = circle(first, middle, last)
+    if found is None:
         return Polyline(pen, LAYER, step, tuple(spots))
-    radius = math.dist(centre, middle)
+    centre, radius = found
     across = [math.dist(spots[i], spots[i + 2]) for i in (0, 1)] if len(spots) == 4 else [0.0]
     if min(across) > WHOLE * 2 * radius:
         return Arc(pen, LAYER, step, centre, radius, 0.0, 360.0)
@@ -185,33 +188,5 @@ def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
     return Arc(pen, LAYER, step, centre, radius, start, start + (end - start) % 360.0)
 
 
-def _centre(first: Spot, second: Spot, third: Spot) -> Spot | None:
-    """The centre of the circle through three spots; none where they lie on a line."""
-    P, u, v = complex(*first), complex(*second) - complex(*first), complex(*third) - complex(*first)
-    across = 2 * (u.conjugate() * v).imag
-    if not across:
-        return None
-    centre = P + 1j * (u * abs(v) ** 2 - v * abs(u) ** 2) / across
-    return centre.real, centre.imag
-
-
 def _angle(centre: Spot, spot: Spot) -> float:
     return math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0]))
-
-
-def _nearest(line: Sequence[float], window: View, spot: Spot) -> tuple[Spot, Spot]:
-    """The foot on a plan's line of a spot on paper, and the way that the line runs."""
-    a, b, c = line
-    size = math.hypot(a, b)
-    x, y = ((spot[i] - window.origin[i]) / window.scale for i in (0, 1))
-    off = (a * x + b * y + c) / size**2
-    return window((x - off * a, y - off * b)), (b / size, -a / size)
-
-
-def _ends(spots: Sequence[Spot]) -> tuple[Spot, Spot]:
-    return spots[0], spots[1]
-
-
-def _held(item: Item, rect: Rect) -> bool:
-    """Whether an item that is left whole lies on the panel; strokes are cut off at its edge."""
-    return rect.holds(item.centre) if isinstance(item, Circle) else True

@@ -5,17 +5,14 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, POINT
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistakes import Mistake, value_of
 from graphplan.marking.judge.student_sheet import StudentSheet, plain
 from graphplan.marking.traces import Searched, Spot, Trace
 from graphplan.sheet.plates import clip
@@ -134,13 +131,8 @@ class ImageSearch:
 
     def _made(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
         mistake = own.mistakes.get(index)
-        if isinstance(mistake, tuple):
+        if isinstance(mistake, tuple):  # what it makes
             return mistake
         step = mistake.step if mistake else self.sheet.drawing.drawn.steps[index]
         read = {arg: self._value(arg, known, own) for arg in (*step.args, *(mistake.mirror or () if mistake else ()))}
-        if None in read.values():
-            return None
-        with suppress(Undrawable):
-            return plain(mistake.value(Floats(), read) if mistake else step.op.rule(
-                Floats(), *map(read.get, step.args), **step.params))
-        return None
+        return None if None in read.values() else value_of(step, read, mistake)

@@ -8,12 +8,16 @@ drawings that the finding is tested on.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from typing import Any
 
+from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, DIVIDERS, POINT, Movement, Primitive, made_by
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, phrase, said
@@ -46,6 +50,15 @@ class Mistake:
         start = values[self.step.root]
         dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real, self.factor.imag
         return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
+
+
+def value_of(step: Step, values: Sequence[Any] | Mapping[int, Any], mistake: Mistake | None
+             ) -> tuple[float, ...] | None:
+    """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
+    with suppress(Undrawable):
+        found: tuple[float, ...] = (mistake or Mistake("", said(""), step)).value(Floats(), values)
+        return found if all(map(math.isfinite, found)) else None
+    return None
 
 
 def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:

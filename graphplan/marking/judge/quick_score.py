@@ -5,22 +5,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
 from functools import cached_property
 
-from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.image_search import NEAR, KnownMarks
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.mistakes import Mistake
+from graphplan.marking.judge.mistakes import Mistake, value_of
 from graphplan.marking.judge.student_sheet import FILED, GONE, THERE, plain, weighed
 
 ROUGH = 0.6  # what is seen at a glance weighs as much less
 DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
 HOPELESS = -4.0  # the weight of what follows from a slip below which it is given up
-Values = Sequence[tuple[float, ...]]
+Value = tuple[float, ...]
 
 
 class QuickScore:
@@ -32,13 +29,10 @@ class QuickScore:
 
     def by(self, mistake: Mistake) -> float:
         """What is won if a slip was made; less than everything where it could not be."""
-        try:
-            made = mistake.value(Floats(), self.own)
-        except Undrawable:
-            return -math.inf
-        return self.gain(mistake.step, made) if all(map(math.isfinite, made)) else -math.inf
+        wrong = value_of(mistake.step, self.own, mistake)
+        return -math.inf if wrong is None else self.gain(mistake.step, wrong)
 
-    def gain(self, slipped: Step, wrong: tuple[float, ...]) -> float:
+    def gain(self, slipped: Step, wrong: Value) -> float:
         """What is won if a step made this; less than everything where it is not there, or nothing follows from it."""
         matching, at = self.matching, slipped.index
         values, moved, dead = list(self.own), set[int](), set[int]()
@@ -48,7 +42,7 @@ class QuickScore:
             gain, seen = gain + weight - ROUGH * matching.matches[arg].weight, seen + weight
         for step in matching.steps[at:]:
             if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
-                made = wrong if step.index == at else self._made(step, values)
+                made = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
                 if made is None:
                     dead.add(step.index)
                     continue
@@ -74,7 +68,7 @@ class QuickScore:
         image, way = self.matching.image, KnownMarks(self.own, self.mistakes)
         return image is not None and image.share(step, self.own[step.index], way) is None
 
-    def _differs(self, step: Step, made: tuple[float, ...]) -> bool:
+    def _differs(self, step: Step, made: Value) -> bool:
         """Whether a value is another to the eye than what the step was taken for."""
         own, home = self.own[step.index], self.matching.sheet.plan_of_step[step.index]
         if step.op.gives == LINE:
@@ -96,43 +90,25 @@ class QuickScore:
         return {home: [complex(pick(z.real for z in spots), also(z.imag for z in spots))
                        for pick in (min, max) for also in (min, max)] for home, spots in found.items()}
 
-    def _made(self, step: Step, values: Values) -> tuple[float, ...] | None:
-        """What a step makes of these values, with the mistakes that are known; None where it cannot be drawn."""
-        known = self.mistakes.get(step.index)
-        with suppress(Undrawable):
-            made: tuple[float, ...] = known.value(Floats(), values) if known else step.op.rule(
-                Floats(), *map(values.__getitem__, step.args), **step.params)
-            return made if all(map(math.isfinite, made)) else None
-        return None
-
-    def _seen(self, step: Step, made: tuple[float, ...], way: KnownMarks) -> tuple[float, tuple[float, ...]]:
-        """What speaks for a value, and the value as it is seen to be drawn."""
-        if step.op.gives == OPENING:
-            return 0.0, made
-        if step.op.gives == POINT:
-            return self._point(step, made, way)
-        matching = self.matching
-        if matching.image:
-            share = matching.image.share(step, made, way)
-            kind = step.op.gives
-            return 0.0 if share is None else ROUGH * weighed(THERE[kind], GONE[kind], None, share), made
-        _, off = matching.unlabelled.near(step.op.gives, matching.sheet.plan_of_step[step.index], made)
-        return self._weight(step, bool(off.min(initial=math.inf) < NEAR)), made
-
-    def _point(self, step: Step, made: tuple[float, ...], way: KnownMarks) -> tuple[float, tuple[float, ...]]:
-        """The same of a point, which may have drifted."""
-        matching, home = self.matching, self.matching.sheet.plan_of_step[step.index]
-        if matching.image:
-            if matching.image.share(step, made, way) is None:
-                return 0.0, made
-            trace = matching.image.trace(step, made, way, DRIFT)
+    def _seen(self, step: Step, value: Value, way: KnownMarks) -> tuple[float, Value]:
+        """What speaks for a value, and the value as it is seen to be drawn: a point may have drifted."""
+        kind, matching, home = step.op.gives, self.matching, self.matching.sheet.plan_of_step[step.index]
+        if kind == OPENING:
+            return 0.0, value
+        if image := matching.image:
+            share = image.share(step, value, way)
+            if share is None:
+                return 0.0, value
+            if kind != POINT:
+                return ROUGH * weighed(THERE[kind], GONE[kind], None, share), value
+            trace = image.trace(step, value, way, DRIFT)
         else:
-            places, off = matching.unlabelled.near(POINT, home, made)
+            places, off = matching.unlabelled.near(kind, home, value)
+            if kind != POINT:
+                return self._weight(step, bool(off.min(initial=math.inf) < NEAR)), value
             trace = matching.traces[places[off.argmin()]] if off.min(initial=math.inf) < DRIFT else None
-        if trace is None:
-            return self._weight(step, there=False), made
-        spot = matching.sheet.fits[home].frame.back(complex(*trace.spots[0]))
-        return self._weight(step, there=True), (spot.real, spot.imag)
+        spot = matching.sheet.fits[home].frame.back(complex(*trace.spots[0])) if trace else None
+        return self._weight(step, there=bool(spot is not None)), (spot.real, spot.imag) if spot is not None else value
 
     def _weight(self, step: Step, there: bool) -> float:
         """What a mark weighs, or its lack."""

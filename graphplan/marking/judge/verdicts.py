@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -20,7 +20,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, mistakes
-from graphplan.marking.judge.student_sheet import apart, bound, plain
+from graphplan.marking.judge.student_sheet import Residual, apart, bound, plain
 from graphplan.marking.judge.verdict import MISSING, UNSEEN, WRONG, Ellipse, Verdict
 
 CLOSEST = 16  # how many slips are looked at closely
@@ -112,58 +112,32 @@ def rests(matching: Matching) -> list[bool]:
 def verdicts(matching: Matching) -> Iterator[Verdict]:
     """What is said of every step; what is missing, but was drawn somehow, is merely not to be seen."""
     for match, drawn in zip(matching.matches, rests(matching), strict=True):
-        state = UNSEEN if match.state == MISSING and drawn else match.state
-        if match.place is not None:
-            yield _seen(matching, match)
-        elif match.mistake:
-            yield _assumed(matching, match)
-        else:
-            yield Verdict(match.step.index, state, own=plain(match.expected))
+        yield _verdict(matching, match, UNSEEN if match.state == MISSING and drawn else match.state)
 
 
-def _seen(matching: Matching, match: Match) -> Verdict:
-    """The verdict on a trace."""
-    assert match.place is not None
-    assert match.residual is not None
-    step, residual, chance = match.step, match.residual, matching.rules.chance
-    reason = explained(matching, match) if match.state == WRONG and not match.mistake else None
+def _verdict(matching: Matching, match: Match, state: str) -> Verdict:
+    """The verdict on a trace, or on a mark that is not to be seen, but from which all that follows is: of those only a
+    point is somewhere."""
+    step, sheet, seen, chance = match.step, matching.sheet, match.place is not None, matching.rules.chance
+    reason = explained(matching, match) if state == WRONG and seen and not match.mistake else None
     mistake = reason.mistake if reason else match.mistake
-    guilty = reason.source.index if reason else step.index if match.state == WRONG else None
-    return Verdict(
-        step.index, match.state, residual.size, residual.tolerance(chance), _astray(matching, match),
-        matching.traces[match.place], plain(match.expected), _ellipse(matching, match),
-        mistake.told if mistake else None, mistake.kind if mistake else "", guilty)
+    guilty = reason.source.index if reason else step.index if state == WRONG else None
+    found = Verdict(step.index, state, own=plain(match.expected), mistake=mistake.told if mistake else None,
+                    kind=mistake.kind if mistake else "", guilty=guilty)
+    if not seen and (not mistake or step.op.gives != POINT):
+        return replace(found, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else found
+    trace, true = None if match.place is None else matching.traces[match.place], sheet.drawing.values
+    spots = sheet.spots(step.index, trace) if trace else [(x, y) for x, y in [plain(matching.own[step.index])]]
+    residual = match.residual or sheet.residual(step, match.expected, spots, matching.own)
+    return replace(found, off=residual.size, tolerance=residual.tolerance(chance), trace=trace,
+                   astray=sheet.residual(step, true[step.index], spots, true).size,
+                   ellipse=_ellipse(residual, step, chance) if trace else None)
 
 
-def _assumed(matching: Matching, match: Match) -> Verdict:
-    """The verdict on a mark that is not to be seen, but from which all that follows is: only a point is somewhere."""
-    assert match.mistake is not None
-    step, sheet = match.step, matching.sheet
-    off = tolerance = astray = math.inf
-    if step.op.gives == POINT:
-        made = plain(matching.own[step.index])
-        residual = sheet.residual(step, match.expected, [(made[0], made[1])], matching.own)
-        off, tolerance = residual.size, residual.tolerance(matching.rules.chance)
-        astray = math.dist(made, sheet.drawing.values[step.index]) * sheet.mm(sheet.plan_of_step[step.index])
-    return Verdict(step.index, WRONG, off, tolerance, astray, own=plain(match.expected), mistake=match.mistake.told,
-                   kind=match.mistake.kind, guilty=step.index)
-
-
-def _astray(matching: Matching, match: Match) -> float:
-    """How far a trace is from the true drawing, in mm."""
-    assert match.place is not None
-    sheet, true = matching.sheet, matching.sheet.drawing.values
-    spots = sheet.spots(match.step.index, matching.traces[match.place])
-    return sheet.residual(match.step, true[match.step.index], spots, true).size
-
-
-def _ellipse(matching: Matching, match: Match) -> Ellipse | None:
+def _ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:
     """The tolerance of a point, if it has any two ways."""
-    residual = match.residual
-    op = match.step.op
-    if residual is None or op.gives != POINT or len(residual.off) < 2 or op.movement is Movement.BEGUN:
+    if step.op.gives != POINT or len(residual.off) < 2 or step.op.movement is Movement.BEGUN:
         return None
     variances, axes = np.linalg.eigh(residual.covariance)
-    most = bound(2, matching.rules.chance)
-    minor, major = (math.sqrt(max(variance, 0.0) * most) for variance in variances)
+    minor, major = (math.sqrt(max(variance, 0.0) * bound(2, chance)) for variance in variances)
     return Ellipse(major, minor, math.degrees(math.atan2(axes[1, 1], axes[0, 1])))

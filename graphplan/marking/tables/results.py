@@ -1,6 +1,7 @@
 """The result table filled in by a student: vectors by components or by size and angle, single numbers.
 
-Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`; what they are in the scene's own units is told here."""
+Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`; here they become the scene's own.
+"""
 
 from __future__ import annotations
 

@@ -10,7 +10,7 @@ import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from graphplan.kernel.compounds import foot
+from graphplan.kernel.elementary import foot
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.marking.files.curves import circle

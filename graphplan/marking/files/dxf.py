@@ -34,8 +34,9 @@ STEPS = 48  # spots of an ellipse
 def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
     frames say."""
-    document = _document(path)
+    data = _bounded(path, contents(path, LARGEST))
     try:
+        document = _document(data)
         reader = _DxfReader(path, document)
         reader.read(document.modelspace(), 0)
         reader.endless()
@@ -43,21 +44,18 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
-        raise Refused(f"{path}", f"the drawing is damaged ({_line(error)})", "save it anew") from None
+        said = " ".join(f"{type(error).__name__} {error}".split())[:80]
+        raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
     return drawing(path, reader.traces, reader.words, known)
 
 
-def _document(path: Path) -> Any:
+def _document(data: bytes) -> Any:
     """The file as ezdxf has it, repaired where it must be."""
-    data = _bounded(path, contents(path, LARGEST))
     try:
         coding = dxf_stream_info(io.StringIO(data.decode("latin-1"))).encoding
         return ezdxf.read(io.StringIO(data.decode(coding, "surrogateescape")))
     except Exception:  # whatever it stumbles over, recovery may not
-        try:
-            return read(io.BytesIO(data))[0]
-        except Exception as error:
-            raise Refused(f"{path}", f"the drawing is damaged ({_line(error)})", "save it anew") from None
+        return read(io.BytesIO(data))[0]
 
 
 def _bounded(path: Path, data: bytes) -> bytes:
@@ -70,11 +68,6 @@ def _bounded(path: Path, data: bytes) -> bytes:
         if sum(1 for _ in re.finditer(pattern, data)) > most:
             raise Refused(f"{path}", f"it has more than {most} {things}", "a file of the drawing alone")
     return data
-
-
-def _line(error: Exception) -> str:
-    """What an error says, short and on one line."""
-    return " ".join(f"{type(error).__name__} {error}".split())[:80]
 
 
 class _DxfReader:

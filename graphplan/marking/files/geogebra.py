@@ -38,16 +38,9 @@ def read_ggb(path: Path) -> Submission:
 def _traces(objects: Objects) -> list[Trace]:
     """Points first, as lines without ends go as far as these do."""
     points = [trace for label in objects.elements for trace in _point(objects, label)]
-    box = _corners([trace.spots[0] for trace in points])
+    xs, ys = ([trace.spots[0][i] for trace in points] or [0.0] for i in (0, 1))
+    box = [(x, y) for x in (min(xs), max(xs)) for y in (min(ys), max(ys))]  # no line without ends is seen farther
     return points + [trace for label in objects.elements for trace in _curve(objects, label, box)]
-
-
-def _corners(spots: list[Spot]) -> list[Spot]:
-    """The corners of what spots cover: no line without ends is seen farther."""
-    if not spots:
-        return []
-    xs, ys = zip(*spots, strict=True)
-    return [(x, y) for x in (min(xs), max(xs)) for y in (min(ys), max(ys))]
 
 
 def _point(objects: Objects, label: str) -> Iterator[Trace]:

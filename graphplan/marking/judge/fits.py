@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -26,38 +26,22 @@ class Fit:
     tied: str = ""
 
 
-def through(one: Pair, two: Pair) -> PlanFrame | None:
-    """The frame in which two marks lie where they do; None where they do not tell."""
-    apart = two[0] - one[0]
-    if not apart or two[1] == one[1]:
-        return None
-    unit = (two[1] - one[1]) / apart
-    return PlanFrame(one[1] - unit * one[0], unit)
-
-
 def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
     """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
 
     Every two marks propose one; of those that hold equally many the one that misses them least is taken, and fitted
-    to all that it holds.
+    to all that it holds. The marks that a frame was laid through shake it, the more the further off a mark is.
     """
-    frames = (frame for one, two in combinations(pairs, 2) if (frame := through(one, two)))
-    held = [(kept, frame) for frame in frames if len(kept := list(_held(pairs, frame, sigma))) >= 2]
-    if not held:
-        return None
-    kept, _ = max(held, key=lambda found: (len(found[0]), -_missed(found[0], found[1])))
-    return fitted(kept, sigma)
-
-
-def _held(pairs: Sequence[Pair], frame: PlanFrame, sigma: float) -> Iterator[Pair]:
-    """The marks that a frame holds: those it was laid through shake it, the more the further off a mark is."""
-    for plan, sheet in pairs:
-        if abs(sheet - frame.onto(plan)) <= SIGMAS * 2.0 * sigma:
-            yield plan, sheet
-
-
-def _missed(pairs: Sequence[Pair], frame: PlanFrame) -> float:
-    return sum(abs(sheet - frame.onto(plan)) ** 2 for plan, sheet in pairs)
+    most, least, held = 1, math.inf, list[Pair]()
+    for one, two in combinations(pairs, 2):
+        if one[0] != two[0] and one[1] != two[1]:
+            unit = (two[1] - one[1]) / (two[0] - one[0])
+            off = [abs(sheet - one[1] - unit * (plan - one[0])) for plan, sheet in pairs]
+            kept = [place for place, far in enumerate(off) if far <= SIGMAS * 2.0 * sigma]
+            missed = sum(off[place] ** 2 for place in kept)
+            if len(kept) > most or (len(kept) == most > 1 and missed < least):
+                most, least, held = len(kept), missed, [pairs[place] for place in kept]
+    return fitted(held, sigma) if held else None
 
 
 def fitted(pairs: Sequence[Pair], sigma: float) -> Fit | None:

@@ -100,10 +100,10 @@ class Judge:
             start = start.moved(self._start(fits)).until(plan_of_step.index(panel))
             matching = start.fork().until(end)
             wrong, best = float(_wrong(matching, panel)), fits[panel]
-            for rival in register.rivals(panel, matching) if wrong else ():
-                other = start.moved(self._start({**fits, panel: rival.fit})).until(end)
-                if _wrong(other, panel) + rival.weight < wrong:
-                    wrong, best = _wrong(other, panel) + rival.weight, rival.fit
+            for fit, weight in register.rivals(panel, matching) if wrong else ():
+                other = start.moved(self._start({**fits, panel: fit})).until(end)
+                if _wrong(other, panel) + weight < wrong:
+                    wrong, best = _wrong(other, panel) + weight, fit
             fits[panel] = best
         return fits
 

@@ -56,7 +56,8 @@ def value_of(step: Step, values: Sequence[Any] | Mapping[int, Any], mistake: Mis
              ) -> tuple[float, ...] | None:
     """What a step makes of plain values, or a mistake at it; None where it cannot be drawn."""
     with suppress(Undrawable):
-        found: tuple[float, ...] = (mistake or Mistake("", said(""), step)).value(Floats(), values)
+        found: tuple[float, ...] = mistake.value(Floats(), values) if mistake else step.op.rule(
+            Floats(), *[values[arg] for arg in step.args], **step.params)
         return found if all(map(math.isfinite, found)) else None
     return None
 

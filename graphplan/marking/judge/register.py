@@ -7,8 +7,8 @@ scaled as on the task's sheet, unless so many of its steps would then be wrong t
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
 from itertools import combinations, permutations
 from typing import Any
 
@@ -20,7 +20,7 @@ from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge.fits import SIGMAS, Fit, Pair, best
 from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.student_sheet import plain
-from graphplan.marking.traces import PlanFrame, Spot, Submission
+from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
@@ -32,14 +32,6 @@ VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one or
 ORIGINS = 5  # how many origins are tried
 BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
 RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
-
-
-@dataclass(frozen=True)
-class Rival:
-    """A frame that a plan may have, and what it weighs that it is not the expected one."""
-
-    fit: Fit
-    weight: float
 
 
 class Register:
@@ -82,27 +74,26 @@ class Register:
         if panel in self.submission.frames:
             return [Fit(self.submission.frames[panel])]
         unit = mechanism.frame.unit * float(self.scales.multiples.get(panel, 1))
-        pairs = self._pairs(panel)
-        begins = [pair for index, pair in pairs if self.drawing.drawn.steps[index].op.movement is Movement.BEGUN]
-        if pairs:
-            plan, sheet = begins[0] if begins else pairs[0][1]
-            return [self._tied(sheet - unit * plan, unit)]
+        if anchor := self._anchor(panel):
+            return [self._tied(anchor[1] - unit * anchor[0], unit)]
         return [replace(self._tied(origin, unit), shift=2 * self.pencil.point) for origin in self._voted(panel, unit)]
 
-    def rivals(self, panel: str, matching: Matching) -> Iterator[Rival]:
-        """Other frames of a plan, laid on its beginning: those in which some of the vectors that were carried over to
-        it are as they should be.
+    def rivals(self, panel: str, matching: Matching) -> Iterator[tuple[Fit, float]]:
+        """Other frames of a plan, laid on its beginning, and what it weighs that they are not the expected one: those
+        in which some of the vectors that were carried over to it are as they should be.
 
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
-        expected = matching.sheet.fits[panel]
-        begin = next((pair for index, pair in self._pairs(panel)
-                      if matching.steps[index].op.movement is Movement.BEGUN), None)
-        units = list(self._carried(panel, matching))
-        plan, sheet = begin or (self._pairs(panel)[0][1] if units else (0j, 0j))
-        for unit, sigma in _agreed(units):
+        expected, (plan, sheet) = matching.sheet.fits[panel], self._anchor(panel) or (0j, 0j)
+        for unit, sigma in _agreed(list(self._carried(panel, matching))):
             along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
-            yield Rival(Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED)
+            yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED
+
+    def _anchor(self, panel: str) -> Pair | None:
+        """The labelled beginning of a plan, or else any labelled mark of it."""
+        pairs, steps = self._pairs(panel), self.drawing.drawn.steps
+        begins = (pair for index, pair in pairs if steps[index].op.movement is Movement.BEGUN)
+        return next(begins, pairs[0][1] if pairs else None)
 
     def _carried(self, panel: str, matching: Matching) -> Iterator[tuple[complex, float]]:
         """What a unit of the plan is by each vector on it that was brought from another plan, and how sure it is."""
@@ -127,13 +118,11 @@ class Register:
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 
     def _loose(self) -> list[complex]:
-        """The spots that may be marks: unlabelled points, and the ends of lines."""
+        """The spots, none twice, that may be marks: unlabelled points, and the ends of lines."""
         taken = set(self.labels.values())
-        spots: list[Spot] = []
-        for place, trace in enumerate(self.submission.traces):
-            if place not in taken and trace.kind in (POINT, LINE):
-                spots += trace.spots[:2]
-        return _apart(complex(*spot) for spot in spots)[:ANCHORS]
+        spots = [complex(*spot) for place, trace in enumerate(self.submission.traces)
+                 if place not in taken and trace.kind in (POINT, LINE) for spot in trace.spots[:2]]
+        return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())[:ANCHORS]
 
     def _points(self) -> list[complex]:
         """The unlabelled points of a sheet that are not yet known."""
@@ -153,25 +142,19 @@ class Register:
         unlabelled, points = np.array(self._loose()), np.array(list(dict.fromkeys(given)))
         if len(unlabelled) < 2 or len(points) < 2:
             return None
-        found: tuple[int, float, list[Pair]] = (1, 0.0, [])
-        sigma = 4 * self.pencil.point
+        best_score, held, sigma = (min(3, len(points)) - 1, math.inf), list[Pair](), 4 * self.pencil.point
         for i, j in sorted(combinations(range(len(points)), 2), key=lambda ij: -abs(points[ij[0]] - points[ij[1]]))[:6]:
             apart = points[j] - points[i]
             units = (unlabelled[None, :] - unlabelled[:, None]) / apart
             for k, l in permutations(range(len(unlabelled)), 2):
-                unit = units[k, l]
-                if not abs(unit):
-                    continue
-                there = unlabelled[k] + unit * (points - points[i])
-                off = np.abs(there[:, None] - unlabelled[None, :])
-                near = off.min(axis=1)
-                count = int(np.sum(near < sigma))
-                if (count, -float(near[near < sigma].sum())) > (found[0], found[1]) and count >= min(3, len(points)):
-                    found = count, -float(near[near < sigma].sum()), [
-                        (complex(point), complex(unlabelled[place])) for point, place, far in
-                        zip(points, off.argmin(axis=1), near, strict=True) if far < sigma]
-        chance = 6 * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (found[0] - 2)
-        return best(found[2], self.pencil.point) if found[2] and chance < BY_CHANCE else None
+                off = np.abs((unlabelled[k] + units[k, l] * (points - points[i]))[:, None] - unlabelled[None, :])
+                near, nearest = off.min(axis=1), unlabelled[off.argmin(axis=1)]
+                score = int(np.sum(near < sigma)), -float(near[near < sigma].sum())
+                if units[k, l] and score > best_score:
+                    best_score = score
+                    held = list(zip(points[near < sigma].tolist(), nearest[near < sigma].tolist(), strict=True))
+        chance = 6 * len(unlabelled) ** 2 * _filled(unlabelled, sigma) ** (best_score[0] - 2)
+        return best(held, self.pencil.point) if held and chance < BY_CHANCE else None
 
     def _voted(self, panel: str, unit: complex) -> list[complex]:
         """The origins of a plan for which most of its marks are where loose ones are; a loose one must be where the
@@ -186,12 +169,13 @@ class Register:
         if begin is None or not self._points():
             return self._heaped((unlabelled[:, None] - unit * np.concatenate(marks)[None, :]).ravel())
         origins = unlabelled - unit * complex(*self.drawing.values[begin.index][:2])
-        votes = np.max([sum(self._met(origins + unit * mark, unlabelled) for mark in plan) for plan in marks], axis=0)
-        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
 
-    def _met(self, spots: Any, unlabelled: Any) -> Any:
-        """Which spots have a loose one near."""
-        return np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+        def met(spots: Any) -> Any:
+            """Which spots have a loose one near."""
+            return np.abs(spots[:, None] - unlabelled[None, :]).min(axis=1) < 2 * VOTES * self.pencil.point
+
+        votes = np.max([sum(met(origins + unit * mark) for mark in plan) for plan in marks], axis=0)
+        return [complex(origins[k]) for k in np.argsort(-votes, kind="stable")[:ORIGINS]]
 
     def _heaped(self, origins: Any) -> list[complex]:
         """The origins that most marks vote for."""
@@ -231,11 +215,6 @@ def _filled(spots: Any, sigma: float) -> float:
     """The part of the sheet on which a spot would be taken for one of these."""
     wide, high = np.ptp(spots.real) + sigma, np.ptp(spots.imag) + sigma
     return float(min(1.0, len(spots) * math.pi * sigma**2 / (wide * high)))
-
-
-def _apart(spots: Iterable[complex]) -> list[complex]:
-    """Spots that do not fall together."""
-    return list({(round(z.real, 2), round(z.imag, 2)): z for z in spots}.values())
 
 
 def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:

@@ -23,6 +23,7 @@ from graphplan.marking.scans.strokes import (
     CrestRow,
     Rim,
     Stretch,
+    crest_row,
     grown,
     line,
     on_rim,
@@ -83,12 +84,8 @@ class PencilPage:
             return None
         slope, level, which = lying
         turned = math.atan(slope)
-        ahead = way * math.cos(turned) + normal * math.sin(turned)
         aside = normal * math.cos(turned) - way * math.sin(turned)
-        at = middle + level * normal
-        own = near[which]
-        off = self.found.spots[own] - at
-        crests = CrestRow(at, ahead, aside, own, off @ ahead, off @ aside)
+        crests = crest_row(self.found, middle + level * normal, aside, near[which])
         stretch = _whole(crests, self.ink, long / 2)
         return None if stretch is None else self._blurred(line(crests, stretch))
 

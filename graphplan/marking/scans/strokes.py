@@ -84,6 +84,12 @@ class CrestRow:
         return (stretch.start <= self.along) & (self.along <= stretch.end)
 
 
+def crest_row(found: Ridges, at: Spots, normal: Spots, which: NDArray[np.intp]) -> CrestRow:
+    """Some crests beside a line through a spot, by its normal."""
+    way, out = np.array([normal[1], -normal[0]]), found.spots[which] - at
+    return CrestRow(at, way, normal, which, out @ way, out @ normal)
+
+
 def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> CrestRow | None:
     """The crests, of those that are left, near the line whose normal has this angle, so many mm from the origin."""
     normal = np.array([math.cos(angle), math.sin(angle)])
@@ -98,8 +104,7 @@ def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Cr
         at = found.spots[chosen].mean(axis=0)
         spread = found.spots[chosen] - at
         normal = np.linalg.eigh(spread.T @ spread)[1][:, 0]
-    way = np.array([normal[1], -normal[0]])
-    return CrestRow(at, way, normal, chosen, spread @ way, spread @ normal)
+    return crest_row(found, at, normal, chosen)
 
 
 def line(crests: CrestRow, stretch: Stretch) -> Trace:

@@ -34,7 +34,7 @@ from graphplan.marking.judge.mistakes import Mistake
 from graphplan.marking.judge.student_sheet import apart as apart_by
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.submission import read
-from graphplan.marking.traces import Frame, Submission
+from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import code, solution, task
@@ -174,7 +174,7 @@ def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
         yield apart_by(trace.kind, [float(part) for part in value], spots) * abs(frame.unit)
 
 
-def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[str, Frame], seed: int,
+def _mistaken(kind: str, drawing: Construction, sheet: Composition, where: dict[str, PlanFrame], seed: int,
               clean: Judgement) -> tuple[Mistake, Drawn] | None:
     """A drawing with a mistake that can be seen: of any kind alike often, and on the paper."""
     rng = np.random.default_rng([seed, crc32(drawing.scene.title.encode())])

@@ -24,7 +24,6 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
 from graphplan.marking.scans.page import PencilPage  # noqa: E402
 from graphplan.marking.scans.printed_ink import picture  # noqa: E402
 from graphplan.marking.scans.scan import SCALE, read_page, read_scan  # noqa: E402
-from graphplan.marking.scans.sheet_finder import CornerMarks  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.corner_marks import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
@@ -140,11 +139,11 @@ def test_photos(lost: tuple[int, ...], seed: int, tmp_path: Path) -> None:
 
 def astray(sheet: Sheet, seen: Picture) -> tuple[float, float]:
     """How many mm a straightened picture is off somewhere, and how sure of itself it is."""
-    straight = straighten(seen.image, sheet, picture(sheet, SCALE), SCALE, None, "photo")
+    _, found = straighten(seen.image, sheet, picture(sheet, SCALE), SCALE, None, "photo")
     across, up = np.linspace(25, sheet.width - 15, 9), np.linspace(15, sheet.height - 15, 7)
     spots = np.array([(x, y) for x in across for y in up])
-    off = np.hypot(*(straight.warp(spots) - seen.seen(spots)).T) / straight.warp.fineness()
-    return float(off.max()), straight.error
+    off = np.hypot(*(found.warp(spots) - seen.seen(spots)).T) / found.warp.fineness()
+    return float(off.max()), found.error
 
 
 def test_straightened_to_hundredths() -> None:
@@ -160,7 +159,7 @@ def test_a_sheet_is_laid_by_all_its_marks(seed: int) -> None:
     chance, sheet = np.random.default_rng(seed), page()
     rects = places(sheet.width, sheet.height, sheet.frame)
     marks = [np.array(rect.corners[::-1]) * 7 + chance.uniform(-1, 1, (4, 2)) for rect in rects]
-    laid = _by_marks(CornerMarks(dict(enumerate(marks))), sheet)
+    laid = _by_marks(dict(enumerate(marks)), sheet)
     off = [laid(np.array(rect.corners[::-1])) - seen for rect, seen in zip(rects, marks, strict=True)]
     assert np.abs(off).max() < 3
 

@@ -1,17 +1,134 @@
-"""What a drawing program's file shows, put together: each thing once, sound, and with its letters."""
+"""What a drawing program's file shows, put together: each thing once, sound, and with its letters.
+
+Which words on a drawing name which of the things on it is told by where they stand.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
+from typing import Any
+
+import numpy as np
 
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import LINE
-from graphplan.marking.files.labels import Lettering, joined, labelled
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
-from graphplan.marking.traces import Frames, Submission, Trace
+from graphplan.marking.spelling import greek, mark
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.sheet.lettering.lettering import CAPS, SUBSCRIPT, Run, width
+
+BESIDE = 6.0  # mm from a mark to its letters
+CHOICES = 12  # things nearest to a word that are weighed
+WORDS = 1000  # that may be names; more name nothing
+
+
+@dataclass(frozen=True)
+class Lettering:
+    """Words on the sheet: where their base line begins, in mm, and the size of their letters."""
+
+    text: str
+    at: Spot
+    size: float
+
+    @property
+    def long(self) -> float:
+        """How long the words are, in mm; a subscript is smaller."""
+        stem, _, index = self.text.partition("_")
+        return width((Run(stem), Run(index, -1)), self.size)
+
+    @property
+    def middle(self) -> Spot:
+        """The middle of the words."""
+        return self.at[0] + self.long / 2, self.at[1] + CAPS * self.size / 2
+
+    @property
+    def names(self) -> list[str]:
+        """The marks that are named: several that share a spot stand with commas; other words name none."""
+        whole = mark(self.text)
+        found = [whole] if whole else [mark(part) for part in self.text.split(",")]
+        return found if all(found) else []
+
+
+def lettering(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
+    """Words that are anchored at a part of their length: 0 at the beginning, 1 at the end."""
+    begun = Lettering(text, at, size)
+    return replace(begun, at=(at[0] - anchor * begun.long, at[1]))
+
+
+def joined(words: Sequence[Lettering]) -> list[Lettering]:
+    """Words that stand apart in a file and together on the sheet, in the order of the file: smaller ones that are set
+    lower become subscripts."""
+    found: list[Lettering] = []
+    end = math.inf
+    for word in words:
+        if found and (link := _link(found[-1], end, word)) is not None:
+            found[-1] = replace(found[-1], text=found[-1].text + link + word.text)
+        else:
+            found.append(word)
+        end = word.at[0] + word.long
+    return found
+
+
+def _link(whole: Lettering, end: float, word: Lettering) -> str | None:
+    """What stands between a text and the word that continues it; None where it does not."""
+    drop, smaller = (whole.at[1] - word.at[1]) / whole.size, word.size / whole.size
+    if abs(end - word.at[0]) > 0.25 * whole.size or abs(drop) > 0.6:
+        return None
+    if drop > 0.05:
+        return "_" if SUBSCRIPT / 2 < smaller < 1 and "_" not in whole.text.rpartition(",")[2] else None
+    return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
+
+
+def labelled(traces: Sequence[Trace], words: Sequence[Lettering]) -> list[Trace]:
+    """The traces with the names beside them, the nearest pairs first; a thing of several names is several traces.
+
+    Letters name points, Greek ones lines where there are some, and numbers what is nearer. What has a name already
+    gets another only from a word that finds nothing else.
+    """
+    named = [(word, names) for word in words[:WORDS] if (names := word.names)]
+    taken: dict[int, list[str]] = {}
+    if named and traces:
+        far = _distances(traces)
+        wishes = sorted(wish for i, (word, names) in enumerate(named) for wish in _wishes(i, word, names[0], far))
+        placed: set[int] = set()
+        for shared in (False, True):
+            for _, word, thing in wishes:
+                if word not in placed and (shared or thing not in taken):
+                    taken.setdefault(thing, []).extend(named[word][1])
+                    placed.add(word)
+    return [replace(trace, label=name) for i, trace in enumerate(traces) for name in taken.get(i, [trace.label])]
+
+
+def _wishes(place: int, word: Lettering, name: str, far: Callable[..., Any]) -> list[tuple[float, int, int]]:
+    """The things nearest to a word that it may name: how far each is, the word and the thing."""
+    gaps = far(word, lines=greek(name) or name.isdigit(), points=0.0 if not greek(name) else BESIDE / 2)
+    near = np.flatnonzero(gaps < BESIDE)
+    nearest = near[np.argsort(gaps[near], kind="stable")][:CHOICES]
+    return [(float(gaps[thing]), place, int(thing)) for thing in nearest]
+
+
+def _distances(traces: Sequence[Trace]) -> Callable[..., Any]:
+    """How far all things are from a word, in mm; what it may not name is infinitely far, and points `points` farther.
+    """
+    first, last = (np.array([complex(*trace.spots[end]) for trace in traces]) for end in (0, -1))
+    point = np.array([trace.kind == POINT for trace in traces])
+    circle = np.array([trace.kind == CIRCLE for trace in traces])
+    along = last - first
+    square = np.where(along == 0, 1.0, np.abs(along) ** 2)
+
+    def far(word: Lettering, lines: bool, points: float) -> Any:
+        middle = complex(*word.middle)
+        foot = first + np.clip(((middle - first) * along.conj()).real / square, 0.0, 1.0) * along
+        across = np.maximum(0.0, np.abs((foot - middle).real) - word.long / 2)
+        gaps = np.hypot(across, np.maximum(0.0, np.abs((foot - middle).imag) - CAPS * word.size / 2))
+        return np.where(point, gaps + points, gaps if lines else np.inf) + np.where(circle, np.inf, 0.0)
+
+    return far
+
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
                         "drive"})  # layers of graphplan's own sheets with nothing that a construction draws

@@ -17,8 +17,7 @@ from ezdxf.units import MM, conversion_factor
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, curved, full, pieces, reach
-from graphplan.marking.files.drawing import NO_DRAWING, drawing, same_paper
-from graphplan.marking.files.labels import Lettering, lettering
+from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS

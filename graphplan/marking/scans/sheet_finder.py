@@ -4,8 +4,7 @@ by all that is printed."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,28 +21,18 @@ ALIKE = 2.0  # how much larger one mark of a sheet may look than another
 SMALLEST = 48.0  # pixels of a mark's rim, below which its cells are not told apart
 
 
-@dataclass(frozen=True)
-class CornerMarks:
-    """Marks by their corner, each as its own four corners in pixels: upper left, upper right, lower right, lower left
-    as it was printed."""
-
-    marks: Mapping[int, Spots]
-
-    def __len__(self) -> int:
-        return len(self.marks)
-
-
-def find(image: Grey, code: int | None, name: str) -> CornerMarks:
-    """The marks of the sheet with this code, or where none is asked for, those that a sheet has.
+def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
+    """The marks of the sheet with this code, or where none is asked for, those that a sheet has: by their corner, each
+    as its own four corners in pixels, upper left, upper right, lower right, lower left as it was printed.
 
     Fails with `Refused` where the marks are those of another sheet.
     """
     seen = _detected(image)
     if code is None:
         small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
-        return CornerMarks({number >> BITS: rim for number, rim in small_first})
+        return {number >> BITS: rim for number, rim in small_first}
     own = {number: corner for corner, number in enumerate(numbers(code))}
-    found = CornerMarks({own[number]: corners for number, corners in seen if number in own})
+    found = {own[number]: corners for number, corners in seen if number in own}
     if not found and _of_one_sheet([(number >> BITS, corners) for number, corners in seen]):
         raise Refused(name, "the marks in its corners are those of another task",
                       "verify it against its own scene, plan and paper")

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from graphplan.errors import Refused
 from graphplan.marking.scans.image import Grey, deviation
 from graphplan.marking.scans.printed_ink import Light, Pieces, pieces
-from graphplan.marking.scans.sheet_finder import CornerMarks, by_frame, find
+from graphplan.marking.scans.sheet_finder import by_frame, find
 from graphplan.marking.scans.warp import Spots, Warp, powers, terms
 from graphplan.sheet.frames.corner_marks import places
 from graphplan.sheet.plates.display import Sheet
@@ -119,18 +119,10 @@ OWN, SURE = 0.5, 0.95  # the share of the print that is found on its own sheet, 
 MARGIN = 1.0  # mm by which a plan may be off the picture
 
 
-@dataclass(frozen=True)
-class Straight:
-    """A sheet seen from straight above: lightness 0..255, the top first; `error` is how far off its print still is,
-    as a standard deviation in mm."""
-
-    image: NDArray[np.float32]
-    warp: Warp
-    error: float
-
-
-def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str) -> Straight:
-    """The picture laid over the printed sheet, of which `light` is the picture at `scale` pixels per mm.
+def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int | None, name: str
+               ) -> tuple[NDArray[np.float32], Registered]:
+    """The picture laid over the printed sheet, of which `light` is the picture at `scale` pixels per mm: its lightness
+    0..255, the top first, and the warp by which it shows the sheet.
 
     Fails with `Refused` where the sheet is not found, is another one, is cut off, or too coarse.
     """
@@ -147,10 +139,10 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     _whole(result.warp, image, sheet, name)
     columns, rows = result.warp.maps(scale)
     straight = cv2.remap(image, columns, rows, cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    return Straight(straight.astype(np.float32), result.warp, result.error)
+    return straight.astype(np.float32), result
 
 
-def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: CornerMarks) -> Registered | None:
+def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: dict[int, Spots]) -> Registered | None:
     """The sheet laid by its marks, or where some are lost, by its frame, whichever fits the print."""
     best, ink = None, pieces(sheet)
     for start in _starts(image, sheet, light, found):
@@ -161,7 +153,7 @@ def _laid(image: Grey, sheet: Sheet, light: Light, scale: float, found: CornerMa
     return best
 
 
-def _starts(image: Grey, sheet: Sheet, light: Light, found: CornerMarks) -> Iterator[Warp]:
+def _starts(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) -> Iterator[Warp]:
     """The ways to lay the sheet, the surest first."""
     if len(found) >= ENOUGH:
         yield _by_marks(found, sheet)
@@ -169,13 +161,13 @@ def _starts(image: Grey, sheet: Sheet, light: Light, found: CornerMarks) -> Iter
         yield from by_frame(image, sheet, light)
 
 
-def _by_marks(found: CornerMarks, sheet: Sheet) -> Warp:
+def _by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
     import cv2
 
     rects = places(sheet.width, sheet.height, sheet.frame)
-    printed = [spot for corner in found.marks for spot in rects[corner].corners[::-1]]
-    seen = np.concatenate([found.marks[corner] for corner in found.marks])
+    printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
+    seen = np.concatenate([found[corner] for corner in found])
     plane, _ = cv2.findHomography(np.array(printed), seen)
     return Warp(np.asarray(plane, float), (sheet.width, sheet.height))
 

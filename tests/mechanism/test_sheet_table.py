@@ -13,6 +13,7 @@ from graphplan.mechanism.presentation import FRAMES, PAPERS
 from graphplan.mechanism.scene import parse
 from graphplan.sheet.frames import frame
 from graphplan.sheet.layout.paper import sheet_size
+from graphplan.words import LANGUAGES
 
 WHOLE = """
 [sheet]
@@ -74,7 +75,7 @@ def test_two_scales_tie_how_long_vectors_are_drawn() -> None:
     ('paper = "A4 potrait"', 'sheet.paper: the string "A4 potrait" is not known here; perhaps A4 portrait or A3 '
      "portrait"),
     ('frame = "din"', 'sheet.frame: the string "din" is not known here; one of iso, gost'),
-    ('language = "xx"', 'sheet.language: the string "xx" is not known here; one of en, de, lv, et, ru, uk'),
+    ('language = "xx"', f'sheet.language: the string "xx" is not known here; one of {", ".join(LANGUAGES)}'),
     ('convention = "paper"', 'sheet.convention: the string "paper" is not known here; one of real, drawn'),
     ("date = 1939-05-01", "sheet.date: a date or time where a text is wanted; a text in quotes"),
     ('owner = "two\\nlines"', "sheet.owner: a text with line breaks or characters that cannot be printed; a text on "

@@ -27,7 +27,7 @@ examples:
   graphplan draw alt-eight-link -o sheet.svg    the construction sheet of a packaged scene
   graphplan steps scene.toml                    the construction in words, step by step
   graphplan solve scene.toml --exact            velocities and accelerations as fractions
-  graphplan check scene.toml                    the construction beside the analytic solver
+  graphplan check scene.toml                    construction and analytic solver, number by number
   graphplan cost scene.toml                     what each form costs, and how far off the pencil is
 
 exit status: 0 done; 1 construction and solver disagree; 2 bad input; 3 the pose is singular

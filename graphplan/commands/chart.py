@@ -1,4 +1,4 @@
-"""Chart speed against accuracy: each chart as a picture, and as a table beside it.
+"""Chart speed against accuracy: each chart as a picture and as a table.
 
 charts:
   machine        time for a pose against error, of every form in every arithmetic
@@ -33,14 +33,14 @@ if TYPE_CHECKING:
 class Survey(NamedTuple):
     """What is measured for a chart: the module that does, what its rows are, and what it gives of all, or of a scene.
 
-    Of all it is called with the module alone, and each row is `told` to whoever waits; of a scene besides with this,
+    Of all it is called with the module alone, and `progress` says what a row is about; of a scene also with this,
     the pencil, and whether scenes are named.
     """
 
     module: str
     row: str
     rows: Callable[..., Iterable[Any]]
-    told: str = ""
+    progress: str = ""
 
 
 BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
@@ -86,13 +86,13 @@ def run(options: argparse.Namespace) -> int:
 
 
 def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: Messages) -> Iterator[Any]:
-    """The rows of a chart, of these scenes or else of those that it is of; each scene is told when it begins."""
+    """The rows of a chart, of these scenes or else of those that it is of; progress names each scene as it begins."""
     from graphplan.mechanism.scene import load, packaged
 
     survey = CHARTS[name]
-    if survey.told:
+    if survey.progress:
         for row in survey.rows(module):
-            messages.progress(f"{name}: {survey.told.format(row)}")
+            messages.progress(f"{name}: {survey.progress.format(row)}")
             yield row
         return
     of = scenes or [load(name) for name in getattr(module, "SCENES", packaged())]

@@ -87,7 +87,7 @@ def _data(found: Report, groups: Sequence[str], notes: Sequence[str]) -> dict[st
 
 
 def _row(name: str, *cells: str) -> str:
-    """A line of the table: two opinions, how far they are apart, and beside what that counts."""
+    """A line of the table: two opinions, their difference, and the size that it is relative to."""
     widths = (30, 30, 12, 12)
     return f"{name:<24}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=False))
 

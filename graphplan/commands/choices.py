@@ -124,7 +124,7 @@ def presented(options: argparse.Namespace) -> Scene:
 
 
 def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
-    """The construction that the options ask for, compared with the solver; it notes what is told of a preference."""
+    """The construction that the options ask for, compared with the solver; its notes say why a form is preferred."""
     from graphplan.check.trusted import report
 
     how, told = drawn_by(options, scene)
@@ -134,7 +134,7 @@ def reported(options: argparse.Namespace, scene: Scene, **more: Any) -> Report:
 
 
 def drawn_by(options: argparse.Namespace, scene: Scene) -> tuple[dict[str, Any], tuple[str, ...]]:
-    """How a scene is to be drawn, by the method named or preferred, and what is told of the preference."""
+    """How a scene is to be drawn, by the method named or preferred, and the lines that say why it is preferred."""
     how = {key: getattr(options, key) for key in ("method", "plan", "inertia", "strict")}
     if not options.prefer:
         return how, ()

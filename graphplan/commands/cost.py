@@ -23,7 +23,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with every result's error and every crossing")
     add_paper(command, "the sheet of all forms; without it each has the smallest that will do")
     command.add_argument("--hands", type=count("--hands", 2), default=0, metavar="N",
-                         help="let N noisy hands draw each form as well, and tell how their results scatter beside "
+                         help="let N noisy hands draw each form as well, and compare how their results scatter with "
                          "the expected errors")
     add_pencil(command)
 

@@ -1,9 +1,9 @@
 """Follow the mechanism around its drive's turn: every pose constructed, checked, tabled and plotted.
 
 Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
-singular are told on standard error and in the table, each with its place and reason. The table is comma-separated
+singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
 text, or an archive of arrays (.npz). The plot shows displacement, velocity and acceleration, with graphical
-differentiation and integration beside the plans.
+differentiation and integration compared with the plans.
 
 examples:
   graphplan cycle four-bar --positions 12
@@ -54,7 +54,7 @@ def run(options: argparse.Namespace) -> int:
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")
     if options.strips is not None and not options.plot:
-        raise Refused(f"--strips {options.strips}", "nothing is plotted that could be divided", "--plot FILE.svg")
+        raise Refused("--strips", "there is no plot to divide", "add --plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
     apart(options.output, options.plot)

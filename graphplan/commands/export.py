@@ -63,7 +63,7 @@ def format_of(output: str, named: str | None) -> str:
 
 
 def _more(name: str, library: str | None) -> Mapping[str, str]:
-    """What a back end is told beside the construction: the text of a library that is given."""
+    """What a back end reads besides the construction: the text of a library that is given."""
     if library is None:
         return {}
     if name != "jsxgraph":

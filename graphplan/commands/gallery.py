@@ -10,6 +10,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Iterable, Iterator
 from html import escape
+from importlib.resources import files
 from pathlib import Path
 
 from graphplan.commands.messages import Messages, error
@@ -25,27 +26,19 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     folder_at(options.folder)
-    stale = 0
-    written = set()
+    written, stale = set(), []
     for name, text in _pages(options.folder, Messages(options.quiet)):
         path = options.folder / name
         written.add(name)
-        if options.check:
-            stale += _differs(path, text)
-        else:
+        if not options.check:
             write(text, str(path))
-    for path in sorted(options.folder.iterdir()):
-        if path.is_file() and path.name not in written:
-            stale += 1
-            error(f"{path}: no packaged scene makes this file")
+        elif not path.is_file() or path.read_text(encoding="utf-8") != text:
+            stale.append(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}")
+    stale += [f"{path}: no packaged scene makes this file" for path in sorted(options.folder.iterdir())
+              if path.is_file() and path.name not in written]
+    for line in stale:
+        error(line)
     return 1 if stale else 0
-
-
-def _differs(path: Path, text: str) -> bool:
-    same = path.is_file() and path.read_text(encoding="utf-8") == text
-    if not same:
-        error(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}")
-    return not same
 
 
 def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
@@ -56,24 +49,23 @@ def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
     from graphplan.accuracy.pencil import Pencil
     from graphplan.check.json_results import data
     from graphplan.check.trusted import report
+    from graphplan.commands.steps import protocol
     from graphplan.mechanism.scene import load, packaged
-    from graphplan.mechanism.structure import structure
-    from graphplan.output.text import protocol
 
     entries = []
     names = packaged()
     for count, name in enumerate(names, 1):
         messages.progress(f"{count}/{len(names)} {name}")
         found = report(load(name))
-        scene = found.scene
-        errors = drafted(found.drawing, Pencil(), check=found.check)
-        yield f"{name}.svg", sheet.svg(found.drawing, composition=errors.composition)
-        yield f"{name}.txt", protocol(found.drawing, structure(scene).lines(), errors.lines())
+        on_sheet = drafted(found.drawing, Pencil(), check=found.check)
+        yield f"{name}.svg", sheet.svg(found.drawing, composition=on_sheet.composition)
+        yield f"{name}.txt", protocol(on_sheet)
         handouts = [suffix for suffix in HANDOUTS if (folder / "handouts" / f"{name}{suffix}").is_file()]
-        entries.append(_entry(name, scene.title, scene.source, data(found)["steps"], handouts))
+        entries.append(_entry(name, found.scene.title, found.scene.source, data(found)["steps"], handouts))
     messages.progress("")
     charts = [_chart(path.stem) for path in sorted((folder / "charts").glob("*.svg"))]
-    yield "index.html", INDEX.format(entries="\n".join(entries), charts="\n".join(charts))
+    page = files("graphplan.output").joinpath("gallery.html").read_text(encoding="utf-8")
+    yield "index.html", page.replace("{{entries}}", "\n".join(entries)).replace("{{charts}}", "\n".join(charts))
 
 
 def _chart(name: str) -> str:
@@ -85,28 +77,3 @@ def _entry(name: str, title: str, source: str, steps: int, handouts: Iterable[st
     return (f'<figure><a href="{name}.svg"><img src="{name}.svg" alt="{escape(title)}" loading="lazy"></a>'
             f"<figcaption><b>{escape(title)}</b><br>{escape(source)}<br>"
             f'<code>graphplan draw {name}</code> · <a href="{name}.txt">{steps} steps</a>{links}</figcaption></figure>')
-
-
-INDEX = """<!DOCTYPE html>
-<html lang="en">
-<meta charset="utf-8">
-<title>graphplan: gallery</title>
-<style>
-body {{ font: 16px/1.4 sans-serif; margin: 2rem; color: #222; }}
-main {{ display: grid; grid-template-columns: repeat(auto-fill, minmax(24rem, 1fr)); gap: 2rem; }}
-figure {{ margin: 0; }}
-img {{ width: 100%; border: 1px solid #bbb; background: #fff; }}
-</style>
-<h1>Gallery</h1>
-<p>Every packaged scene as graphplan constructs it: the sheet, and the construction in words.</p>
-<main>
-{entries}
-</main>
-<h2>Measured and followed round</h2>
-<p>Speed against accuracy (<code>graphplan chart</code>) and kinematic diagrams (<code>graphplan cycle</code>); times
-are ratios within one run.</p>
-<main>
-{charts}
-</main>
-</html>
-"""

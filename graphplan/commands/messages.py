@@ -1,6 +1,6 @@
-"""Messages: what is told on standard error, in colour and while it works only where someone looks on.
+"""Messages on standard error: in colour, and with progress, only where someone looks on.
 
-Errors are always told, red on a terminal unless NO_COLOR is set (no-color.org); remarks unless `--quiet` is given;
+Errors are always written, red on a terminal unless NO_COLOR is set (no-color.org); remarks unless `--quiet` is given;
 progress on a terminal alone.
 """
 
@@ -31,13 +31,13 @@ def _print(line: str, before: str = "", after: str = "") -> None:
 
 
 def _tell(text: str) -> None:
-    with suppress(OSError):  # nobody can be told that nobody can be told
+    with suppress(OSError):  # there is no place to say so
         print(text, end="", file=sys.stderr, flush=True)
 
 
 @dataclass(frozen=True)
 class Messages:
-    """What a command tells besides errors and its results."""
+    """What a command says besides errors and its results."""
 
     quiet: bool
 
@@ -47,6 +47,6 @@ class Messages:
             _print(line)
 
     def progress(self, told: str) -> None:
-        """Tell whoever waits how far it is, over what was told before; nothing when it is done."""
+        """Say how far it is, over what was said before; nothing when it is done."""
         if not self.quiet and sys.stderr.isatty():
             _tell(f"\r{told:<{WIDTH}}\r")

@@ -131,7 +131,7 @@ def _is_standard(status: os.stat_result) -> bool:
 
 
 def _replace(data: bytes, target: str, status: os.stat_result | None) -> None:
-    """Write beside the file, then put it in its place: two that write at once do not mix."""
+    """Write in the same folder, then put it in its place: two that write at once do not mix."""
     temporary = os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}")
     try:
         with open(temporary, "xb") as file:
@@ -155,7 +155,7 @@ def _create(data: bytes, target: str) -> None:
 
 
 def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
-    """What is told of an output that cannot be written."""
+    """The refusal of an output that cannot be written."""
     why = getattr(error, "strerror", None) or str(error)
     if path in (None, STANDARD):
         hush()

@@ -26,12 +26,11 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.commands import result_schemas
+    from graphplan.commands.result_schemas import printed
     from graphplan.mechanism import schema
 
     if options.of == "keys":
         write(schema.reference())
     else:
-        module = result_schemas if options.of in RESULTS else schema
-        write(as_json(getattr(module, options.of)(), 2))
+        write(as_json(printed(options.of) if options.of in RESULTS else schema.scene(), 2))
     return 0

@@ -86,7 +86,7 @@ class Findings(NamedTuple):
 
 @dataclass(frozen=True)
 class Desk:
-    """Where drawings are judged, one after the other: beside the construction on its sheet."""
+    """Where drawings are judged, one after the other, by the construction on its sheet."""
 
     on_sheet: Drafted
     weights: Weights
@@ -120,7 +120,7 @@ class Desk:
 
 
 def printable(name: str) -> str:
-    """A name as it can be told: a file may be called by what no terminal should obey and no text can hold."""
+    """A name as it can be written: a file may be called by what no terminal should obey and no text can hold."""
     return "".join(char if char.isprintable() else "\N{REPLACEMENT CHARACTER}" for char in name)
 
 
@@ -189,7 +189,7 @@ def _lines(one: Marked) -> Iterator[Said]:
 
 
 def _class(desk: Desk, folder: Path) -> Findings:
-    """Every file of a folder, judged; one that cannot be judged is told, and the others go on."""
+    """Every file of a folder, judged; one that cannot be judged is an error line, and the others go on."""
     from graphplan.marking.classroom import Classroom, Unread, lines
 
     messages, paths = Messages(desk.options.quiet), _files(folder, desk.options.report)

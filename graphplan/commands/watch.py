@@ -1,10 +1,10 @@
 """Draw a scene anew whenever its file is saved, until Ctrl-C.
 
-Where the scene has faults they are told, and the sheet stays as it was. An editor may save as it likes: over the file,
-or by another file in its place.
+Where the scene has faults they are listed, and the sheet stays as it was. An editor may save as it likes: over the
+file, or by another file in its place.
 
 examples:
-  graphplan watch scene.toml                     scene.svg beside it
+  graphplan watch scene.toml                     scene.svg in the same folder
   graphplan watch scene.toml -o sheet.svg --plan polar
 """
 
@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     if not path.is_file():
         raise Refused(f"{path}: watch", "there is no such file", f"graphplan new {path} makes one")
     options.output = options.output or str(path.with_suffix(".svg"))
-    draw.asked(options)  # what no save would mend is told at once
+    draw.asked(options)  # what no save would mend is refused at once
     for _ in _saved(path):
         try:
             draw.run(options)

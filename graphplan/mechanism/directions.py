@@ -18,7 +18,7 @@ Written = Direction | None
 """A direction as the scene writes it, if it does."""
 
 Where = Callable[[str], tuple[Any, Any]]
-"""Gives a named point's coordinates, in fractions or in any numbers that reckon with them."""
+"""Gives a named point's coordinates, in fractions or in any numbers that compute with them."""
 
 _EIGHTHS = ((1, 0), (1, 1), (0, 1), (-1, 1), (-1, 0), (-1, -1), (0, -1), (1, -1))
 """A direction may have any length, so the multiples of 45 degrees are exact."""

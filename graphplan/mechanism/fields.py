@@ -170,7 +170,7 @@ class Either:
 class Rows:
     """An array of tables; a `single` one may stand as a table of its own.
 
-    `once` gives what of an entry may not come twice, and its name for the fault.
+    `once` gives what of an entry may not come twice, and what it is called.
     """
 
     entry: Table | Either
@@ -271,7 +271,7 @@ def choice(*words: str) -> Kind:
 
 
 def moving(fault: str) -> Kind:
-    """A link that is not the frame; of that the `fault` is told."""
+    """A link that is not the frame; with the frame it is this fault."""
     def read(item: Item, names: Names) -> str | None:
         link = item.name_of("link", names.links)
         if link == FRAME:

@@ -147,7 +147,7 @@ def check_loads(scene: Scene, faults: Faults) -> None:
 
 
 def _check_asked(scene: Scene, faults: Faults) -> None:
-    """Of every joint and slide that is asked for some reaction can be told."""
+    """Of every joint and slide that is asked for some reaction is determinate."""
     for name in scene.find.reactions or ():
         told = [f"{link} at {name}" for link in scene.links_of.get(name, ())[1:]] or [name]
         if set(told) <= set(scene.indeterminate_pairs):

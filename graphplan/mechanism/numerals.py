@@ -71,7 +71,7 @@ def heading(degrees: Fraction, circular: Circular = _to_a_float) -> tuple[Fracti
 
 
 class Reckoning(NamedTuple):
-    """How placements take square roots and directions from angles; each says besides whether it is exact."""
+    """How placements take square roots and directions from angles; each also says whether it is exact."""
 
     root: Callable[[Any], tuple[Any, bool]]
     heading: Callable[[Fraction], tuple[Any, Any, bool]]

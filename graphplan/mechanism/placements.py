@@ -150,7 +150,7 @@ def place(placements: Mapping[str, Placement], table: Item) -> dict[str, Pair]:
 
 
 def placed_by(placements: Mapping[str, Placement], by: Reckoning) -> dict[str, Pair]:
-    """The coordinates of the points of a sound scene, reckoned once more from what is written.
+    """The coordinates of the points of a sound scene, computed once more from what is written.
 
     Fails with `Misfit` where `by` sees arcs pass each other by that rounding lets touch.
     """

@@ -1,4 +1,4 @@
-"""Scenes: a mechanism read from TOML text, checked as a whole, all its faults told at once."""
+"""Scenes: a mechanism read from TOML text, checked as a whole, with all its faults at once."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Slips of the pen in numbers: a decimal comma, or a unit beside the number, with what to write instead.
+"""Slips of the pen in numbers: a decimal comma, or a unit with the number, and what to write instead.
 
 Read only where a number is wanted and none is found, in a string or in text that is no TOML.
 """

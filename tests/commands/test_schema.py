@@ -14,7 +14,8 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import graphplan
-from graphplan.commands import main, result_schemas
+from graphplan.commands import main
+from graphplan.commands.result_schemas import printed as schema_of
 from graphplan.commands.templates import KINDS, template
 from graphplan.errors import SceneError
 from graphplan.mechanism.items import Item
@@ -174,7 +175,7 @@ def test_everything_in_a_scene_is_described() -> None:
 @pytest.mark.parametrize("name", packaged())
 def test_printed_results_are_valid(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `solve` prints of every packaged scene is valid after its schema."""
-    assert errors(result_schemas.solve(), printed(capsys, "solve", name)) == []
+    assert errors(schema_of("solve"), printed(capsys, "solve", name)) == []
 
 
 @pytest.mark.parametrize("how", [["jaanimets-10", "--exact"], ["jaanimets-10", "--digits", "20"],
@@ -183,18 +184,18 @@ def test_other_numbers_are_valid(how: list[str], capsys: pytest.CaptureFixture[s
     """So is what it prints as fractions, with proven digits, and with a pencil."""
     if "--digits" in how:
         pytest.importorskip("flint")
-    assert errors(result_schemas.solve(), printed(capsys, "solve", *how)) == []
+    assert errors(schema_of("solve"), printed(capsys, "solve", *how)) == []
 
 
 @pytest.mark.parametrize("name", packaged())
 def test_printed_steps_are_valid(name: str, capsys: pytest.CaptureFixture[str]) -> None:
     """What `steps --json` prints of every packaged scene is valid after its schema."""
-    assert errors(result_schemas.steps(), printed(capsys, "steps", name, "--json")) == []
+    assert errors(schema_of("steps"), printed(capsys, "steps", name, "--json")) == []
 
 
 def test_strict_steps_are_valid(capsys: pytest.CaptureFixture[str]) -> None:
     """So are the steps with compasses and straightedge alone."""
-    assert errors(result_schemas.steps(), printed(capsys, "steps", "four-bar", "--json", "--strict")) == []
+    assert errors(schema_of("steps"), printed(capsys, "steps", "four-bar", "--json", "--strict")) == []
 
 
 @pytest.mark.parametrize(("of", "path", "value"), [
@@ -217,4 +218,4 @@ def test_other_results_are_invalid(of: str, path: list[str | int], value: object
     for key in path[:-1]:
         place = place[key]
     place[path[-1]] = value
-    assert errors(getattr(result_schemas, of)(), spoilt)
+    assert errors(schema_of(of), spoilt)

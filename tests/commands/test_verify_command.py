@@ -13,7 +13,8 @@ import pytest
 from jsonschema import Draft202012Validator
 
 import graphplan as gp
-from graphplan.commands import main, result_schemas
+from graphplan.commands import main
+from graphplan.commands.result_schemas import printed as schema_of
 from graphplan.kernel.kinds import POINT
 from graphplan.sheet.plates.plans import Plans
 
@@ -65,7 +66,7 @@ def printed(capsys: pytest.CaptureFixture[str], *arguments: str) -> Any:
     """The JSON that is printed, valid after its schema."""
     assert main(["verify", "four-bar", *arguments, "--json"]) == 0
     data = json.loads(capsys.readouterr().out)
-    assert [error.message for error in Draft202012Validator(result_schemas.verify()).iter_errors(data)] == []
+    assert [error.message for error in Draft202012Validator(schema_of("verify")).iter_errors(data)] == []
     return data
 
 

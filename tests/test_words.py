@@ -27,7 +27,7 @@ from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
-from graphplan.methods.panels import JointForce, Lever
+from graphplan.methods.panels import JointForce, LeverPlan
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, said
 from graphplan.sheet.lettering.lettering import ADVANCE
@@ -184,8 +184,8 @@ def test_results_are_named_in_the_language(kind: str, of: str, told: str) -> Non
 
 def test_levers_are_named_in_the_language() -> None:
     """A lever is spoken of by what it serves: a balance by number, or a reaction at a joint."""
-    assert tongue("de")(Lever.of(2).words) == "Hebelplan 2"
-    assert tongue("de")(Lever.of(JointForce("B", "frame"), "x").words) == "Hebelplan Gestell in B, x"
+    assert tongue("de")(LeverPlan.of(2).words) == "Hebelplan 2"
+    assert tongue("de")(LeverPlan.of(JointForce("B", "frame"), "x").words) == "Hebelplan Gestell in B, x"
 
 
 @pytest.mark.parametrize("code", OTHERS)

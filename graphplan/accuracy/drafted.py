@@ -12,7 +12,7 @@ from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import Kind
+from graphplan.methods.kinds import ResultKind
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.compose import Composer
 from graphplan.sheet.layout.composition import Composition
@@ -95,7 +95,7 @@ class Drafted:
 
     def lines(self) -> list[Said]:
         """Cost and errors in words, a line each."""
-        off: dict[Kind, list[Said]] = {}
+        off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
             off.setdefault(result.kind, []).append(joined((result.thing, f"±{result.deviation}"), " "))
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]

@@ -20,7 +20,7 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, Kind
+from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
 from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
@@ -37,7 +37,7 @@ class Result:
     """The expected error of one reading: in its own unit and in mm, beside the largest value of its kind where there
     is any, and the share of each drawn step in its variance."""
 
-    kind: Kind
+    kind: ResultKind
     of: str
     thing: str
     deviation: Deviation
@@ -99,7 +99,7 @@ def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> It
         yield reading, marks, drawing.value(reading, marks, domain)
 
 
-def _of_mm(kind: Kind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
+def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
     """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
 
     A moment is no vector of a plan.
@@ -121,13 +121,13 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
     return largest
 
 
-def _beside(scene: Scene, kind: Kind, error: float, largest: dict[str, float]) -> float | None:
+def _beside(scene: Scene, kind: ResultKind, error: float, largest: dict[str, float]) -> float | None:
     """An error beside the largest value of its kind; nothing where there is none."""
     group, arm = _group(scene, kind)
     return arm * error / largest[group] if largest[group] > ROUNDING * arm * error else None
 
 
-def _group(scene: Scene, kind: Kind) -> tuple[str, float]:
+def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
     return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(extent(scene), scene.units))
 

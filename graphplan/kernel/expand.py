@@ -17,7 +17,7 @@ from typing import Any, NamedTuple
 from graphplan.errors import Undrawable
 from graphplan.kernel.choice import Choice, Rating
 from graphplan.kernel.evaluate import error_at
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs
 
@@ -131,7 +131,7 @@ class Expander:
         return min((one.movements - 1 for one in found if self._rank(one)[:-1] <= tuple(ideal)), default=math.inf)
 
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
-        return not (self.prefer and rating.form.startswith(self.prefer)), *rating.rank
+        return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "") -> Mark:
         """Record one step and give it its value."""

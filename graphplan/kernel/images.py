@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, primitive
+from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
 from graphplan.kernel.primitives import apart, dot, size, vector
 
 
@@ -146,7 +146,7 @@ def _trials(*ratios: float) -> Form:
                    alpha if s.one(A, C) else beta if s.one(B, C) else None,
                "auxiliary point": _auxiliary_point,
                "trial figure": _trials(0.35),
-               "trial figure on the other side": _trials(-0.35),
+               Variant("trial figure", "on the other side"): _trials(-0.35),
                "two trial figures": _trials(0.3, -0.3),
                "two trial figures further out": _trials(0.7, 0.2)})
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
 from functools import cached_property
-from typing import Any
+from typing import Any, Self
 
 from graphplan.phrases import Said, said, sentence
 
@@ -26,6 +26,23 @@ SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
 
 Claim = tuple[Any, ...]
 Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose
+
+
+class Variant(str):
+    """The name of a form that is another, drawn otherwise: what counts as that `form` counts as this one."""
+
+    form: str
+
+    def __new__(cls, form: str, otherwise: str) -> Self:
+        self = super().__new__(cls, f"{form} {otherwise}")
+        self.form = form
+        return self
+
+
+def plain(form: str) -> str:
+    """The form that a form is, or is a variant of."""
+    return form.form if isinstance(form, Variant) else form
+
 
 
 class Movement(Enum):

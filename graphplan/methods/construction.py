@@ -13,12 +13,12 @@ from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
 from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program
 from graphplan.methods import kinds
-from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, Lever
+from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, LeverPlan
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
 from graphplan.phrases import Said, said
@@ -27,7 +27,7 @@ if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
 
 
-class Arrow(NamedTuple):
+class DrawnVector(NamedTuple):
     """A vector on the sheet: from one mark to another of the drawn program (indices), on a panel.
 
     `kind` is velocity or acceleration; `point` is the point of the mechanism it belongs to; `label` is the letter
@@ -156,7 +156,7 @@ class Construction(Recorded, Given):
             if (step.panel in (N_PLAN, ACCELERATION_PLAN)) == (kind == kinds.ACCELERATION):
                 form = step.choice.best.form
                 if form != "auxiliary point":
-                    yield said(form.partition(" on ")[0])
+                    yield said(plain(form))
                 elif letters:
                     yield said("auxiliary points {0}", ", ".join(letters))
 
@@ -167,7 +167,7 @@ class Construction(Recorded, Given):
         used = {step.op.method for step in steps}
         names: list[str] = [said("force polygons")] if plans else []
         names += [said(name) for name in sorted(used) if name]
-        names += [said("Zhukovsky's lever")] if any(isinstance(s.panel, Lever) for s in self.drawn.steps) else []
+        names += [said("Zhukovsky's lever")] if any(isinstance(s.panel, LeverPlan) for s in self.drawn.steps) else []
         return {"force": names} if names else {}
 
     def _letters(self) -> list[str]:
@@ -182,7 +182,7 @@ class Construction(Recorded, Given):
         return float(self.tempo.kappa)
 
     @property
-    def arrows(self) -> tuple[Arrow, ...]:
+    def arrows(self) -> tuple[DrawnVector, ...]:
         """The vectors that were asked for, as marks of the drawn program."""
         found = []
         for reading in self.readings:
@@ -190,10 +190,10 @@ class Construction(Recorded, Given):
                 start, end = (self.drawn.wanted[position] for position in reading.marks)
                 panel = self.drawn.steps[end].panel
                 prefix = "v" if reading.kind == kinds.VELOCITY else "j"
-                found.append(Arrow(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
+                found.append(DrawnVector(reading.kind, reading.of, f"{prefix}_{reading.of.lower()}", panel, start, end))
         for force in self.shown:
             start, end = (self.drawn.wanted[position] for position in force.marks)
-            found.append(Arrow(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
+            found.append(DrawnVector(force.kind, force.letter, force.letter, self.drawn.steps[end].panel, start, end))
         return tuple(found)
 
     def evaluate(self, points: Mapping[str, Any], guides: Mapping[str, Any] | None = None, *,

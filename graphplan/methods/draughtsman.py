@@ -14,10 +14,10 @@ from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
-from graphplan.methods.motion.moves import Move, Pole, Trial
-from graphplan.methods.motion.plan import Plan
+from graphplan.methods.motion.moves import FalsePosition, Move, Pole
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.rates import Needed, Side, Turnings, apart, sides
+from graphplan.methods.motion.rates import LinkSide, Needed, apart, sides
 from graphplan.methods.motion.time_scale import tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
@@ -38,7 +38,6 @@ class Draughtsman:
         self.moves = planner.moves
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
-        self.turnings = Turnings(scene)
 
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
@@ -63,7 +62,7 @@ class Draughtsman:
     def _accelerated(self) -> bool:
         """Whether an acceleration is asked for that the drives do not prescribe."""
         find = self.scene.find
-        free = any(self.turnings.given(link) is None for link in find.links or ())
+        free = any(self.net.turnings.given(link) is None for link in find.links or ())
         return bool(find.acceleration or find.slides or free)
 
     def accelerations(self, velocity: Velocity) -> Normal:
@@ -76,19 +75,19 @@ class Draughtsman:
         self._slides(plan, kinds.SLIDE_ACCELERATION, self.scene.find.acceleration)
         return plan
 
-    def read(self, kind: kinds.Kind, of: str, *marks: Mark, excess: Number = 0,
+    def read(self, kind: kinds.ResultKind, of: str, *marks: Mark, excess: Number = 0,
              given: Number | Pair | None = None) -> None:
         """Note what is read, and keep the marks that it is read from."""
         start = len(self.marks)
         self.marks.extend(marks)
         self.readings.append(Reading(kind, of, tuple(range(start, len(self.marks))), excess, given))
 
-    def _given(self, kind: kinds.Kind, link: str) -> Number | None:
+    def _given(self, kind: kinds.ResultKind, link: str) -> Number | None:
         """The rate that the drives prescribe for a link."""
-        rates = self.turnings.given(link)
+        rates = self.net.turnings.given(link)
         return rates and getattr(rates, kind)
 
-    def _points(self, plan: Plan, kind: kinds.Kind, names: tuple[str, ...]) -> None:
+    def _points(self, plan: MotionPlan, kind: kinds.ResultKind, names: tuple[str, ...]) -> None:
         asked = set(names)
         for name in (point for point in ordered_points(self.scene) if point in asked):
             place = (self.net.name(name), "")
@@ -99,7 +98,7 @@ class Draughtsman:
             given = getattr(motion, kind) if motion else None
             self.read(kind, name, plan.home(place), plan.ends[place], given=given)
 
-    def _links(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
+    def _links(self, plan: MotionPlan, kind: kinds.ResultKind, asked: tuple[str, ...]) -> None:
         """The turning of each link of which two points are asked for, or one and another's motion is given."""
         links, sought = self.scene.find.links, {*map(self.net.name, asked)}
         asked_for = self.scene.moving if links is None else links
@@ -113,14 +112,14 @@ class Draughtsman:
                 points = self.pose.points[P], self.pose.points[R]
                 self.read(kind, link, *points, *vectors, given=self._given(kind, link))
 
-    def _rates(self, plan: Plan | None, kind: kinds.Kind) -> None:
+    def _rates(self, plan: MotionPlan | None, kind: kinds.ResultKind) -> None:
         """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
         read = {reading.of for reading in self.readings if reading.kind == kind}
         links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
         needed = Needed(self.board, self.marks)
-        cheapest: dict[frozenset[str], Side] = {}
+        cheapest: dict[frozenset[str], LinkSide] = {}
         for link in links:
-            alike = self.turnings.alike(link)
+            alike = self.net.turnings.alike(link)
             if (given := self._given(kind, link)) is not None or plan is None:
                 self.read(kind, link, given=given)
                 continue
@@ -130,15 +129,15 @@ class Draughtsman:
             side = cheapest[group]
             self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
 
-    def _cheapest(self, plan: Plan, link: str, needed: Needed) -> Side:
+    def _cheapest(self, plan: MotionPlan, link: str, needed: Needed) -> LinkSide:
         """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway."""
-        found = sides(plan, self.turnings.alike(link))
+        found = sides(plan, self.net.turnings.alike(link))
         if not found:
             why = said("no construction known here reaches it")
             raise Refused(link_named(link), why, "ask for other links")
         return min(found, key=needed.price)
 
-    def _slides(self, plan: Plan, kind: kinds.Kind, asked: tuple[str, ...]) -> None:
+    def _slides(self, plan: MotionPlan, kind: kinds.ResultKind, asked: tuple[str, ...]) -> None:
         """The sliding of each pair that is asked for, by its name or by its point."""
         names = self.scene.find.slides
         prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
@@ -159,6 +158,6 @@ def _ways(moves: Iterable[Move]) -> Iterator[Said]:
     for move in moves:
         if isinstance(move, Pole):
             yield said("relative pole of links {0} and {1}", *move.bodies)
-        elif isinstance(move, Trial):
+        elif isinstance(move, FalsePosition):
             yield said("false position of {0}", move.at[0][0])
             yield from _ways(move.moves)

@@ -23,7 +23,7 @@ BY_PLANS, BY_LEVER, RUBBED = "balance", "lever", "with friction"  # how a balanc
 FORCES = "force"  # the group of all that is no motion
 
 
-class Kind(str):
+class ResultKind(str):
     """A kind of result by its public name: it knows its words, its dimension and what it is read of.
 
     `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found.
@@ -63,32 +63,34 @@ class Kind(str):
         return reach if self.turning else metre(units) / reach if self.dimension == MOMENT else 1
 
 
-VELOCITY = Kind(said("velocity"), SPEED)
-ACCELERATION = Kind(said("acceleration"), ACCELERATING)
-OMEGA, ALPHA = Kind(said("omega"), TURNING), Kind(said("alpha"), TURNING_FASTER)
-SLIDE_VELOCITY = Kind(said("slide velocity"), SPEED, pair=True)
-SLIDE_ACCELERATION = Kind(said("slide acceleration"), ACCELERATING, pair=True)
-REACTION, SLIDE_REACTION = Kind(said("reaction"), FORCE, pair=True), Kind(said("slide reaction"), FORCE, pair=True)
-SLIDE_MOMENT, SLIDE_ARM = Kind(said("slide moment"), MOMENT, pair=True), Kind(said("slide arm"), LENGTH, pair=True)
-KINDS: Mapping[str, Kind] = {kind: kind for kind in (
+VELOCITY = ResultKind(said("velocity"), SPEED)
+ACCELERATION = ResultKind(said("acceleration"), ACCELERATING)
+OMEGA, ALPHA = ResultKind(said("omega"), TURNING), ResultKind(said("alpha"), TURNING_FASTER)
+SLIDE_VELOCITY = ResultKind(said("slide velocity"), SPEED, pair=True)
+SLIDE_ACCELERATION = ResultKind(said("slide acceleration"), ACCELERATING, pair=True)
+REACTION = ResultKind(said("reaction"), FORCE, pair=True)
+SLIDE_REACTION = ResultKind(said("slide reaction"), FORCE, pair=True)
+SLIDE_MOMENT = ResultKind(said("slide moment"), MOMENT, pair=True)
+SLIDE_ARM = ResultKind(said("slide arm"), LENGTH, pair=True)
+KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
     SLIDE_ARM,
-    Kind(said("balance"), FORCE, way=BY_PLANS), Kind(said("balance moment"), MOMENT, way=BY_PLANS),
-    Kind(said("balance with friction"), FORCE, way=RUBBED),
-    Kind(said("balance moment with friction"), MOMENT, way=RUBBED),
-    Kind(said("lever"), FORCE, way=BY_LEVER), Kind(said("lever moment"), MOMENT, way=BY_LEVER),
+    ResultKind(said("balance"), FORCE, way=BY_PLANS), ResultKind(said("balance moment"), MOMENT, way=BY_PLANS),
+    ResultKind(said("balance with friction"), FORCE, way=RUBBED),
+    ResultKind(said("balance moment with friction"), MOMENT, way=RUBBED),
+    ResultKind(said("lever"), FORCE, way=BY_LEVER), ResultKind(said("lever moment"), MOMENT, way=BY_LEVER),
 )}
-POWER, POWER_MOMENT = Kind("power balance", FORCE), Kind("power balance moment", MOMENT)  # a third opinion, not read
+POWER, POWER_MOMENT = ResultKind("power balance", FORCE), ResultKind("power balance moment", MOMENT)  # never read
 MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION)}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
 WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), "curves": said("curves")}
 
 
-def kind_of(name: str) -> Kind:
+def kind_of(name: str) -> ResultKind:
     """The kind of this public name."""
     return KINDS.get(name) or (POWER if name == POWER else POWER_MOMENT)
 
 
-def balance_kind(way: str, balance: Balance) -> Kind:
+def balance_kind(way: str, balance: Balance) -> ResultKind:
     """The kind of a balance that is found in this way: a force or a moment."""
     return next(kind for kind in KINDS.values() if kind.way == way and kind.single != bool(balance.at))

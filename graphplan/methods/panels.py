@@ -84,11 +84,11 @@ class JointForce:
         return joined((_bare(self.link), said("at {0}", self.point)), " ")
 
 
-class Lever(Panel):
+class LeverPlan(Panel):
     """A lever of Zhukovsky's: the only one, or that of a balance by its number, or of one part of a reaction."""
 
     @classmethod
-    def of(cls, what: JointForce | Slide | int | None = None, part: str = "") -> Lever:
+    def of(cls, what: JointForce | Slide | int | None = None, part: str = "") -> LeverPlan:
         if what is None:
             return cls("lever", said("lever"), arranged("{0:capital}", said("Zhukovsky's lever")))
         if isinstance(what, int):

@@ -8,7 +8,7 @@ from collections.abc import Mapping, MutableMapping
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import by_name, ordered_points
-from graphplan.methods.motion.network import Place
+from graphplan.methods.motion.network import BodyPoint
 from graphplan.methods.panels import MECHANISM
 
 
@@ -56,7 +56,7 @@ class Pose:
             self._letters[body] = self._free[number] if number < len(self._free) else f"Q_{number + 1}"
         return self._letters[body]
 
-    def far_from(self, place: Place) -> Mark:
+    def far_from(self, place: BodyPoint) -> Mark:
         """Another point of a link of this place, to take the size of a trial from."""
         point, link = place
         at = self.scene.points.get(point)

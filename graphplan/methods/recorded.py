@@ -12,7 +12,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
-from graphplan.methods.kinds import Kind
+from graphplan.methods.kinds import ResultKind
 from graphplan.methods.motion.time_scale import Tempo
 
 
@@ -23,7 +23,7 @@ class Reading(NamedTuple):
     the scene prescribes, for a slide along the guide, its first mark; then the marks only show it.
     """
 
-    kind: Kind
+    kind: ResultKind
     of: str
     marks: tuple[int, ...]
     excess: Number = 0

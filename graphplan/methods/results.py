@@ -73,7 +73,7 @@ class Given(ABC):
         return [*balances(self.scene, {kind: self.named(kind) for kind in kinds.KINDS}).values()]
 
 
-def thing_named(scene: Scene, kind: kinds.Kind, of: str) -> str:
+def thing_named(scene: Scene, kind: kinds.ResultKind, of: str) -> str:
     """What a reading of a kind is of, in words: a slide, a link at a joint, else a point or link as it is."""
     return reactions_named(scene)[of] if kind.pair else of
 

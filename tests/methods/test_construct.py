@@ -19,7 +19,7 @@ from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.structure import structure
 from graphplan.methods.construct import construct
 from graphplan.methods.motion import acceleration, velocity
-from graphplan.methods.motion.plan import Plan
+from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.time_scale import Tempo
 
@@ -143,8 +143,8 @@ FAULTS = {
                            lambda self, slide, known, new, B: self.figure(known, B)),
     "relative poles without their shift": (acceleration.Normal, "pole_shift", lambda self, move: None),
     "shifts between home and figure left out": (
-        Plan, "moved", lambda self, mark, one, two: two if mark is one else mark),
-    "drives turn the wrong way": (Tempo, "turning", lambda self, omega: -omega / self.unit),
+        MotionPlan, "moved", lambda self, mark, one, two: two if mark is one else mark),
+    "drives turn the wrong way": (Tempo, "rate", lambda self, omega: -omega / self.unit),
 }
 
 

@@ -8,8 +8,19 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 from graphplan.mechanism.model import Balance, Loads, Scene
-from graphplan.methods.forces.statics import Along, Assume, AtPoint, Close, Equilibrium, Fact, Found, Polygon, Where
-from graphplan.methods.forces.unknown_forces import Group, Joint, groups, in_general, posed
+from graphplan.methods.forces.statics import (
+    AcrossSlide,
+    Assume,
+    AtCrossing,
+    AtPoint,
+    Close,
+    ClosePolygon,
+    Equilibrium,
+    ForceFact,
+    LineFact,
+)
+from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, posed
+from graphplan.methods.panels import JointForce
 
 
 def balanced(group: str, seed: int = 3) -> Scene:
@@ -17,11 +28,11 @@ def balanced(group: str, seed: int = 3) -> Scene:
     return replace(mechanism([group], seed), loads=Loads((0, 0), {}, (), (), (Balance("1"),)))
 
 
-def planned(scene: Scene, order: str = "polygons") -> list[tuple[Group, list[object]]]:
+def planned(scene: Scene, order: str = "polygons") -> list[tuple[ForceGroup, list[object]]]:
     """The moves of each group, in the order of force transfer."""
     found, done = [], list[str]()
     for links in groups(scene):
-        group = Group(scene, links, done)
+        group = ForceGroup(scene, links, done)
         found.append((group, list[object](Equilibrium(group, (in_general(scene), posed(scene)), order).plan())))
         done += links
     return found
@@ -41,11 +52,11 @@ def test_forces_pass_against_the_motion() -> None:
 
 
 @pytest.mark.parametrize(("group", "moves"), [
-    ("rrr", ["Fact", "Fact", "Polygon", "Close"]),
-    ("rrp", ["Fact", "Fact", "Polygon", "Close"]),
-    ("rpr", ["Fact", "Fact", "Found", "Close", "Close"]),
-    ("prp", ["Fact", "Fact", "Polygon", "Close"]),
-    ("rpp", ["Fact", "Fact", "Close", "Close", "Close"]),
+    ("rrr", ["LineFact", "LineFact", "ClosePolygon", "Close"]),
+    ("rrp", ["LineFact", "LineFact", "ClosePolygon", "Close"]),
+    ("rpr", ["LineFact", "LineFact", "ForceFact", "Close", "Close"]),
+    ("prp", ["LineFact", "LineFact", "ClosePolygon", "Close"]),
+    ("rpp", ["LineFact", "LineFact", "Close", "Close", "Close"]),
 ])
 def test_dyads_as_in_the_textbook(group: str, moves: list[str]) -> None:
     """Two facts of the outer pairs, the polygon of both links, the inner reaction: in each modification."""
@@ -57,7 +68,7 @@ def test_tangential_parts_come_from_moments_about_the_inner_joint() -> None:
     scene = balanced("rrr")
     group, moves = planned(scene)[0]
     inner = next(point for point in group.points if not group.rest(point))
-    facts = [move for move in moves if isinstance(move, Fact)]
+    facts = [move for move in moves if isinstance(move, LineFact)]
     assert [fact.about for fact in facts] == [AtPoint(inner)] * 2
     assert all(len(fact.part) == 1 for fact in facts)
 
@@ -65,15 +76,15 @@ def test_tangential_parts_come_from_moments_about_the_inner_joint() -> None:
 def test_an_inner_slide_has_no_part_along_its_guide() -> None:
     """In a dyad with an inner slide the outer reactions are told by forces along the guide, without moments."""
     _, moves = planned(balanced("rpr"))[0]
-    assert all(isinstance(move.about, Along) for move in moves if isinstance(move, Fact))
+    assert all(isinstance(move.about, AcrossSlide) for move in moves if isinstance(move, LineFact))
 
 
 @pytest.mark.parametrize("group", ["triad", "sliding_triad", "class_four", "rosenauer"])
 def test_higher_groups_use_auxiliary_points(group: str) -> None:
     """Triads, class IV and Rosenauer's groups take moments about the points where two lines of action meet."""
     _, moves = planned(balanced(group))[0]
-    abouts = [move.about for move in moves if isinstance(move, Fact | Found)]
-    assert any(isinstance(about, Where) for about in abouts)
+    abouts = [move.about for move in moves if isinstance(move, LineFact | ForceFact)]
+    assert any(isinstance(about, AtCrossing) for about in abouts)
     assert not any(isinstance(move, Assume) for move in moves)
 
 
@@ -81,17 +92,17 @@ def test_the_common_joint_of_rosenauers_links_is_found_by_both_auxiliary_points(
     """As its velocity is where two loci meet, the reaction there is where two lines meet: one from Q, one from R."""
     scene = balanced("rosenauer")
     group, moves = planned(scene)[0]
-    at = [move for move in moves if isinstance(move, Fact | Found) and isinstance(move.about, Where)]
+    at = [move for move in moves if isinstance(move, LineFact | ForceFact) and isinstance(move.about, AtCrossing)]
     assert len(at) == 2
     (site,) = {move.site for move in at}
-    assert isinstance(site, Joint)
+    assert isinstance(site, JointForce)
     assert not group.rest(site.point)
 
 
 def test_moments_may_be_preferred_to_polygons() -> None:
     """Where a polygon's lines run all but parallel, moments tell the force instead."""
-    assert "Polygon" in kinds("rrr")
-    assert kinds("rrr", "moments") == ["Fact", "Fact", "Found", "Close", "Close"]
+    assert "ClosePolygon" in kinds("rrr")
+    assert kinds("rrr", "moments") == ["LineFact", "LineFact", "ForceFact", "Close", "Close"]
 
 
 @pytest.mark.parametrize("group", sorted(GROUPS))
@@ -101,9 +112,9 @@ def test_every_site_is_found_once(group: str, order: str) -> None:
     for one, moves in planned(balanced(group), order):
         found: list[object] = []
         for move in moves:
-            if isinstance(move, Found | Close):
+            if isinstance(move, ForceFact | Close):
                 found.append(move.site)
-            elif isinstance(move, Polygon):
+            elif isinstance(move, ClosePolygon):
                 found += [move.one, move.two]
         sites = {site for part in one.parts for site, _ in one.boundary(part)}
         assert len(found) == len(set(found))

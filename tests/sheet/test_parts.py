@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
-from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, Lever, listed
+from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
 from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -99,10 +99,10 @@ def test_names_run_together_are_told_apart() -> None:
     (ForcePlan.of(("1",)), {"balance"}, "Force plan: link 1"),
     (ForcePlan.of(("2", "3")), {"load"}, "Force plan: links 2 and 3"),
     (ForcePlan.of(("2", "3"), 1), {"load"}, "Force plan with friction: links 2 and 3"),
-    (Lever.of(), {"load"}, "Zhukovsky's lever"),
-    (Lever.of(2), {"load"}, "Zhukovsky's lever 2"),
-    (Lever.of(JointForce("B", "2"), "x"), {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
-    (Lever.of(JointForce("O", "frame"), "y"), {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
+    (LeverPlan.of(), {"load"}, "Zhukovsky's lever"),
+    (LeverPlan.of(2), {"load"}, "Zhukovsky's lever 2"),
+    (LeverPlan.of(JointForce("B", "2"), "x"), {"load"}, "Zhukovsky's lever: the force on link 2 at B, along x"),
+    (LeverPlan.of(JointForce("O", "frame"), "y"), {"load"}, "Zhukovsky's lever: the force on the frame at O, along y"),
 ])  # fmt: skip
 def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: str) -> None:
     """Each plan is named as a textbook would, with its links, and the mechanism's with what is drawn on it."""
@@ -112,9 +112,9 @@ def test_a_caption_says_what_its_plan_is(panel: Panel, kinds: set[str], text: st
 @pytest.mark.parametrize(("panel", "name"), [
     (MECHANISM, "mechanism"), (N_PLAN.part(2), "N-plan, part 2"), (ForcePlan.of(("2", "3")), "force plan 2, 3"),
     (ForcePlan.of(("2", "3"), 1), "force plan 2, 3 with friction"),
-    (ForcePlan.of(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (Lever.of(), "lever"),
-    (Lever.of(2), "lever 2"), (Lever.of(JointForce("O", "frame"), "y"), "lever frame at O, y"),
-    (Lever.of(Slide("3", "frame", "B", (1, 0)), "M"), "lever 3 along frame, M"),
+    (ForcePlan.of(("2", "3"), 2), "force plan 2, 3 with friction, round 2"), (LeverPlan.of(), "lever"),
+    (LeverPlan.of(2), "lever 2"), (LeverPlan.of(JointForce("O", "frame"), "y"), "lever frame at O, y"),
+    (LeverPlan.of(Slide("3", "frame", "B", (1, 0)), "M"), "lever 3 along frame, M"),
 ])  # fmt: skip
 def test_a_plan_has_one_public_name(panel: Panel, name: str) -> None:
     """A plan is named in files and options as ever, and stays what it is on its way to another process."""
@@ -129,7 +129,7 @@ def test_links_with_the_words_of_names_are_no_riddle() -> None:
     odd = "2 with friction, round 3"
     assert ForcePlan.of((odd,)).words == f"force plan of link {odd}"
     assert ForcePlan.of((odd,), 1).twin == ForcePlan.of((odd,))
-    assert Lever.of(JointForce("B", "4 along 3"), "x").words == "lever 4 along 3 at B, x"
+    assert LeverPlan.of(JointForce("B", "4 along 3"), "x").words == "lever 4 along 3 at B, x"
 
 
 def test_links_are_listed_shortly() -> None:

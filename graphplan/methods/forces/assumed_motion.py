@@ -14,6 +14,7 @@ from fractions import Fraction
 from graphplan.mechanism.bracing import bracing
 from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Pair, Scene, Slide, SlidingDrive, TurningDrive
 from graphplan.mechanism.order import ordered_drives
+from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
@@ -98,9 +99,8 @@ def freed_joint(scene: Scene, point: str, link: str, pin: str, axis: Pair) -> As
     links = {name: tuple(new if name == link and p == point else p for p in points)
              for name, points in scene.links.items()}
     slides = [replace(s, at=new) if (s.link, s.at) == (link, point) else s for s in scene.slides]
-    changed = replace(scene, points=scene.points | {new: scene.points[point]}, links=links | {block: (new,)},
-                      written=(*slides, Slide(block, pin, new, axis), _sliding(scene, block, pin)))
-    return Assumed(_all_held(changed, {(link, point): new}), {(link, point): new})
+    written = *slides, Slide(block, pin, new, axis), _sliding(scene, block, pin)
+    return _freed(scene, links | {block: (new,)}, written, {(link, point): new})
 
 
 def freed_slide(scene: Scene, slide: Slide) -> Assumed:
@@ -109,26 +109,27 @@ def freed_slide(scene: Scene, slide: Slide) -> Assumed:
     dx, dy = slide.direction
     axis = AXES[abs(float(dx)) >= abs(float(dy))]
     slides = [replace(s, along=block) if s == slide else s for s in scene.slides]
-    changed = replace(scene, points=scene.points | {new: scene.points[slide.at]}, links=scene.links | {block: (new,)},
-                      written=(*slides, Slide(block, slide.along, new, axis), _sliding(scene, block, slide.along)))
-    return Assumed(_all_held(changed, {}), {(block, slide.at): new})
+    written = *slides, Slide(block, slide.along, new, axis), _sliding(scene, block, slide.along)
+    return _freed(scene, scene.links | {block: (new,)}, written, {(block, slide.at): new})
 
 
 def freed_turning(scene: Scene, slide: Slide) -> Assumed:
     """The motion of a sliding link that turns on its guide, about the slide's point, in a block there."""
     block = f"block {slide.name}"
     slides = [replace(s, link=block) if s == slide else s for s in scene.slides]
-    changed = replace(scene, links=scene.links | {block: (slide.at,)},
-                      written=(*slides, TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0))))
-    return Assumed(_all_held(changed, {}), {})
+    written = *slides, TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0))
+    return _freed(scene, scene.links | {block: (slide.at,)}, written, {})
 
 
 def _sliding(scene: Scene, block: str, along: str) -> Drive:
     return SlidingDrive(block, along, round_number(extent(scene) / 4), Fraction(0))
 
 
-def _all_held(scene: Scene, renamed: dict[tuple[str, str], str]) -> Scene:
-    """The scene with all its balances as supports, at points that may have been named apart."""
+def _freed(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],
+           renamed: dict[tuple[str, str], str]) -> Assumed:
+    """The scene with other pairs, one freed and driven, and with all its balances as supports."""
     assert scene.loads is not None
-    return _held(scene, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
-                         for balance in scene.loads.balances])
+    points = scene.points | {new: scene.points[old] for (_, old), new in renamed.items()}
+    freed = replace(scene, points=points, links=links, written=written)
+    return Assumed(_held(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
+                                 for balance in scene.loads.balances]), renamed)

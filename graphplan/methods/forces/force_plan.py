@@ -13,18 +13,17 @@ from fractions import Fraction
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.forces import statics
-from graphplan.methods.forces.free_bodies import Part, Parts
-from graphplan.methods.forces.letters import pair_letter, reaction_letter
+from graphplan.methods.forces.free_bodies import FreeBodies, Part
 from graphplan.methods.forces.loading import Acting
-from graphplan.methods.forces.reactions import Known, Pair, Shown, Span, signed
-from graphplan.methods.forces.unknown_forces import Joint, Site
-from graphplan.methods.panels import MECHANISM, listed
+from graphplan.methods.forces.reactions import Known, Pair, Shown, Span, pair_letter, reaction_letter, signed
+from graphplan.methods.forces.unknown_forces import UnknownForce
+from graphplan.methods.panels import MECHANISM, JointForce, listed
 from graphplan.phrases import said
 
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # how large a force is assumed, in lengths of the mechanism
 
 
-class ForcePlan(Parts):
+class ForcePolygon(FreeBodies):
     """Draws the moves of one group on a panel of its own, and enters the reactions in `forces`."""
 
     # ---- moves -------------------------------------------------------------------------------------------------
@@ -37,11 +36,11 @@ class ForcePlan(Parts):
 
     def _draw(self, move: statics.StaticMove) -> None:
         match move:
-            case statics.Fact(part, site, about):
+            case statics.LineFact(part, site, about):
                 self.known[site] = self._told(part, site, about)
-            case statics.Found(part, site, about):
+            case statics.ForceFact(part, site, about):
                 self._found(part, site, about)
-            case statics.Polygon(part, one, two):
+            case statics.ClosePolygon(part, one, two):
                 self._close_two(part, one, two)
             case statics.Close(part, site):
                 self._close(part, site)
@@ -50,10 +49,10 @@ class ForcePlan(Parts):
             case statics.Assume():
                 self._trial(move)
 
-    def _told(self, part: Part, site: Site, about: statics.About) -> Known:
+    def _told(self, part: Part, site: UnknownForce, about: statics.About) -> Known:
         """What a part's equilibrium about a point tells of a force."""
         sign = self.sign(part, site)
-        if isinstance(about, statics.Along | statics.AlongLine):
+        if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
             return self._across(part, site, about, sign)
         if isinstance(site, Slide):
             return self._slide_line(part, site, about, sign)
@@ -67,19 +66,16 @@ class ForcePlan(Parts):
         with self.board.on(MECHANISM):
             if isinstance(about, statics.AtPoint):
                 return self.board.side(self.pose.points[about.point], X)
-            assert isinstance(about, statics.Where)
+            assert isinstance(about, statics.AtCrossing)
             return self.board.towards(*self._lines(about), X, names=self._letters(about))
 
-    def _lines(self, about: statics.Where) -> Span:
-        one, two = (self.known[site].line for site in (about.one, about.two))
-        assert one is not None
-        assert two is not None
-        return one, two
+    def _lines(self, about: statics.AtCrossing) -> Span:
+        return self.known[about.one].acting, self.known[about.two].acting
 
-    def _letters(self, about: statics.Where) -> dict[str, str]:
+    def _letters(self, about: statics.AtCrossing) -> dict[str, str]:
         return {"Q": self.pose.letter(" ".join(sorted((about.one.link, about.two.link))))}
 
-    def _moments(self, part: Part, site: Site, about: statics.About, X: Mark, sign: int,
+    def _moments(self, part: Part, site: UnknownForce, about: statics.About, X: Mark, sign: int,
                  base: Mark | None = None) -> Span | None:
         """The force at X, square to its line, that balances all known forces on the part; nothing where there is none.
 
@@ -110,7 +106,7 @@ class ForcePlan(Parts):
     def _weighed(self, about: statics.About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
         if isinstance(about, statics.AtPoint):
             return self.board.balance(self.pose.points[about.point], X, C, *force, mark, why=why)
-        assert isinstance(about, statics.Where)
+        assert isinstance(about, statics.AtCrossing)
         return self.board.weigh(*self._lines(about), X, C, *force, mark, names=self._letters(about), why=why)
 
     def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
@@ -124,11 +120,11 @@ class ForcePlan(Parts):
         """The point that moments are taken about, as a mark."""
         if isinstance(about, statics.AtPoint):
             return self.pose.points[about.point]
-        assert isinstance(about, statics.Where)
+        assert isinstance(about, statics.AtCrossing)
         with self.board.on(MECHANISM):
             return self.board.meet(*self._lines(about), name=self._letters(about)["Q"])
 
-    def _pair(self, part: Part, site: Site, Y: Mark, sign: int) -> Pair | None:
+    def _pair(self, part: Part, site: UnknownForce, Y: Mark, sign: int) -> Pair | None:
         """The couple that balances all known forces on the part about a point, as a pair of forces there."""
         assert isinstance(site, Slide | Balance)
         R = self._arm_beside(site, Y)
@@ -143,18 +139,16 @@ class ForcePlan(Parts):
         one, two = self.loading.arm(site.link)
         return one if two is Y or two.step.params == Y.step.params else two  # two given points may coincide
 
-    def _across(self, part: Part, site: Site, about: statics.About, sign: int) -> Known:
+    def _across(self, part: Part, site: UnknownForce, about: statics.AcrossSlide | statics.AcrossLine,
+                sign: int) -> Known:
         """No moments: what the forces along a direction leave unknown is told by those across it."""
         start, end = self.polygon(part, self.parts_of(self.others(part, site)), (site,))
         with self.board.on(MECHANISM):
-            if isinstance(about, statics.Along):
+            if isinstance(about, statics.AcrossSlide):
                 guide = self.pose.guide(about.slide)
                 line = self.board.perpendicular(guide, self.pose.points[about.slide.at])
             else:
-                assert isinstance(about, statics.AlongLine)
-                known_line = self.known[about.site].line
-                assert known_line is not None
-                line = known_line
+                line = self.known[about.site].acting
         if isinstance(site, Slide):
             return self._slide_size(site, line, start, end, sign)
         X = self.seat(site)
@@ -169,7 +163,7 @@ class ForcePlan(Parts):
         corner = self.board.meet(self.board.parallel(normal, end), self.board.parallel(line, start))
         return Known(signed((end, corner), sign), None, None)
 
-    def _found(self, part: Part, site: Site, about: statics.About) -> None:
+    def _found(self, part: Part, site: UnknownForce, about: statics.About) -> None:
         """A force of known line, from moments about a point that its line does not pass; or a couple."""
         sign = self.sign(part, site)
         known = self.known.get(site)
@@ -180,7 +174,7 @@ class ForcePlan(Parts):
         if known.line is None:
             self._couple_found(part, site, known, self._mark_of(about))
             return
-        if isinstance(about, statics.Along | statics.AlongLine):
+        if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
             told = self._across(part, site, about, sign)
             if told.line is None:
                 assert told.part is not None
@@ -206,7 +200,7 @@ class ForcePlan(Parts):
         tail = corner if part is None else part[0] if part[1] is corner else self.board.transfer(*part[::-1], corner)
         return self.board.parallel(line, tail)
 
-    def _enter(self, site: Site, span: Span) -> None:
+    def _enter(self, site: UnknownForce, span: Span) -> None:
         """A force is found; a slide's acts where its line says, with the pair known besides."""
         self.ends[site] = span
         for mark in span:
@@ -219,20 +213,18 @@ class ForcePlan(Parts):
             else:
                 self.seats[site] = self.pose.points[site.at]
 
-    def _close_two(self, part: Part, one: Site, two: Site) -> None:
+    def _close_two(self, part: Part, one: UnknownForce, two: UnknownForce) -> None:
         """The corner between two forces of known lines."""
         start, end = self.polygon(part)
         first, last = self.known[one], self.known[two]
         signs = self.sign(part, one), self.sign(part, two)
-        assert first.line is not None
-        assert last.line is not None
         tails = first.part and signed(first.part, signs[0])
         heads = last.part and signed(last.part, signs[1])
-        corner = self.board.meet(self._tail_locus(first.line, tails, start), self._locus(last.line, heads, end))
+        corner = self.board.meet(self._tail_locus(first.acting, tails, start), self._locus(last.acting, heads, end))
         self._enter(one, signed((corner, start), signs[0]))
         self._enter(two, signed((end, corner), signs[1]))
 
-    def _close(self, part: Part, site: Site) -> None:
+    def _close(self, part: Part, site: UnknownForce) -> None:
         """The last force of a part closes its polygon; of a slide, and of a couple, the moment too."""
         sign = self.sign(part, site)
         known = self.known.get(site)
@@ -250,17 +242,18 @@ class ForcePlan(Parts):
             Y = self.pose.points[site.at]
             self.pairs[site] = self._pair(part, site, Y, sign)
 
-    def _couple_found(self, part: Part, site: Site, known: Known, Y: Mark) -> None:
+    def _couple_found(self, part: Part, site: UnknownForce, known: Known, Y: Mark) -> None:
         """The couple of a slide's reaction of known size, which is taken to act at its point, by moments about Y."""
         assert isinstance(site, Slide)
         assert known.part is not None
         self.pairs[site] = self._pair(part, site, Y, self.sign(part, site))
         self.ends[site], self.seats[site] = known.part, self.pose.points[site.at]
 
-    def _pin(self, site: Joint) -> None:
+    def _pin(self, site: JointForce) -> None:
         """The forces on the links of a joint balance."""
         mark = first = self.origin
-        spans = [self.ends[Joint(site.point, link)] for link in self.group.members(site.point) if link != site.link]
+        others = [link for link in self.group.members(site.point) if link != site.link]
+        spans = [self.ends[JointForce(site.point, link)] for link in others]
         spans += [self.forces.joints[site.point, link] for link in self.group.scene.links_of[site.point]
                   if link in self.group.done]
         for tail, head in spans:
@@ -272,9 +265,8 @@ class ForcePlan(Parts):
     def _trial(self, move: statics.Assume) -> None:
         """Two forces assumed on the known line, the false position, then the true force by the same moves."""
         known = self.known[move.site]
-        assert known.line is not None
         base = known.part[0] if known.part else self.polygon(move.part)[1]
-        locus = self._locus(known.line, known.part, base)
+        locus = self._locus(known.acting, known.part, base)
         size = self.board.transfer(*self.loading.arm(self.group.links[0]), base)
         before = dict(self.known), dict(self.ends), dict(self.pairs), dict(self.seats)
         trials: list[Mark] = []
@@ -292,9 +284,8 @@ class ForcePlan(Parts):
     def _missed(self, move: statics.Assume) -> Span:
         """The head of a force found by a trial, and the line on which it should lie."""
         told = self._told(move.part, move.end, move.about)
-        assert told.line is not None
         tail, head = self.ends[move.end]
-        return head, self._locus(told.line, told.part, tail)
+        return head, self._locus(told.acting, told.part, tail)
 
     # ---- what is found -----------------------------------------------------------------------------------------
 
@@ -328,18 +319,18 @@ class ForcePlan(Parts):
                 if pair is not None:
                     self.forces.shown.append(Shown("balance", f"T_{site.link}", pair[0].tail, pair[0].head))
 
-    def _letter(self, site: Site) -> str:
+    def _letter(self, site: UnknownForce) -> str:
         """The letter of a site's force: that of the force of one link on another, or of the balance."""
-        if isinstance(site, Joint):
+        if isinstance(site, JointForce):
             return reaction_letter(self.forces.scene, site.point, site.link)
         return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
 
     def _at_joint(self, point: str, link: str) -> Span:
         """The force on a link at a joint, from the pin: found, or what is left by the others there."""
-        if Joint(point, link) in self.ends:
-            return self.ends[Joint(point, link)]
+        if JointForce(point, link) in self.ends:
+            return self.ends[JointForce(point, link)]
         spans = [(force.tail, force.head) for force in self.from_done(point)]
-        spans += [self.ends[Joint(point, other)][::-1] for other in self.group.members(point) if other != link]
+        spans += [self.ends[JointForce(point, other)][::-1] for other in self.group.members(point) if other != link]
         mark = first = spans[0][0]
         for tail, head in spans:
             mark = head if tail is mark else self.board.transfer(tail, head, mark)

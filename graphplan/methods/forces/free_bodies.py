@@ -6,26 +6,36 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide
-from graphplan.methods.forces.letters import pair_letter, reaction_letter
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import Forces, Known, Pair, Shown, Span, applied, signed, signed_pair
-from graphplan.methods.forces.unknown_forces import Group, Joint, Site, has_line
-from graphplan.methods.panels import MECHANISM, ForcePlan
+from graphplan.methods.forces.reactions import (
+    DrawnForces,
+    Known,
+    Pair,
+    Shown,
+    Span,
+    applied,
+    pair_letter,
+    reaction_letter,
+    signed,
+    signed_pair,
+)
+from graphplan.methods.forces.unknown_forces import ForceGroup, UnknownForce, has_line
+from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
 from graphplan.methods.poses import Pose
 
-Part = frozenset[str]
+Part = frozenset[str]  # links of a group, seen as one free body
 
 
-class Parts:
+class FreeBodies:
     """The known forces of one group, drawn on a panel of its own."""
 
-    def __init__(self, board: Board, pose: Pose, group: Group, loading: Loading, forces: Forces):
+    def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: DrawnForces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
         self.panel = ForcePlan.of(group.links, forces.number)
-        self.known: dict[Site, Known] = {}
-        self.ends: dict[Site, Span] = {}
-        self.pairs: dict[Site, Pair | None] = {}
-        self.seats: dict[Site, Mark] = {}
+        self.known: dict[UnknownForce, Known] = {}
+        self.ends: dict[UnknownForce, Span] = {}
+        self.pairs: dict[UnknownForce, Pair | None] = {}
+        self.seats: dict[UnknownForce, Mark] = {}
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
         with board.on(self.panel, group.links):
@@ -112,11 +122,11 @@ class Parts:
 
     # ---- a part of the group -----------------------------------------------------------------------------------
 
-    def _solved(self, part: Part) -> Iterator[tuple[Site, int]]:
+    def _solved(self, part: Part) -> Iterator[tuple[UnknownForce, int]]:
         """The sites of a part's boundary whose forces are found, with their signs."""
         yield from ((site, sign) for site, sign in self.group.boundary(part) if site in self.ends or site in self.pairs)
 
-    def _vectors(self, part: Part, but: Iterable[Site] = ()) -> Iterator[Acting]:
+    def _vectors(self, part: Part, but: Iterable[UnknownForce] = ()) -> Iterator[Acting]:
         """The known forces that act on a part beyond its links' chains."""
         for point in self.group.passed_on(part):
             if len(self.group.members(point)) > 1:
@@ -125,13 +135,13 @@ class Parts:
             if site in self.ends and site not in but:
                 yield Acting(self.seat(site), *signed(self.ends[site], sign))
 
-    def seat(self, site: Site) -> Mark:
+    def seat(self, site: UnknownForce) -> Mark:
         """Where a site's force acts."""
         if site in self.seats:
             return self.seats[site]
-        return self.pose.points[site.point if isinstance(site, Joint) else site.at]
+        return self.pose.points[site.point if isinstance(site, JointForce) else site.at]
 
-    def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[Site] = ()) -> Span:
+    def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[UnknownForce] = ()) -> Span:
         """The open polygon of a part's known forces: where it starts and where it ends."""
         spans: list[Span] = []
         for link in self.group.links:
@@ -159,7 +169,7 @@ class Parts:
             corner = self.chains[link][-1].head if self.chains[link] else corner
         return corner
 
-    def acting(self, part: Part, facts: Iterable[tuple[Site, int]], but: Site) -> Iterator[Acting]:
+    def acting(self, part: Part, facts: Iterable[tuple[UnknownForce, int]], but: UnknownForce) -> Iterator[Acting]:
         """Every known force on a part, with couples as pairs, and the known parts of forces with known lines."""
         for link in self.group.links:
             if link in part:
@@ -178,16 +188,16 @@ class Parts:
             if known is not None and known.pair is not None and site not in self.ends:
                 yield from signed_pair(known.pair, sign)
 
-    def acts_at(self, site: Site, known: Known) -> Mark:
+    def acts_at(self, site: UnknownForce, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)
 
-    def sign(self, part: Part, site: Site) -> int:
+    def sign(self, part: Part, site: UnknownForce) -> int:
         return next(sign for other, sign in self.group.boundary(part) if other == site)
 
-    def others(self, part: Part, site: Site) -> list[tuple[Site, int]]:
+    def others(self, part: Part, site: UnknownForce) -> list[tuple[UnknownForce, int]]:
         return [(other, sign) for other, sign in self.group.boundary(part) if other != site]
 
-    def parts_of(self, sites: Iterable[tuple[Site, int]]) -> Iterator[Acting]:
+    def parts_of(self, sites: Iterable[tuple[UnknownForce, int]]) -> Iterator[Acting]:
         """The known parts of forces whose lines are known."""
         for site, sign in sites:
             known = self.known.get(site)

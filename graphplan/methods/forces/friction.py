@@ -19,7 +19,7 @@ from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.methods.forces.loading import Loading
-from graphplan.methods.forces.reactions import Forces, Span, reaction_on
+from graphplan.methods.forces.reactions import DrawnForces, Span, reaction_on
 from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, slide_named
@@ -68,7 +68,7 @@ def rough(scene: Scene) -> Scene:
 class Rubbed:
     """The pose in which the forces of one round act, as those of the round before say."""
 
-    def __init__(self, velocity: Velocity, loading: Loading, forces: Forces):
+    def __init__(self, velocity: Velocity, loading: Loading, forces: DrawnForces):
         self.velocity, self.loading, self.forces, self.board = velocity, loading, forces, loading.board
         slides = {(slide.link, slide.along): slide for slide in loading.scene.slides}
         self.touching = {journal: self._touching(journal) for journal in journals(loading.net.scene)}

@@ -12,25 +12,24 @@ from graphplan.mechanism.order import ordered
 from graphplan.methods import kinds, panels
 from graphplan.methods.forces import assumed_motion
 from graphplan.methods.forces.assumed_motion import Assumed
-from graphplan.methods.forces.force_plan import ForcePlan
+from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.friction import rough
-from graphplan.methods.forces.letters import pair_letter
 from graphplan.methods.forces.lever import Lever
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import Forces, Shown, reaction_on
+from graphplan.methods.forces.reactions import DrawnForces, Shown, pair_letter, reaction_on
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
-from graphplan.methods.forces.unknown_forces import Group, Position, groups, in_general, posed
+from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
 
-Result = tuple[kinds.Kind, str, tuple[Mark, ...]]
+Result = tuple[kinds.ResultKind, str, tuple[Mark, ...]]
 Way = tuple[str, int]
 
 
-class Plans:
+class ForceTransfer:
     """The groups of a scene in the order of force transfer, and the moves of each, planned once for every way.
 
     `rough` are the plans for its rounds of friction. Groups with statically indeterminate forces, and those that have
@@ -42,7 +41,7 @@ class Plans:
 
     def __init__(self, scene: Scene):
         self.scene = scene
-        self.groups: list[Group] = []
+        self.groups: list[ForceGroup] = []
         self._general = in_general(scene)
         self._assumed: dict[str, Planner] = {}
         self.options = 1
@@ -54,14 +53,14 @@ class Plans:
             if _indeterminate(scene, links, untold):
                 untold.update(links)
             else:
-                self.groups.append(Group(own, links, done))
+                self.groups.append(ForceGroup(own, links, done))
                 done += links
 
     @cached_property
-    def rough(self) -> Plans:
+    def rough(self) -> ForceTransfer:
         """The plans of the scene whose journals rub."""
         changed = rough(self.scene)
-        return self if changed.links == self.scene.links else Plans(changed)
+        return self if changed.links == self.scene.links else ForceTransfer(changed)
 
     def planner(self, assumed: Assumed, panel: str) -> Planner:
         """The plan of the motion that a lever's panel shows."""
@@ -69,7 +68,7 @@ class Plans:
             self._assumed[panel] = assumed_motion.planned(assumed)
         return self._assumed[panel]
 
-    def moves(self, group: Group, way: Way) -> list[StaticMove]:
+    def moves(self, group: ForceGroup, way: Way) -> list[StaticMove]:
         """The moves of a group."""
         if (group.links, way) not in self._moves:
             try:
@@ -81,7 +80,7 @@ class Plans:
             raise moves
         return moves
 
-    def _plan(self, group: Group, positions: Sequence[Position], way: Way) -> None:
+    def _plan(self, group: ForceGroup, positions: Sequence[Position], way: Way) -> None:
         equilibrium = Equilibrium(group, positions, *way)
         try:
             self._moves[group.links, way] = equilibrium.plan()
@@ -99,12 +98,12 @@ def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool
     return bool(scene.repeating) and not (ends.isdisjoint(links) and untold.isdisjoint(near))
 
 
-def reactions(board: Board, pose: Pose, loading: Loading, plans: Plans, way: Way,
-              before: Forces | None = None) -> Forces:
+def reactions(board: Board, pose: Pose, loading: Loading, plans: ForceTransfer, way: Way,
+              before: DrawnForces | None = None) -> DrawnForces:
     """All reactions, drawn in a pose; in one of friction after those of the round `before`."""
-    forces = Forces(plans.scene, before)
+    forces = DrawnForces(plans.scene, before)
     for group in plans.groups:
-        plan = ForcePlan(board, pose, group, loading, forces)
+        plan = ForcePolygon(board, pose, group, loading, forces)
         if plan.idle():
             plan.rest()
         else:
@@ -121,7 +120,7 @@ def pairs(scene: Scene) -> Iterator[tuple[str, str, str]]:
             yield point, link, pin
 
 
-def balances(loading: Loading, forces: Forces, way: str) -> Iterator[Result]:
+def balances(loading: Loading, forces: DrawnForces, way: str) -> Iterator[Result]:
     """The balances by kind and name, found in this way."""
     for name, balance in loading.loads.named_balances.items():
         if balance in forces.balances:
@@ -131,7 +130,7 @@ def balances(loading: Loading, forces: Forces, way: str) -> Iterator[Result]:
             yield kinds.balance_kind(way, balance), name, _about(loading.arm(balance.link)[0], pair or ())
 
 
-def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Iterator[Result]:
+def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -> Iterator[Result]:
     """What is read of the force plans: kind, name and marks of everything that is asked for and told."""
     asked = scene.find.reactions
     for point, link, _ in pairs(scene):
@@ -144,13 +143,13 @@ def results(scene: Scene, loading: Loading, forces: Forces, board: Board) -> Ite
     yield from balances(loading, forces, kinds.BY_PLANS)
 
 
-def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tuple[list[Result], list[Shown]]:
+def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: ForceTransfer) -> tuple[list[Result], list[Shown]]:
     """The balances by Zhukovsky's lever: one lever for each."""
     scene, board = loading.scene, pose.board
     results: list[Result] = []
     shown: list[Shown] = []
     for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
-        panel, motion = panels.Lever.of(None if len(loading.loads.balances) == 1 else mode + 1), velocity
+        panel, motion = panels.LeverPlan.of(None if len(loading.loads.balances) == 1 else mode + 1), velocity
         if not assumed_motion.moving(scene):
             assumed = assumed_motion.working(scene, mode)
             motion = assumed_motion.velocities(assumed, pose, plans.planner(assumed, panel))
@@ -164,7 +163,7 @@ def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: Plans) -> tu
 class Freed:
     """Reactions by levers without any force plan, each with its pair freed: results and the arrows that show them."""
 
-    def __init__(self, pose: Pose, loading: Loading, plans: Plans):
+    def __init__(self, pose: Pose, loading: Loading, plans: ForceTransfer):
         self.pose, self.loading, self.plans, self.board = pose, loading, plans, pose.board
         self.results: list[Result] = []
         self.shown: list[Shown] = []
@@ -180,7 +179,7 @@ class Freed:
                 self._slide(slide)
         return self
 
-    def _lever(self, assumed: Assumed, panel: panels.Lever) -> Lever:
+    def _lever(self, assumed: Assumed, panel: panels.LeverPlan) -> Lever:
         motion = assumed_motion.velocities(assumed, self.pose, self.plans.planner(assumed, panel))
         return Lever(self.board, motion, self.loading, panel, assumed.renamed)
 
@@ -189,7 +188,7 @@ class Freed:
         spans, force = [], JointForce(point, link)
         for axis, letter in zip(assumed_motion.AXES, "xy", strict=True):
             assumed = assumed_motion.freed_joint(self.loading.scene, point, link, pin, axis)
-            lever = self._lever(assumed, panels.Lever.of(force, letter))
+            lever = self._lever(assumed, panels.LeverPlan.of(force, letter))
             spans.append(lever.across(point, link, pin))
             self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
         (tail, corner), other = spans
@@ -198,17 +197,17 @@ class Freed:
 
     def _slide(self, slide: Slide) -> None:
         """A slide's reaction by two levers: its force, and its moment."""
-        lever = self._lever(assumed_motion.freed_slide(self.loading.scene, slide), panels.Lever.of(slide, "F"))
+        lever = self._lever(assumed_motion.freed_slide(self.loading.scene, slide), panels.LeverPlan.of(slide, "F"))
         force = lever.off_guide(slide)
         self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
         self.results.append((kinds.SLIDE_REACTION, slide.name, force))
-        lever = self._lever(assumed_motion.freed_turning(self.loading.scene, slide), panels.Lever.of(slide, "M"))
+        lever = self._lever(assumed_motion.freed_turning(self.loading.scene, slide), panels.LeverPlan.of(slide, "M"))
         moment = lever.turning(slide.link, slide.along)
         self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
         self.results.append((kinds.SLIDE_MOMENT, slide.name, moment))
 
 
-def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
+def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:
     """Where the reactions of these slides act: from the slide's point along the guide to their lines."""
     for slide in (slide for slide in scene.slides if slide.name in named):
         seat, pair = forces.seats[slide], forces.pairs[slide]
@@ -222,13 +221,13 @@ def arms(scene: Scene, forces: Forces, board: Board, pose: Pose, named: Iterable
         yield kinds.SLIDE_ARM, slide.name, (at, H)
 
 
-def _told(scene: Scene, forces: Forces, point: str, link: str) -> bool:
+def _told(scene: Scene, forces: DrawnForces, point: str, link: str) -> bool:
     """Whether the force on a link at a joint is drawn, or those on all others there."""
     others = [other for other in scene.links_of[point] if other != link]
     return (point, link) in forces.joints or all((point, other) in forces.joints for other in others)
 
 
-def _moment(loading: Loading, slide: Slide, forces: Forces) -> tuple[Mark, ...]:
+def _moment(loading: Loading, slide: Slide, forces: DrawnForces) -> tuple[Mark, ...]:
     """The moment of a slide's reaction about its point."""
     acting = [Acting(forces.seats[slide], *forces.slides[slide]), *(forces.pairs[slide] or ())]
     return _about(loading.pose.points[slide.at], acting)

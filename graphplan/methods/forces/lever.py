@@ -24,7 +24,7 @@ Span = tuple[Mark, Mark]
 class Lever:
     """One lever: the loads of a scene at the ends of one set of velocities, on a panel of its own."""
 
-    def __init__(self, board: Board, velocity: Velocity, loading: Loading, panel: panels.Lever,
+    def __init__(self, board: Board, velocity: Velocity, loading: Loading, panel: panels.LeverPlan,
                  renamed: dict[tuple[str, str], str] | None = None):
         self.board, self.velocity, self.loading, self.panel = board, velocity, loading, panel
         self.renamed = renamed or {}

@@ -22,8 +22,8 @@ from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.friction import SHORT, Rubbed
 from graphplan.methods.forces.groups import (
+    ForceTransfer,
     Freed,
-    Plans,
     Result,
     Way,
     arms,
@@ -33,7 +33,7 @@ from graphplan.methods.forces.groups import (
     results,
 )
 from graphplan.methods.forces.loading import Loading, force_scale
-from graphplan.methods.forces.reactions import Forces, Shown
+from graphplan.methods.forces.reactions import DrawnForces, Shown
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, RUBBED, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
@@ -61,7 +61,7 @@ class Loaded(Draughtsman):
     `by_lever` are the pairs whose reactions levers are to find, where no polygons are drawn.
     """
 
-    def __init__(self, scene: Scene, planner: Planner, style: Style, plans: Plans, way: Way = TEXTBOOK,
+    def __init__(self, scene: Scene, planner: Planner, style: Style, plans: ForceTransfer, way: Way = TEXTBOOK,
                  arms: tuple[str, ...] = (), by_lever: tuple[str, ...] = ()):
         super().__init__(scene, planner, style)
         assert scene.loads is not None
@@ -121,7 +121,7 @@ class Loaded(Draughtsman):
         if self.loads.frictions and self._in_motion and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
 
-    def _rounds(self, velocity: Velocity, loading: Loading, forces: Forces) -> None:
+    def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
         """Rounds of friction, as many as are asked for, or until the forces stand."""
         rubbed, stands = Rubbed(velocity, loading, forces), False
         asked = self.loads.rounds or MOST_ROUNDS
@@ -183,7 +183,7 @@ class Alternatives:
     """Draws the forces of a scene as is asked for; where the lever or the polygons cannot serve, by the other."""
 
     def __init__(self, scene: Scene, style: Style):
-        self.scene, self.style, self.plans = scene, style, Plans(scene)
+        self.scene, self.style, self.plans = scene, style, ForceTransfer(scene)
         self.chosen: dict[Planner, Style] = {}
         self.wary = False  # a way of the motion has failed: of others the motion is tried first
         self.hopeless: list[tuple[Construction, Style]] = []  # forces that could not be drawn, though the motion could

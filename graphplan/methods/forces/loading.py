@@ -41,7 +41,7 @@ class Acting:
 Lay = Callable[[Mark], Acting]
 
 
-class Motion(Protocol):
+class Accelerations(Protocol):
     """The acceleration plan, as far as loads need it: of a link's point the mark in its figure, and the end."""
 
     def figure(self, link: str, point: str) -> Mark: ...
@@ -56,7 +56,7 @@ class Loading:
     needs none, or as those of two points that replace the link; those of the links `apart` are not to be shifted.
     """
 
-    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Motion | None,
+    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Accelerations | None,
                  inertia: str = "couple"):
         self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
         self.inertia, self.apart = inertia, frozenset[str]()
@@ -196,7 +196,7 @@ class Loading:
         net = self.net
         if not net.ground or net.classes[net.body[link]] != net.classes[net.ground]:
             return True
-        return bool(sum(sign * drive.change for sign, drive in net.excess(link, net.ground)))
+        return bool(net.excess(link, net.ground).alpha)
 
     def arm_points(self, link: str) -> tuple[str, str]:
         """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""

@@ -1,11 +1,14 @@
-"""What force plans tell each other: the reactions found so far, and the arrows that show them."""
+"""What force plans tell each other: the reactions found so far, their letters, and the arrows that show them.
+
+R_12 is the force of link 1 on link 2, and 0 is the frame.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Balance, Scene, Slide
+from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
@@ -34,6 +37,12 @@ class Known:
     at: Mark | None
     pair: Pair | None = None
 
+    @property
+    def acting(self) -> Mark:
+        """Its line of action."""
+        assert self.line is not None
+        return self.line
+
 
 @dataclass(frozen=True)
 class Shown:
@@ -57,13 +66,13 @@ def applied(board: Board, force: Acting) -> Shown:
         return Shown("load", force.name, force.at, head, force.head)
 
 
-class Forces:
+class DrawnForces:
     """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows.
 
     `number` is that of the round of friction, 0 without; `before` are the forces of the round before.
     """
 
-    def __init__(self, scene: Scene, before: Forces | None = None) -> None:
+    def __init__(self, scene: Scene, before: DrawnForces | None = None) -> None:
         self.scene = scene
         self.shown: list[Shown] = []
         self.corners: int = before.corners if before else 0
@@ -76,7 +85,7 @@ class Forces:
         self.moments: dict[Balance, Pair | None] = {}
 
 
-def reaction_on(forces: Forces, board: Board, point: str, link: str) -> Span:
+def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Span:
     """The force on a link, the frame among them, at a joint."""
     if (point, link) in forces.joints:
         return forces.joints[point, link]
@@ -85,3 +94,15 @@ def reaction_on(forces: Forces, board: Board, point: str, link: str) -> Span:
     for tail, head in spans[1:]:
         mark = board.transfer(tail, head, mark)
     return first, mark
+
+
+def pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another."""
+    names = ["0" if name == FRAME else name for name in (one, other)]
+    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def reaction_letter(scene: Scene, point: str, link: str) -> str:
+    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
+    pin, *others = scene.links_of[point]
+    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)

@@ -15,8 +15,9 @@ from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
-from graphplan.methods.forces.unknown_forces import FAR, Group, Joint, Position, Site, Span, equation, has_line
+from graphplan.methods.forces.unknown_forces import FAR, ForceGroup, Position, Span, UnknownForce, equation, has_line
 from graphplan.methods.motion.residues import Triple, cross, dot
+from graphplan.methods.panels import JointForce
 
 DEEPEST = 3  # trials within trials
 MOST_FREE = 3  # forces of unknown lines on a part that tells anything
@@ -33,55 +34,55 @@ class AtPoint:
 
 
 @dataclass(frozen=True)
-class Along:
+class AcrossSlide:
     """No moments: forces across the direction in which a slide's reaction acts."""
 
     slide: Slide
 
 
 @dataclass(frozen=True)
-class AlongLine:
+class AcrossLine:
     """No moments: forces across the known line of a site."""
 
-    site: Site
+    site: UnknownForce
 
 
 @dataclass(frozen=True)
-class Where:
+class AtCrossing:
     """Moments about the auxiliary point where the known lines of two sites meet."""
 
-    one: Site
-    two: Site
+    one: UnknownForce
+    two: UnknownForce
 
 
-About = AtPoint | Along | AlongLine | Where
+About = AtPoint | AcrossSlide | AcrossLine | AtCrossing
 
 
 @dataclass(frozen=True)
-class Fact:
+class LineFact:
     """The part's equilibrium about a point tells one thing of a site's force: then its line is known."""
 
     part: Part
-    site: Site
+    site: UnknownForce
     about: About
 
 
 @dataclass(frozen=True)
-class Found:
+class ForceFact:
     """As a fact, of a site whose line is known: then its force is."""
 
     part: Part
-    site: Site
+    site: UnknownForce
     about: About
 
 
 @dataclass(frozen=True)
-class Polygon:
+class ClosePolygon:
     """Two sites of known lines close the part's force polygon."""
 
     part: Part
-    one: Site
-    two: Site
+    one: UnknownForce
+    two: UnknownForce
 
 
 @dataclass(frozen=True)
@@ -89,14 +90,14 @@ class Close:
     """One site closes the part's force polygon, and its moments."""
 
     part: Part
-    site: Site
+    site: UnknownForce
 
 
 @dataclass(frozen=True)
 class Pin:
     """The forces on the links of one joint balance: the last of them."""
 
-    site: Joint
+    site: JointForce
 
 
 @dataclass(frozen=True)
@@ -104,14 +105,14 @@ class Assume:
     """False position: the force of a site is assumed on its line, twice, and the moves are drawn for both; in the end
     the force at `end` should be as the part's equilibrium about a point tells, and is not; the third time it is."""
 
-    site: Site
+    site: UnknownForce
     moves: tuple[StaticMove, ...]
-    end: Joint
+    end: JointForce
     part: Part
     about: About
 
 
-StaticMove = Fact | Found | Polygon | Close | Pin | Assume
+StaticMove = LineFact | ForceFact | ClosePolygon | Close | Pin | Assume
 
 PREFERENCES = {  # what is drawn before what: by textbook, or by moments wherever there is a choice
     "polygons": ("pin", "close", "outer", "polygon", "found", "auxiliary", "inner"),
@@ -125,12 +126,12 @@ class Equilibrium:
     What a move tells it has to tell in all `positions`; what forces have in common they have in the first.
     """
 
-    def __init__(self, group: Group, positions: Sequence[Position], order: str = "polygons", pick: int = 0):
+    def __init__(self, group: ForceGroup, positions: Sequence[Position], order: str = "polygons", pick: int = 0):
         self.group, self.positions, self.order, self.pick = group, positions, PREFERENCES[order], pick
         self.used = [Span() for _ in positions]
-        self.rank: dict[Site, int] = {}
-        self.lines: dict[Site, tuple[Triple, ...]] = {}
-        self.through: dict[Site, About] = {}
+        self.rank: dict[UnknownForce, int] = {}
+        self.lines: dict[UnknownForce, tuple[Triple, ...]] = {}
+        self.through: dict[UnknownForce, About] = {}
         self.moves: list[StaticMove] = []
         self.assumed = 0
         self.options = 1
@@ -178,32 +179,32 @@ class Equilibrium:
                     yield "close", Close(part, site)
                 for about in self._abouts(site, others):
                     if self.rank[site]:
-                        yield "found", Found(part, site, about)
+                        yield "found", ForceFact(part, site, about)
                     else:
-                        kind = "auxiliary" if isinstance(about, Where) else "inner"
-                        yield "outer" if self.group.outer(site) else kind, Fact(part, site, about)
+                        kind = "auxiliary" if isinstance(about, AtCrossing) else "inner"
+                        yield "outer" if self.group.outer(site) else kind, LineFact(part, site, about)
             if len(unknown) == 2:
-                yield "polygon", Polygon(part, *unknown)
+                yield "polygon", ClosePolygon(part, *unknown)
 
-    def _twofold(self, site: Site, others: list[Site]) -> bool:
+    def _twofold(self, site: UnknownForce, others: list[UnknownForce]) -> bool:
         """Whether a couple is unknown besides, so that forces alone do not tell a slide's reaction or a couple."""
         return bool(others) and (self._is_couple(site) or (isinstance(site, Slide) and self.rank[site] == 0))
 
-    def _is_couple(self, site: Site) -> bool:
+    def _is_couple(self, site: UnknownForce) -> bool:
         return site in self.lines and self.lines[site][0] == FAR
 
-    def _unknown(self, part: Part) -> list[Site]:
+    def _unknown(self, part: Part) -> list[UnknownForce]:
         return [site for site, _ in self.group.boundary(part) if self.rank[site] < 2]
 
-    def _last_at_pins(self) -> Iterator[Joint]:
+    def _last_at_pins(self) -> Iterator[JointForce]:
         """The site that is left over at a joint within the group, where the others are known."""
         for point in self.group.points:
-            sites = [site for site in self.rank if isinstance(site, Joint) and site.point == point]
+            sites = [site for site in self.rank if isinstance(site, JointForce) and site.point == point]
             left = [site for site in sites if self.rank[site] < 2]
             if len(left) == 1 and len(sites) == len(self.group.members(point)) > 2 and not self.group.rest(point):
                 yield left[0]
 
-    def _abouts(self, site: Site, others: list[Site]) -> list[About]:
+    def _abouts(self, site: UnknownForce, others: list[UnknownForce]) -> list[About]:
         """The point that all others' forces pass, if there is one."""
         free = [other for other in others if not self.rank[other]]
         known = [other for other in others if self.rank[other]]
@@ -213,18 +214,18 @@ class Equilibrium:
         elif len(known) > 1:
             options = [self._meeting(*pair) for pair in combinations(known[:3], 2)][:1]
         elif known and not self._is_couple(known[0]):
-            options = [self.through[known[0]]] if not isinstance(known[0], Joint) else [AtPoint(known[0].point)]
+            options = [self.through[known[0]]] if not isinstance(known[0], JointForce) else [AtPoint(known[0].point)]
         return [about for about in options if self._passed(about, free, known) and self._tells(site, about)]
 
-    def _pencil(self, site: Site) -> About:
-        assert isinstance(site, Joint | Slide)
-        return AtPoint(site.point) if isinstance(site, Joint) else Along(site)
+    def _pencil(self, site: UnknownForce) -> About:
+        assert isinstance(site, JointForce | Slide)
+        return AtPoint(site.point) if isinstance(site, JointForce) else AcrossSlide(site)
 
-    def _meeting(self, one: Site, two: Site) -> About:
+    def _meeting(self, one: UnknownForce, two: UnknownForce) -> About:
         """Where two known lines meet; a couple's line is far away."""
         if self._is_couple(one) or self._is_couple(two):
-            return AlongLine(two if self._is_couple(one) else one)
-        return Where(one, two)
+            return AcrossLine(two if self._is_couple(one) else one)
+        return AtCrossing(one, two)
 
     def points(self, about: About) -> list[Triple]:
         """A point in every position."""
@@ -234,21 +235,21 @@ class Equilibrium:
         match about:
             case AtPoint(point):
                 return self.positions[n].points[point]
-            case Along(slide):
+            case AcrossSlide(slide):
                 return self.positions[n].ways[slide]
-            case AlongLine(site):
+            case AcrossLine(site):
                 return cross(self.lines[site][n], FAR)
-            case Where(one, two):
+            case AtCrossing(one, two):
                 return cross(self.lines[one][n], self.lines[two][n])
 
-    def _passed(self, about: About, free: list[Site], known: list[Site]) -> bool:
+    def _passed(self, about: About, free: list[UnknownForce], known: list[UnknownForce]) -> bool:
         """Whether all these forces pass a point in any position."""
         Y = self._point(about, 0)
         pencils = [self.positions[0].pencil(site) for site in free]
         return any(Y) and not any(pencil is None or any(cross(pencil, Y)) for pencil in pencils) and not any(
             dot(self.lines[site][0], Y) for site in known)
 
-    def _tells(self, site: Site, about: About) -> bool:
+    def _tells(self, site: UnknownForce, about: About) -> bool:
         """Whether moments about a point tell anything of a site's force, in general and in the pose."""
         ends = enumerate(self.points(about))
         if self.rank[site] == 1:
@@ -256,16 +257,16 @@ class Equilibrium:
         pencils = [position.pencil(site) for position in self.positions]
         return all(pencil is not None and any(cross(pencil, Y)) for pencil, (_, Y) in zip(pencils, ends, strict=True))
 
-    def _cross(self, one: Site, two: Site, n: int) -> bool:
+    def _cross(self, one: UnknownForce, two: UnknownForce, n: int) -> bool:
         """Whether the lines of two forces run different ways."""
         return any(cross(cross(self.lines[one][n], FAR), cross(self.lines[two][n], FAR)))
 
     def _equations(self, move: StaticMove, n: int) -> tuple[list[dict[tuple[str, int], int]], int]:
         """The equilibrium equations that a move uses in one position, and how many of them have to be new."""
         match move:
-            case Fact(part, _, about) | Found(part, _, about):
+            case LineFact(part, _, about) | ForceFact(part, _, about):
                 return [equation(part, self._point(about, n))], 1
-            case Polygon(part, one, two):
+            case ClosePolygon(part, one, two):
                 if not (self.rank[one] and self.rank[two]) or not self._cross(one, two, n):
                     return [], 1
                 return [equation(part, way) for way in FORCES], 2
@@ -296,13 +297,13 @@ class Equilibrium:
                 span.adds(row)
         self.moves.append(move)
         match move:
-            case Fact(_, site, about):
+            case LineFact(_, site, about):
                 self.rank[site], self.through[site] = 1, about
                 self.lines[site] = tuple(self._line(position.pencil(site), Y) for position, Y in
                                          zip(self.positions, self.points(about), strict=True))
-            case Found(_, site, _) | Close(_, site) | Pin(site):
+            case ForceFact(_, site, _) | Close(_, site) | Pin(site):
                 self.rank[site] = 2
-            case Polygon(_, one, two):
+            case ClosePolygon(_, one, two):
                 self.rank[one] = self.rank[two] = 2
 
     @staticmethod
@@ -335,26 +336,26 @@ class Equilibrium:
         self.moves = [*before, Assume(site, tuple(self.moves), end, part, about)]
         return True
 
-    def _closing(self) -> tuple[Joint, Part, About] | None:
+    def _closing(self) -> tuple[JointForce, Part, About] | None:
         """A part whose equilibrium tells of a force that is known already."""
         for part in self.group.parts:
             unknown = self._unknown(part)
             if sum(2 - self.rank[site] for site in unknown) > 2:
                 continue
             for site, _ in self.group.boundary(part):
-                if isinstance(site, Joint) and self.rank[site] == 2:
+                if isinstance(site, JointForce) and self.rank[site] == 2:
                     abouts = self._abouts(site, unknown) if unknown else self._anywhere(part, site)
                     for about in abouts:
                         if self._closes(part, site, about):
                             return site, part, about
         return None
 
-    def _closes(self, part: Part, site: Joint, about: About) -> bool:
+    def _closes(self, part: Part, site: JointForce, about: About) -> bool:
         """Whether the equilibrium of a part about a point tells of a site's force, and was not used."""
         return all(any(cross(position.finite(site), Y)) and span.copy().adds(equation(part, Y))
                    for position, span, Y in zip(self.positions, self.used, self.points(about), strict=True))
 
-    def _anywhere(self, part: Part, site: Joint) -> list[About]:
+    def _anywhere(self, part: Part, site: JointForce) -> list[About]:
         """Other points of the part."""
         names = [p for link in self.group.links if link in part for p in self.group.scene.links[link]]
         return [AtPoint(name) for name in dict.fromkeys(names) if name != site.point]

@@ -1,9 +1,10 @@
 """The places where forces are unknown, and what is known of them: the force planner's view of a mechanism.
 
-A *site* is a pair, or what balances. The force that passes there acts along a line: of a pencil through a joint, of the
-parallels across a guide, or one line alone. At a joint each link has a force from the pin, and those of all its links
-balance. Lines and points are homogeneous residues of a prime: for points in general position, where what holds is what
-the graph says, and for those of the pose, where nothing may vanish that a move divides by.
+A *site* is where a force is unknown: a pair, or what balances. The force that passes there acts along a line: of a
+pencil through a joint, of the parallels across a guide, or one line alone. At a joint each link has a force from the
+pin, and those of all its links balance. Lines and points are homogeneous residues of a prime: for points in general
+position, where what holds is what the graph says, and for those of the pose, where nothing may vanish that a move
+divides by.
 """
 
 from __future__ import annotations
@@ -18,23 +19,16 @@ from graphplan.mechanism.equations import PRIME, System
 from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.transfer import stages
 from graphplan.methods.motion.residues import Triple, cross, residue
+from graphplan.methods.panels import JointForce
 
 MOST_PARTS = 2000  # of a group: no textbook's has so many
 FAR: Triple = (0, 0, 1)  # the line on which all slides' pencils have their points: a force along it is a couple
 
 
-@dataclass(frozen=True)
-class Joint:
-    """The force at a joint on one of its links, from the others there."""
-
-    point: str
-    link: str
+UnknownForce = JointForce | Slide | Balance
 
 
-Site = Joint | Slide | Balance
-
-
-def has_line(site: Site) -> TypeGuard[Balance | Slide]:
+def has_line(site: UnknownForce) -> TypeGuard[Balance | Slide]:
     """Whether the line of a force is known beforehand: of a balance, and of a pair with a guide whose links turn."""
     return isinstance(site, Balance) or (isinstance(site, Slide) and not site.turns_alike)
 
@@ -46,12 +40,12 @@ def groups(scene: Scene) -> list[tuple[str, ...]]:
     return [tuple(sorted(team, key=order.__getitem__)) for team in reversed(found) if team]
 
 
-class Group:
+class ForceGroup:
     """The links of one group, with `done`, those whose forces are known, and all others around it."""
 
     def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
         self.scene, self.links, self.done = scene, links, frozenset(done)
-        self._boundaries: dict[frozenset[str], list[tuple[Site, int]]] = {}
+        self._boundaries: dict[frozenset[str], list[tuple[UnknownForce, int]]] = {}
 
     @cached_property
     def points(self) -> tuple[str, ...]:
@@ -67,13 +61,13 @@ class Group:
         """The group's links at a joint."""
         return tuple(link for link in self.links if point in self.scene.links[link])
 
-    def outer(self, site: Site) -> bool:
+    def outer(self, site: UnknownForce) -> bool:
         """Whether the site is a pair with what is not the group's."""
-        if isinstance(site, Joint):
+        if isinstance(site, JointForce):
             return bool(self.rest(site.point))
         return isinstance(site, Slide) and not {site.link, site.along} <= set(self.links)
 
-    def boundary(self, part: frozenset[str]) -> list[tuple[Site, int]]:
+    def boundary(self, part: frozenset[str]) -> list[tuple[UnknownForce, int]]:
         """The sites at which unknown forces act on a part of the group, each with its sign.
 
         At a joint within the group the force on the part may be told by that on the other links, reversed.
@@ -82,12 +76,12 @@ class Group:
             self._boundaries[part] = self._boundary(part)
         return self._boundaries[part]
 
-    def _boundary(self, part: frozenset[str]) -> list[tuple[Site, int]]:
-        found: list[tuple[Site, int]] = []
+    def _boundary(self, part: frozenset[str]) -> list[tuple[UnknownForce, int]]:
+        found: list[tuple[UnknownForce, int]] = []
         for point in self.points:
             here = [link for link in self.members(point) if link in part]
             side, sign = self._side(point, here)
-            found += [(Joint(point, link), sign) for link in side]
+            found += [(JointForce(point, link), sign) for link in side]
         for slide in self.scene.slides:
             ends = {slide.link, slide.along}
             if len(ends & part) == 1 and not ends & self.done:
@@ -135,11 +129,11 @@ class Position:
     """Where points lie, and which way the forces of slides and balances run."""
 
     points: dict[str, Triple]
-    ways: dict[Site, Triple]
+    ways: dict[UnknownForce, Triple]
 
-    def pencil(self, site: Site) -> Triple | None:
+    def pencil(self, site: UnknownForce) -> Triple | None:
         """The point through which all forces of a pair pass; a balance has none."""
-        if isinstance(site, Joint):
+        if isinstance(site, JointForce):
             return self.points[site.point]
         return self.ways[site] if isinstance(site, Slide) else None
 
@@ -147,9 +141,9 @@ class Position:
         """The one line of a balance, or of a pair that leaves its links to turn."""
         return cross(self.points[site.at], self.ways[site]) if site.at else FAR
 
-    def finite(self, site: Site) -> Triple:
+    def finite(self, site: UnknownForce) -> Triple:
         """Any point where a site's force acts."""
-        name = site.point if isinstance(site, Joint) else site.at
+        name = site.point if isinstance(site, JointForce) else site.at
         return self.points[name or next(iter(self.points))]
 
 
@@ -165,14 +159,14 @@ def in_general(scene: Scene) -> Position:
 
 def posed(scene: Scene) -> Position:
     """The position of the scene's pose."""
-    across: dict[Site, Triple] = {s: (-residue(s.direction[1]) % PRIME, residue(s.direction[0]), 0)
+    across: dict[UnknownForce, Triple] = {s: (-residue(s.direction[1]) % PRIME, residue(s.direction[0]), 0)
                                   for s in scene.slides}
-    along: dict[Site, Triple] = {b: (residue(b.direction[0]), residue(b.direction[1]), 0)
+    along: dict[UnknownForce, Triple] = {b: (residue(b.direction[0]), residue(b.direction[1]), 0)
                                  for b in _balances(scene) if b.direction is not None}
     return Position({p: (residue(x), residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
 
 
-def _directed(scene: Scene) -> tuple[Site, ...]:
+def _directed(scene: Scene) -> tuple[UnknownForce, ...]:
     return *scene.slides, *_balances(scene)
 
 

@@ -15,9 +15,9 @@ from typing import NamedTuple
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
-from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Move, Pole, Settle, Slip, Swing
-from graphplan.methods.motion.network import Network, Place, Weld
-from graphplan.methods.motion.plan import Plan, Vector
+from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
+from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, slide_named
 from graphplan.methods.poses import Pose
@@ -36,7 +36,7 @@ LAWS: dict[type, str] = {
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
     Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
-    Figure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
+    SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
     Meet: said("the end lies on both"),
 }
@@ -50,7 +50,7 @@ class Anchor(NamedTuple):
     slide: Slide | None = None
 
 
-class Normal(Plan):
+class Normal(MotionPlan):
     """The plan of relative normal accelerations."""
 
     panel, turn, across, laws, ending = N_PLAN, "perpendicular", False, LAWS, "{1}_1"
@@ -120,7 +120,7 @@ class Normal(Plan):
                 other = slide.along if link == slide.link else slide.link
                 yield other, Anchor(link, self.passing.get(slide.name, slide.at), slide)
 
-    def home(self, place: Place) -> Mark:
+    def home(self, place: BodyPoint) -> Mark:
         point, link = place
         if link:
             return self.figure(link, point)
@@ -156,7 +156,7 @@ class Normal(Plan):
             return base
         return X if omega * omega == 1 and base is A else self.board.step_off(A, X, base, ratio=omega * omega)
 
-    def _driven_seat(self, weld: Weld, joint: str) -> Mark:
+    def _driven_seat(self, weld: DrivenPair, joint: str) -> Mark:
         if weld.slide is None:
             return self.figure(weld.to, joint)
         return self._less_coriolis(weld.slide, weld.to, weld.link, joint)
@@ -188,7 +188,7 @@ class Normal(Plan):
         body = net.body[link]
         if not net.ground or net.classes[body] != net.classes[net.ground] or link in net.welds:
             return False
-        return not sum(sign * drive.rate for sign, drive in net.excess(body, net.ground))
+        return not net.excess(body, net.ground).omega
 
     def _scaled(self, link: str, K: str, X: str) -> Mark:
         """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
@@ -208,17 +208,17 @@ class Normal(Plan):
 
     # ---- drives, guides, given motions ----------------------------------------------------------------------
 
-    def start(self, weld: Weld, point: str) -> Mark:
+    def start(self, weld: DrivenPair, point: str) -> Mark:
         return self.pose.points[weld.slide.at if weld.slide else weld.at]
 
     def prescribed(self, rates: tuple[Number, Number]) -> Number:
         return self.tempo.change(rates[1])
 
-    def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+    def hop(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         one, two = self._gap(weld)
         return super().hop(weld, point, self.moved(mark, one, two) if sign > 0 else self.moved(mark, two, one), sign)
 
-    def _gap(self, weld: Weld) -> Vector:
+    def _gap(self, weld: DrivenPair) -> Vector:
         """How far the figures of a drive's two links stand apart where they meet; nowhere if one hangs on the other."""
         if weld.slide is None:
             return self.figure(weld.to, weld.at), self.figure(weld.link, weld.at)
@@ -254,7 +254,7 @@ class Normal(Plan):
             return max(found, key=lambda pair: FRAME in net.links_of[pair[1]])
         return links[0], next(p for p in self.pose.points if net.spot(p) != net.spot(B))
 
-    def far_from(self, place: Place) -> Mark:
+    def far_from(self, place: BodyPoint) -> Mark:
         """The end of a link's vector beyond its normal one: accelerations may be far larger than links, or nothing."""
         point, link = place
         for name in [link] if link else self.net.links_of[point]:
@@ -286,7 +286,7 @@ class Normal(Plan):
 
     # ---- letters --------------------------------------------------------------------------------------------
 
-    def locus_name(self, place: Place) -> str:
+    def locus_name(self, place: BodyPoint) -> str:
         name = self.pose.spoken(place[0])
         letter, rest = name[0].upper(), name[1:].strip("_")
         return GREEK[letter] + (f"_{rest}" if rest else "") if letter in GREEK else ""
@@ -302,7 +302,7 @@ class PolarAcceleration(Normal):
             self.pole = board.begin(plan=self.panel.words, number=1, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 
-    def home(self, place: Place) -> Mark:
+    def home(self, place: BodyPoint) -> Mark:
         return self.pole
 
     def _base(self, link: str, point: str) -> str:
@@ -321,7 +321,7 @@ class PolarAcceleration(Normal):
     def figure_name(self, link: str, point: str) -> str:
         return f"n_{self.pose.spoken(point).lower()}({link})"
 
-    def locus_name(self, place: Place) -> str:
+    def locus_name(self, place: BodyPoint) -> str:
         return ""
 
 

@@ -34,6 +34,8 @@ WILD = 1e4  # growth from which on a pose may be a singular one of this way: ano
 MOST = 64  # ways that are tried at most
 
 Draw = Callable[["Planner"], "Construction"]
+Choice = tuple[int, ...]  # at each place of a plan where there are several ways on, which is taken
+Made = Callable[[Choice], "_Alternative"]
 
 
 def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Construction, Planner]]:
@@ -43,11 +45,11 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
     other choices are tried, rare ones among them, until one is steady. Fails with `Refused`, naming the links, where no
     way reaches them.
     """
-    tried: dict[tuple[int, ...], _Way] = {}
+    tried: dict[Choice, _Alternative] = {}
 
-    def way(choice: tuple[int, ...]) -> _Way:
+    def way(choice: Choice) -> _Alternative:
         if choice not in tried:
-            found = _way(network, method, choice, draw)
+            found = _alternative(network, method, choice, draw)
             tried[choice] = tried.setdefault(found.choice, found)
         return tried[choice]
 
@@ -58,7 +60,7 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
         if other is not best and other.growth < WILD:
             yield other.told(len({*map(id, tried.values())}))
     found = {id(one): one for one in tried.values()}.values()
-    wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Way.rank(0.0))
+    wild = sorted((one for one in found if one.construction and one.growth >= WILD), key=_Alternative.rank(0.0))
     yield from (one.told(len(found)) for one in wild)
     if all(one.construction is None for one in found):
         planner = Planner(network, method, general=True)  # as in other poses: it will say which lines do not meet here
@@ -66,7 +68,7 @@ def ways(network: Network, method: str, draw: Draw) -> Iterator[tuple[Constructi
         yield draw(planner), planner
 
 
-def _ring_by_ring(way: Callable[[tuple[int, ...]], _Way]) -> _Way:
+def _ring_by_ring(way: Made) -> _Alternative:
     """The best way on at each ring, one ring after the other; rare choices are left alone."""
     taken, ring = way(()), 0
     while ring < len(options := taken.planner.options):
@@ -74,13 +76,13 @@ def _ring_by_ring(way: Callable[[tuple[int, ...]], _Way]) -> _Way:
             others = [way((*taken.choice[:ring], other)) for other in range(options[ring].ways)
                       if other != taken.choice[ring]]
             weighed = taken.weighed + len(others)
-            taken = min([taken, *others], key=_Way.rank(min(one.growth for one in [taken, *others])))
+            taken = min([taken, *others], key=_Alternative.rank(min(one.growth for one in [taken, *others])))
             taken.weighed = weighed
         ring += 1
     return taken
 
 
-def _others(tried: dict[tuple[int, ...], _Way], way: Callable[[tuple[int, ...]], _Way]) -> Iterator[_Way]:
+def _others(tried: dict[Choice, _Alternative], way: Made) -> Iterator[_Alternative]:
     """Further ways, each that was drawn giving the next one like it in turn; those that were refused come last."""
     known = {id(one): one for one in tried.values()}
     waiting = deque(_neighbours(one) for one in sorted(known.values(), key=lambda one: one.construction is None))
@@ -97,7 +99,7 @@ def _others(tried: dict[tuple[int, ...], _Way], way: Callable[[tuple[int, ...]],
             yield found
 
 
-def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
+def _neighbours(way: _Alternative) -> Iterator[Choice]:
     """The choices that differ from a way's at one place: the next at each place, the last place first, and so on."""
     options = way.planner.options
     for step in range(1, max((option.ways for option in options), default=0)):
@@ -107,10 +109,10 @@ def _neighbours(way: _Way) -> Iterator[tuple[int, ...]]:
 
 
 @dataclass
-class _Way:
+class _Alternative:
     """One way through the rings: the choices made, the planner that made them, and what came of it."""
 
-    choice: tuple[int, ...]
+    choice: Choice
     planner: Planner
     construction: Construction | None
     growth: float
@@ -127,27 +129,27 @@ class _Way:
         return self.construction, self.planner
 
     @staticmethod
-    def rank(least: float) -> Callable[[_Way], tuple[float, float]]:
+    def rank(least: float) -> Callable[[_Alternative], tuple[float, float]]:
         """The shortest of those whose errors grow about as little as the least."""
 
-        def key(way: _Way) -> tuple[float, float]:
+        def key(way: _Alternative) -> tuple[float, float]:
             steps = len(way.construction.program) if way.construction else math.inf
             return (0.0 if way.growth <= EQUAL * least else way.growth), steps
 
         return key
 
 
-def _way(network: Network, method: str, choice: tuple[int, ...], draw: Callable[[Planner], Construction]) -> _Way:
+def _alternative(network: Network, method: str, choice: Choice, draw: Draw) -> _Alternative:
     """Plan and draw one way; where it is refused another may do."""
     planner = Planner(network, method, choice)
     try:
         planner.plan()
     except Refused:
         full = (*choice, *[0] * (len(planner.options) - len(choice)))
-        return _Way(full, planner, None, math.inf)
+        return _Alternative(full, planner, None, math.inf)
     construction = draw(planner)
     full = (*choice, *[0] * (len(planner.options) - len(choice)))
-    return _Way(full, planner, construction, growth(construction.program) if full else 1.0)
+    return _Alternative(full, planner, construction, growth(construction.program) if full else 1.0)
 
 
 def growth(program: Program) -> float:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator
-from itertools import combinations
+from itertools import chain, combinations
 from random import Random
 
 from graphplan.mechanism.equations import PRIME
@@ -20,7 +20,7 @@ from graphplan.mechanism.model import Pair, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
-from graphplan.methods.motion.network import Network, Place
+from graphplan.methods.motion.network import BodyPoint, Network
 from graphplan.methods.motion.residues import Image, Two, less, parallel, product, quarter, residues
 
 Fact = Two | None  # the normal of a locus; nothing where the end itself is known
@@ -34,14 +34,14 @@ class Facts:
         self.net = network
         self.chance = Random(1939) if general else None  # gives what the pose does not
         self.moves: list[Move] = []
-        self.facts: dict[Place, dict[str, Fact]] = {}
-        self.drawn: set[Place] = set()
+        self.facts: dict[BodyPoint, dict[str, Fact]] = {}
+        self.drawn: set[BodyPoint] = set()
         self.places = {body: network.places_of(body) for body in network.members}
         for slide in network.slides:
             if not slide.turns_alike:
                 self._add_place(network.body[slide.along], network.place(slide.at, slide.along))
         self.bodies = {place: network.bodies_at(place) for body in self.places for place in self.places[body]}
-        self.told: dict[tuple[str, Place], int] = {}
+        self.told: dict[tuple[str, BodyPoint], int] = {}
         self.spots: dict[str, Two] = {}
         self.turning: dict[str, str] = {}
         self.passed: set[str] = set()
@@ -66,7 +66,7 @@ class Facts:
             self._file((point, ""), "motion", None)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)
 
-    def _rest(self, place: Place) -> None:
+    def _rest(self, place: BodyPoint) -> None:
         self.moves.append(moves.Rest(place))
         self._file(place, self.net.ground, None)
 
@@ -87,7 +87,7 @@ class Facts:
             elif node != self.net.ground:
                 self._through_body(node)
 
-    def _file(self, place: Place, source: str, fact: Fact, *, marked: bool = False) -> None:
+    def _file(self, place: BodyPoint, source: str, fact: Fact, *, marked: bool = False) -> None:
         """Enter a fact; where a place then knows enough, its end is marked, and the neighbours are told."""
         here = self.facts.setdefault(place, {})
         here[source] = fact if here.get(source, fact) is not None else None
@@ -99,23 +99,23 @@ class Facts:
                 self.drawn.add(place)
         self._tell(place)
 
-    def _tell(self, place: Place) -> None:
+    def _tell(self, place: BodyPoint) -> None:
         for body in self._at(place):
             self._queue(body, *self.net.slides_of.get(body, ()))
 
-    def _at(self, place: Place) -> list[str]:
+    def _at(self, place: BodyPoint) -> list[str]:
         if place not in self.bodies:
             self.bodies[place] = self.net.bodies_at(place)
         return self.bodies[place]
 
-    def _heard(self, place: Place, body: str) -> int:
+    def _heard(self, place: BodyPoint, body: str) -> int:
         """How many independent facts a place knows that this body did not tell it."""
         facts = [fact for source, fact in self.facts.get(place, {}).items() if source != body]
         if None in facts or any(_cross(one, two) for one, two in combinations(facts, 2)):
             return 2
         return min(len(facts), 1)
 
-    def _spot(self, place: Place) -> Two:
+    def _spot(self, place: BodyPoint) -> Two:
         """Where a place lies in the pose."""
         point = place[0]
         if point not in self.spots:
@@ -126,7 +126,7 @@ class Facts:
         """A point or direction of the pose, or in general position any other."""
         return residues(pair) if self.chance is None else (self.chance.randrange(PRIME), self.chance.randrange(PRIME))
 
-    def _loci(self, body: str, but: Place = ("", "")) -> Iterator[Locus]:
+    def _loci(self, body: str, but: BodyPoint = ("", "")) -> Iterator[Locus]:
         """Loci of the body's places from other sources, one a spot, none at the spot of `but`."""
         seen = {self.net.spot(but[0])}
         for place in self.places[body]:
@@ -135,7 +135,7 @@ class Facts:
                 seen.add(spot)
                 yield locus
 
-    def _locus_of(self, place: Place, body: str) -> Locus | None:
+    def _locus_of(self, place: BodyPoint, body: str) -> Locus | None:
         """A locus of a place that another source than this body gives."""
         for source, fact in self.facts.get(place, {}).items():
             if source != body and fact is not None and fact is not ANYWHERE:
@@ -149,7 +149,7 @@ class Facts:
         assert normal is not None
         return normal
 
-    def _carried(self, A: Locus, B: Locus, X: Place) -> Two:
+    def _carried(self, A: Locus, B: Locus, X: BodyPoint) -> Two:
         """The normal of the locus that two loci give a third place; nothing where their crossing tells its end."""
         one, two = self._normal(A), self._normal(B)
         p = product(one, less(self._spot(A[0]), self._spot(X)))
@@ -161,7 +161,7 @@ class Facts:
         source = self.turning.get(self.net.classes[body], "")
         return "" if source == body else source
 
-    def _count(self, body: str, but: Place | None = None) -> int:
+    def _count(self, body: str, but: BodyPoint | None = None) -> int:
         """How many independent facts a body has, but for those of one place."""
         image = Image()
         if self._like(body):
@@ -171,7 +171,7 @@ class Facts:
                 self._enter(image, place, body)
         return image.rank
 
-    def _enter(self, image: Image, place: Place, body: str) -> None:
+    def _enter(self, image: Image, place: BodyPoint, body: str) -> None:
         """What a place tells of a body's image, besides the body's own word."""
         at = self._spot(place)
         for source, fact in self.facts.get(place, {}).items():
@@ -199,17 +199,17 @@ class Facts:
         if count >= 3:
             self._turning_known(body)
 
-    def _together(self, body: str, X: Place) -> list[Place]:
+    def _together(self, body: str, X: BodyPoint) -> list[BodyPoint]:
         """The other places of a body that lie in one spot with X: they move alike, however the body turns."""
         spot = self.net.spot(X[0])
         return [place for place in self.places[body] if place != X and self.net.spot(place[0]) == spot]
 
-    def _ends(self, body: str, but: Place = ("", "")) -> list[Place]:
+    def _ends(self, body: str, but: BodyPoint = ("", "")) -> list[BodyPoint]:
         """The body's places whose ends are drawn, but for those in the spot of one place."""
         spot = self.net.spot(but[0])
         return [place for place in self.places[body] if place in self.drawn and self.net.spot(place[0]) != spot]
 
-    def _emit(self, body: str, X: Place, rank: int) -> None:
+    def _emit(self, body: str, X: BodyPoint, rank: int) -> None:
         """Tell a place what the body knows of it, unless others have told the same: special geometry repeats it."""
         if (body, X) in self.net.repeating:
             return
@@ -228,21 +228,21 @@ class Facts:
             elif crossing := self._auxiliary(body, X):
                 self._tell_end(body, X, [crossing])
 
-    def _tell_end(self, body: str, X: Place, moves: list[Move]) -> None:
+    def _tell_end(self, body: str, X: BodyPoint, moves: list[Move]) -> None:
         self.moves += moves
         self.told[body, X] = 2
         self._file(X, body, None)
 
-    def _tell_locus(self, body: str, X: Place, moves: list[Move], normal: Two, marked: bool = False) -> None:
+    def _tell_locus(self, body: str, X: BodyPoint, moves: list[Move], normal: Two, marked: bool = False) -> None:
         self.moves += moves
         self.told[body, X] = 1
         self._file(X, body, normal, marked=marked)
 
-    def _swung(self, K: Place, X: Place) -> Two:
+    def _swung(self, K: BodyPoint, X: BodyPoint) -> Two:
         """The normal of the locus that a body gives X about K."""
         return quarter(less(self._spot(X), self._spot(K)))
 
-    def _line(self, body: str, X: Place, own: Locus | None) -> tuple[Move, Two] | None:
+    def _line(self, body: str, X: BodyPoint, own: Locus | None) -> tuple[Move, Two] | None:
         """One fact for X, and its normal: from an end, from a locus and the turning, or from two loci of the body.
 
         Where X has an own locus by which the body is known, a line that is parallel to it is no news: better another.
@@ -260,14 +260,14 @@ class Facts:
             return moves.Carry(body, loci[0], loci[1], X), normal
         return (moves.Swing(body, K, X), self._swung(K, X)) if K else None
 
-    def _auxiliary(self, body: str, X: Place) -> moves.Auxiliary | None:
+    def _auxiliary(self, body: str, X: BodyPoint) -> moves.Auxiliary | None:
         """The end of X where it is itself the auxiliary point of two loci."""
         match list(self._loci(body, X)):
             case [A, B, *_] if _cross(self._normal(A), self._normal(B)) and not any(self._carried(A, B, X)):
                 return moves.Auxiliary(body, A, B, X)
         return None
 
-    def _settle(self, body: str, X: Place) -> moves.Settle | None:
+    def _settle(self, body: str, X: BodyPoint) -> moves.Settle | None:
         """The end of X, in a body with three loci: from an end found by them, and the two others."""
         own, loci = self._locus_of(X, body), list(self._loci(body, X))
         known = [place for place, _ in loci if place in self.drawn]
@@ -276,30 +276,29 @@ class Facts:
         K = known[0]
         return moves.Settle(body, K, own, next(locus for locus in loci if locus[0] != K))
 
-    def _beside(self, body: str, X: Place) -> moves.Figure | None:
+    def _beside(self, body: str, X: BodyPoint) -> moves.SimilarFigure | None:
         """The end of X, which has a locus of its own, from an end in its spot, or from another and the turning."""
-        if not self.facts.get(X):
-            return None
-        here = next((place for place in self._together(body, X) if place in self.drawn), None)
-        if here:
-            return moves.Figure(body, here, X)
-        known, like = self._ends(body, X), self._like(body)
-        return moves.Figure(body, known[0], X, like=like) if known and like else None
+        return next(chain(self._by_one(body, X), self._by_turning(body, X)), None) if self.facts.get(X) else None
 
-    def _figure(self, body: str, X: Place) -> Move | None:
+    def _figure(self, body: str, X: BodyPoint) -> moves.SimilarFigure | None:
         """The end of X from the whole body, or from an end in the same spot."""
-        here = next((place for place in self._together(body, X) if place in self.drawn), None)
-        if here:
-            return moves.Figure(body, here, X)
-        known = self._ends(body, X)
-        pair = next((R for R in known[1:] if self.net.spot(R[0]) != self.net.spot(known[0][0])), None)
-        if pair:
-            return moves.Figure(body, known[0], X, R=pair)
-        if known and (like := self._like(body)):
-            return moves.Figure(body, known[0], X, like=like)
-        return None
+        return next(chain(self._by_one(body, X), self._by_two(body, X), self._by_turning(body, X)), None)
 
-    def _crossed(self, body: str, X: Place) -> tuple[list[Move], moves.Meet] | None:
+    def _by_one(self, body: str, X: BodyPoint) -> Iterator[moves.SimilarFigure]:
+        """The end of X by one that is drawn in the same spot."""
+        return (moves.SimilarFigure(body, K, X) for K in self._together(body, X) if K in self.drawn)
+
+    def _by_turning(self, body: str, X: BodyPoint) -> Iterator[moves.SimilarFigure]:
+        """The end of X by another and the turning of the body."""
+        like = self._like(body)
+        return (moves.SimilarFigure(body, K, X, like=like) for K in self._ends(body, X) if like)
+
+    def _by_two(self, body: str, X: BodyPoint) -> Iterator[moves.SimilarFigure]:
+        """The end of X by two others that lie apart."""
+        return (moves.SimilarFigure(body, K, X, R=R) for K, R in combinations(self._ends(body, X), 2)
+                if self.net.spot(K[0]) != self.net.spot(R[0]))
+
+    def _crossed(self, body: str, X: BodyPoint) -> tuple[list[Move], moves.Meet] | None:
         """The end of X from loci elsewhere in the body: two of them and its turning, or three; None of fewer."""
         loci = [self._locus_of(place, body) for place in self.places[body]]
         spot, like = self.net.spot(X[0]), self._like(body)
@@ -362,7 +361,7 @@ class Facts:
                 return place[0]
         return ""
 
-    def _add_place(self, body: str, place: Place) -> None:
+    def _add_place(self, body: str, place: BodyPoint) -> None:
         if place not in self.places[body]:
             self.places[body].append(place)
 

@@ -9,29 +9,29 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from graphplan.mechanism.model import Slide
-from graphplan.methods.motion.network import Place
+from graphplan.methods.motion.network import BodyPoint
 
-Locus = tuple[Place, str]
+Locus = tuple[BodyPoint, str]
 
 
 class Rest(NamedTuple):
     """A point of the frame or of a link that a drive ties to it: its end is known."""
 
-    place: Place
+    place: BodyPoint
 
 
 class Seed(NamedTuple):
     """A point whose motion the scene gives."""
 
-    place: Place
+    place: BodyPoint
 
 
 class Swing(NamedTuple):
     """The body knows the end of K: the end of X lies on a line."""
 
     body: str
-    K: Place
-    X: Place
+    K: BodyPoint
+    X: BodyPoint
     source: str = ""
 
 
@@ -40,7 +40,7 @@ class Slip(NamedTuple):
 
     body: str
     A: Locus
-    X: Place
+    X: BodyPoint
     like: str
     source: str = ""
 
@@ -51,7 +51,7 @@ class Carry(NamedTuple):
     body: str
     A: Locus
     B: Locus
-    X: Place
+    X: BodyPoint
     source: str = ""
 
 
@@ -59,23 +59,23 @@ class Settle(NamedTuple):
     """The body knows K, and X and B have loci: the end of X."""
 
     body: str
-    K: Place
+    K: BodyPoint
     X: Locus
     B: Locus
 
 
-class Figure(NamedTuple):
+class SimilarFigure(NamedTuple):
     """The body is known, by the ends of K and R, or of K and the turning of `like`: the end of X.
 
     With `copy` it is entered there, to be compared with what else is known of X.
     """
 
     body: str
-    K: Place
-    X: Place
-    R: Place | None = None
+    K: BodyPoint
+    X: BodyPoint
+    R: BodyPoint | None = None
     like: str = ""
-    copy: Place | None = None
+    copy: BodyPoint | None = None
 
 
 class Guide(NamedTuple):
@@ -90,9 +90,9 @@ class Guide(NamedTuple):
 class Meet(NamedTuple):
     """Two loci of one place meet in its end; with `copy` it is entered there, to be compared with a third."""
 
-    place: Place
+    place: BodyPoint
     sources: tuple[str, str]
-    copy: Place | None = None
+    copy: BodyPoint | None = None
 
 
 class Auxiliary(NamedTuple):
@@ -101,25 +101,25 @@ class Auxiliary(NamedTuple):
     body: str
     A: Locus
     B: Locus
-    place: Place
+    place: BodyPoint
 
 
 class Pole(NamedTuple):
     """Two bodies joined by two bars: the bars' intersection is a joint of both (Aronhold-Kennedy)."""
 
     bodies: tuple[str, str]
-    bars: tuple[tuple[str, Place, Place], tuple[str, Place, Place]]
-    place: Place
+    bars: tuple[tuple[str, BodyPoint, BodyPoint], tuple[str, BodyPoint, BodyPoint]]
+    place: BodyPoint
 
 
-class Trial(NamedTuple):
+class FalsePosition(NamedTuple):
     """False position: the end of a place is assumed on its locus, twice, and the moves are drawn for both; in the end
     `end` should lie on `locus` and does not; the third time it does."""
 
     at: Locus
     moves: tuple[Move, ...]
-    end: Place
+    end: BodyPoint
     locus: Locus
 
 
-Move = Rest | Seed | Swing | Slip | Carry | Settle | Figure | Guide | Meet | Auxiliary | Pole | Trial
+Move = Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Meet | Auxiliary | Pole | FalsePosition

@@ -15,13 +15,14 @@ from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
-from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
+from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides
+from graphplan.methods.motion.turnings import AngularRates, Turnings
 
-Place = tuple[str, str]
+BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
 
 
-class Weld(NamedTuple):
+class DrivenPair(NamedTuple):
     """A drive between two links that share a pair: `link` moves as `to` does, but for what the drive prescribes.
 
     `at` is the common joint of a turning drive; a sliding drive has its slide instead.
@@ -40,7 +41,7 @@ class Network:
     """Bodies, places, slides and classes of equal turning of a scene."""
 
     scene: Scene
-    welds: dict[str, Weld] = field(default_factory=dict)
+    welds: dict[str, DrivenPair] = field(default_factory=dict)
     members: dict[str, list[str]] = field(default_factory=dict)
     slides: list[Slide] = field(default_factory=list)
     turning: list[Drive] = field(default_factory=list)
@@ -68,6 +69,7 @@ class Network:
             self._weld(drive)
         self.ground = self.body.get(FRAME, "")
         self.classes = self._turning_classes()
+        self.turnings = Turnings(scene)
         self.slides_of: dict[str, list[Slide]] = {}
         for slide in self.slides:
             for link in slide.links:
@@ -140,7 +142,7 @@ class Network:
         if top == under:
             return
         self._rehang(link)
-        self.welds[link] = Weld(link, to, drive, sign, at, slide)
+        self.welds[link] = DrivenPair(link, to, drive, sign, at, slide)
         for member in self.members.pop(under):
             self.body[member] = top
             self.members[top].append(member)
@@ -152,7 +154,7 @@ class Network:
             chain.append(self.welds.pop(link))
             link = chain[-1].to
         for weld in chain:
-            self.welds[weld.to] = Weld(weld.to, weld.link, weld.drive, -weld.sign, weld.at, weld.slide)
+            self.welds[weld.to] = DrivenPair(weld.to, weld.link, weld.drive, -weld.sign, weld.at, weld.slide)
 
     def _turning_classes(self) -> dict[str, str]:
         """Bodies that turn alike, or by a known difference: joined by slides, or by a drive without a common pair."""
@@ -169,29 +171,29 @@ class Network:
                 top[max(a, b)] = min(a, b)
         return {body: find(body) for body in self.members}
 
-    def place(self, point: str, link: str) -> Place:
+    def place(self, point: str, link: str) -> BodyPoint:
         """The place of a point in a link's plane."""
         point = self.name(point)
         point = self.coincident.get((point, link), point)
         return (point, "") if point in self.links[link] else (point, link)
 
-    def bodies_at(self, place: Place) -> list[str]:
+    def bodies_at(self, place: BodyPoint) -> list[str]:
         """The bodies that meet in a place."""
         point, link = place
         links = (link,) if link else self.links_of[point]
         return list(dict.fromkeys(self.body[name] for name in links))
 
-    def link_at(self, body: str, place: Place) -> str:
+    def link_at(self, body: str, place: BodyPoint) -> str:
         """The link of a body to which a place belongs."""
         point, link = place
         return link or next(m for m in self.members[body] if point in self.links[m])
 
-    def has(self, link: str, place: Place) -> bool:
+    def has(self, link: str, place: BodyPoint) -> bool:
         """Whether a place belongs to a link."""
         return place[1] == link or (not place[1] and place[0] in self.links[link])
 
     @cached_property
-    def repeating(self) -> frozenset[tuple[str, Place]]:
+    def repeating(self) -> frozenset[tuple[str, BodyPoint]]:
         """The places that have nothing new to hear from a body: its pair there is redundant, or the body passive."""
         lost = {(c.link, c.on) for c in self.scene.redundant if c.way in ("x", "y")}
         idle = {(link, p) for link in self.passive for p in self.links[link] if len(self.scene.links_of[p]) > 1}
@@ -215,12 +217,12 @@ class Network:
         touched = {link for pair in redundant for link in pair} - {FRAME}
         return frozenset(link for link in touched if stated(link) <= 3)
 
-    def places_of(self, body: str) -> list[Place]:
+    def places_of(self, body: str) -> list[BodyPoint]:
         """The places of the body's own points, joints first."""
         names = dict.fromkeys(p for m in self.members[body] for p in self.links[m])
         return sorted(((p, "") for p in names), key=lambda place: len(self.bodies_at(place)) < 2)
 
-    def chain(self, link: str) -> list[Weld]:
+    def chain(self, link: str) -> list[DrivenPair]:
         """The welds from a link up to the top of its body."""
         welds = []
         while link in self.welds:
@@ -228,20 +230,6 @@ class Network:
             link = welds[-1].to
         return welds
 
-    def excess(self, body: str, like: str) -> list[tuple[int, Drive]]:
-        """The drives by which the turning of one body's top link exceeds another's, each with its sign."""
-        seen: dict[str, list[tuple[int, Drive]]] = {like: []}
-        waiting = [like]
-        while waiting:
-            link = waiting.pop(0)
-            for one, two, drives in self._turning_pairs():
-                for this, other, sign in ((one, two, -1), (two, one, 1)):
-                    if this == link and other not in seen:
-                        seen[other] = seen[link] + [(sign, drive) for drive in drives]
-                        waiting.append(other)
-        return seen[body]
-
-    def _turning_pairs(self) -> list[tuple[str, str, list[Drive]]]:
-        """Pairs of links (a, b) with the drives that make a turn more than b."""
-        slides: list[tuple[str, str, list[Drive]]] = [(*s.links, []) for s in self.all_slides if s.turns_alike]
-        return slides + [(*drive.links, [drive]) for drive in turning_drives(self.scene)]
+    def excess(self, body: str, like: str) -> AngularRates:
+        """By how much the turning of one body's top link exceeds another's, as the drives prescribe."""
+        return self.turnings.alike(body)[like]

@@ -13,6 +13,7 @@ Plans: orthogonal velocities on the mechanism plan, relative normal acceleration
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from copy import copy
 from fractions import Fraction
 from typing import Any
 
@@ -21,41 +22,43 @@ from graphplan.kernel.program import Board, Mark, Panel
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
-from graphplan.methods.motion.network import POLE, Network, Place, Weld
+from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
 
 Vector = tuple[Mark, Mark]
+STATE = "ends", "loci", "known", "_told", "pole_vectors"  # of a plan: what a trial figure may not pass on
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on their locus, in lengths of a link
 
 
-class Plan:
+class MotionPlan:
     """Draws moves on one panel. Subclasses say where vectors begin, and what drives and guides add."""
 
     panel: Panel
     turn: str
     across: bool  # whether a sliding pair's free vector lies square to the guide
     laws: Mapping[type, str]  # by which each kind of move is drawn
+    turned = False  # whether all vectors are drawn a quarter ahead
     ending: str  # the letter of an end, made from that of its point in small letters, or as it is
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         self.board, self.net, self.pose, self.tempo = board, net, pose, tempo
-        self.ends: dict[Place, Mark] = {}
+        self.ends: dict[BodyPoint, Mark] = {}
         self.loci: dict[Locus, Mark] = {}
         self.prime = ""  # of the letters in a trial figure
-        self.known: dict[str, list[Place]] = {body: [] for body in net.members}
+        self.known: dict[str, tuple[BodyPoint, ...]] = dict.fromkeys(net.members, ())
         self._told: set[tuple[str, str]] = set()
-        self.pole_vectors: dict[tuple[Place, str], Vector] = {}
+        self.pole_vectors: dict[tuple[BodyPoint, str], Vector] = {}
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
 
-    def home(self, place: Place) -> Mark:
+    def home(self, place: BodyPoint) -> Mark:
         raise NotImplementedError
 
     def figure(self, link: str, point: str) -> Mark:
         raise NotImplementedError
 
-    def start(self, weld: Weld, point: str) -> Mark:
+    def start(self, weld: DrivenPair, point: str) -> Mark:
         """Where the vector of a point of the frame ends, in the figure of a link that the drive ties to the frame."""
         raise NotImplementedError
 
@@ -63,21 +66,21 @@ class Plan:
         """What is drawn of a prescribed velocity and acceleration: one of them, in the scale of the plan."""
         raise NotImplementedError
 
-    def hop(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+    def hop(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         """The end of a point in the plane of `weld.link` from its end in that of `weld.to` (sign 1), or back (-1)."""
         X, much = self.pose.points[point], sign * weld.sign * self.prescribed(weld.drive.rates)
         if weld.slide is None:
             A = self.pose.points[weld.at]
             if A is X or not much:
                 return mark
-            return A if self.across and much == 1 and mark is X else self._step((A, X), mark, much)
+            return A if self.turned and much == 1 and mark is X else self._step((A, X), mark, much)
         line = self.pose.guide(weld.slide, run=True)
         line = self.board.perpendicular(line, X) if self.across else line
         return self.board.lay_along(line, mark, length=much) if much else mark
 
     def _step(self, base: Vector, at: Mark, ratio: Number) -> Mark:
         """`at` moved by the image of a vector of a link that turns so much."""
-        if self.across:
+        if self.turned:
             return self.board.step_off(*base, at, ratio=-ratio)
         return self.board.step_across(*base, at, ratio=ratio)
 
@@ -85,19 +88,19 @@ class Plan:
         """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
         raise NotImplementedError
 
-    def seeded(self, place: Place) -> Mark:
+    def seeded(self, place: BodyPoint) -> Mark:
         """The end of a point whose motion the scene gives."""
         motion, home = self.pose.scene.motions[place[0]], self.home(place)
         dx, dy = map(self.prescribed, zip(motion.velocity, motion.acceleration, strict=True))
-        dx, dy = (-dy, dx) if self.across else (dx, dy)
+        dx, dy = (-dy, dx) if self.turned else (dx, dy)
         return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
         """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""
-        ratio = sum(sign * self.prescribed(drive.rates) for sign, drive in self.net.excess(body, like))
+        ratio = self.prescribed(self.net.excess(body, like))
         return self._step(base, at, ratio) if ratio else at
 
-    def far_from(self, place: Place) -> Mark:
+    def far_from(self, place: BodyPoint) -> Mark:
         """A mark away from the home of a place, to take the size of a trial from."""
         return self.pose.far_from(place)
 
@@ -105,11 +108,11 @@ class Plan:
         """The vector from the relative pole's end in the first body to its end in the second, if there is any."""
         return None
 
-    def end_name(self, place: Place) -> str:
+    def end_name(self, place: BodyPoint) -> str:
         name = self.pose.spoken(place[0])
         return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
 
-    def locus_name(self, place: Place) -> str:
+    def locus_name(self, place: BodyPoint) -> str:
         return ""
 
     # ---- drawing moves --------------------------------------------------------------------------------------
@@ -117,7 +120,7 @@ class Plan:
     def draw(self, planned: Iterable[Move]) -> None:
         for move in planned:
             with self.board.on(self.panel, self._links(move)):
-                if isinstance(move, moves.Trial):
+                if isinstance(move, moves.FalsePosition):
                     self._trial(move)
                 else:
                     self._draw(move)
@@ -140,7 +143,7 @@ class Plan:
                 self._locus((X, source or body), self._outward(body, X, line), move)
             case moves.Settle(body, K, X, B):
                 self._end(X[0], self._outward(body, X[0], self._settled(body, K, X, B)), move)
-            case moves.Figure(body, K, X, R, like, copy):
+            case moves.SimilarFigure(body, K, X, R, like, copy):
                 mark = self._outward(body, X, self._figured(body, K, X, R, like))
                 self._end(copy or X, mark, move)
             case moves.Guide(slide, point, known, new):
@@ -167,18 +170,18 @@ class Plan:
         slide = next((s for s in self.net.slides if s.name == source), None)
         return [slide.link, slide.along] if slide else self.net.members.get(source, [])
 
-    def _end(self, place: Place, mark: Mark, move: Move | None = None) -> None:
+    def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
         self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
         if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
             self.board.annotate(mark.step.index, why=law)
 
-    def _know(self, place: Place, mark: Mark) -> None:
+    def _know(self, place: BodyPoint, mark: Mark) -> None:
         """Enter an end; the bodies there may be drawn from it."""
         if place not in self.ends and (place[1] in self.net.body or not place[1]):
             for body in self.net.bodies_at(place):
                 if (body, self.net.spot(place[0])) not in self._told:
                     self._told.add((body, self.net.spot(place[0])))
-                    self.known[body].append(place)  # a figure needs points that lie apart
+                    self.known[body] += (place,)  # a figure needs points that lie apart
         self.ends[place] = mark
 
     def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:
@@ -188,13 +191,13 @@ class Plan:
             self.board.annotate(mark.step.index, why=law)
         self.loci[locus] = mark
 
-    def point(self, place: Place) -> Mark:
+    def point(self, place: BodyPoint) -> Mark:
         """The place on the mechanism plan."""
         return self.pose.points[place[0]]
 
     # ---- between home and figure ----------------------------------------------------------------------------
 
-    def _inward(self, body: str, place: Place, mark: Mark) -> Mark:
+    def _inward(self, body: str, place: BodyPoint, mark: Mark) -> Mark:
         """A mark at a place's home, shifted into the figure of the body's top link."""
         if place[1] == POLE:
             vector = self.pole_vectors.get((place, body))
@@ -205,7 +208,7 @@ class Plan:
             mark = self._hopped(weld, place[0], mark, -1)
         return mark
 
-    def _outward(self, body: str, place: Place, mark: Mark) -> Mark:
+    def _outward(self, body: str, place: BodyPoint, mark: Mark) -> Mark:
         """A mark in the figure of the body's top link, shifted to the place's home."""
         if place[1] == POLE:
             vector = self.pole_vectors.get((place, body))
@@ -220,7 +223,7 @@ class Plan:
             mark = self._hopped(weld, point, mark, 1)
         return mark
 
-    def _hopped(self, weld: Weld, point: str, mark: Mark, sign: int) -> Mark:
+    def _hopped(self, weld: DrivenPair, point: str, mark: Mark, sign: int) -> Mark:
         if mark.kind == POINT:
             return self.hop(weld, point, mark, sign)
         start = self.pose.points[point]
@@ -251,12 +254,12 @@ class Plan:
         chain = self.net.chain(link)
         return self._down(link, point, self.start(chain[-1], point) if chain else self.figure(link, point))
 
-    def _rest(self, place: Place) -> Mark:
+    def _rest(self, place: BodyPoint) -> Mark:
         link = self.net.link_at(self.net.ground, place)
         mark = self._welded(link, place[0])
         return self.moved(mark, self.figure(link, place[0]), self.home(place))
 
-    def _image(self, body: str, place: Place) -> Mark:
+    def _image(self, body: str, place: BodyPoint) -> Mark:
         """The end of a place in the figure of the body's top link, by two known ends or one and the turning."""
         known = [p for p in self.known[body] if p != place]
         here = next((p for p in known if self.net.spot(p[0]) == self.net.spot(place[0])), None)
@@ -276,13 +279,13 @@ class Plan:
 
     # ---- the single moves -----------------------------------------------------------------------------------
 
-    def _slipped(self, body: str, A: Locus, X: Place, like: str) -> Mark:
+    def _slipped(self, body: str, A: Locus, X: BodyPoint, like: str) -> Mark:
         """A's locus moved along by the known vector from A's end to X's."""
         through = self._as_turned(body, like, A[0], X, self.point(A[0]))
         line = self.board.shift(self._locus_in(body, A), self.point(A[0]), through)
         return self._outward(body, X, line)
 
-    def _as_turned(self, body: str, like: str, A: Place, X: Place, at: Mark) -> Mark:
+    def _as_turned(self, body: str, like: str, A: BodyPoint, X: BodyPoint, at: Mark) -> Mark:
         """`at` moved by the image of AX in a body that turns as `like` does, but for a known difference."""
         if self.net.spot(A[0]) == self.net.spot(X[0]):
             return at
@@ -312,13 +315,13 @@ class Plan:
             return at
         return base[1] if at is base[0] else self.board.transfer(*base, at)
 
-    def _settled(self, body: str, K: Place, X: Locus, B: Locus) -> Mark:
+    def _settled(self, body: str, K: BodyPoint, X: Locus, B: Locus) -> Mark:
         known = self.point(K), self._inward(body, K, self.ends[K])
         one, two = self._locus_in(body, X), self._locus_in(body, B)
         args: tuple[Any, ...] = (*known, self.point(X[0]), one, self.point(B[0]), two)
         return self.board.settle(*args, turn=self.turn)
 
-    def _figured(self, body: str, K: Place, X: Place, R: Place | None, like: str) -> Mark:
+    def _figured(self, body: str, K: BodyPoint, X: BodyPoint, R: BodyPoint | None, like: str) -> Mark:
         at = self._inward(body, K, self.ends[K])
         if R is None:
             return self._as_turned(body, like, K, X, at)
@@ -334,7 +337,7 @@ class Plan:
         side = self.board.perpendicular if self.across else self.board.parallel
         self._locus((place, slide.name), side(self.pose.guide(slide), through), move)
 
-    def _auxiliary(self, body: str, A: Locus, B: Locus, place: Place, move: Move) -> None:
+    def _auxiliary(self, body: str, A: Locus, B: Locus, place: BodyPoint, move: Move) -> None:
         """The auxiliary point itself, where a sliding pair needs it."""
         homes = [getattr(self.board, self.turn)(self.loci[locus], self.point(locus[0])) for locus in (A, B)]
         if place[0] not in self.pose.points:
@@ -342,7 +345,7 @@ class Plan:
         end = self.board.meet(self._locus_in(body, A), self._locus_in(body, B))
         self._end(place, self._outward(body, place, end), move)
 
-    def _letters(self, body: str, A: Locus, B: Locus, X: Place) -> dict[str, str]:
+    def _letters(self, body: str, A: Locus, B: Locus, X: BodyPoint) -> dict[str, str]:
         """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
         letter = self.pose.letter(body)
         trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
@@ -358,33 +361,22 @@ class Plan:
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector
 
-    def _trial(self, move: moves.Trial) -> None:
+    def _trial(self, move: moves.FalsePosition) -> None:
         """Two trial figures, the false position, then the true figure by the same moves."""
         place, locus = move.at[0], self.loci[move.at]
         trials: list[Mark] = []
         outer = self.prime
-        before = self._drawn()
+        before = {name: getattr(self, name) for name in STATE}
         for prime, ratio in zip(("'", "''"), TRIAL_RATIOS, strict=True):
-            self._back_to(before)
+            self.__dict__ |= {name: copy(drawn) for name, drawn in before.items()}  # nothing of another trial serves
             self.prime = outer + prime
             start = self.board.pick(locus, self.home(place), self.far_from(place), ratio=ratio)
             self._know(place, self.board.named(start, self.end_name(place) + self.prime))
             self.draw(move.moves)
             trials += [start, self.ends[move.end], self.loci[move.locus]]
         self.prime = outer
-        self._back_to(before)
+        self.__dict__ |= before
         A1, Z1, l1, A2, Z2, l2 = trials
         true = self.board.false_position(A1, A2, Z1, l1, Z2, l2, name=self.end_name(place) + self.prime)
         self._know(place, true)
         self.draw(move.moves)
-
-    def _drawn(self) -> tuple[Any, ...]:
-        """What is drawn by now."""
-        known = {body: list(places) for body, places in self.known.items()}
-        return dict(self.ends), dict(self.loci), known, set(self._told), dict(self.pole_vectors)
-
-    def _back_to(self, drawn: tuple[Any, ...]) -> None:
-        """Begin once more from what was drawn before a trial: nothing of another trial figure may serve in this one."""
-        ends, loci, known, told, vectors = drawn
-        self.ends, self.loci, self._told, self.pole_vectors = dict(ends), dict(loci), set(told), dict(vectors)
-        self.known = {body: list(places) for body, places in known.items()}

@@ -10,19 +10,29 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from functools import partial
-from itertools import combinations, islice, pairwise, zip_longest
+from itertools import chain, combinations, islice, pairwise, zip_longest
 from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.methods.motion.facts import ANYWHERE, Facts
-from graphplan.methods.motion.moves import Auxiliary, Carry, Figure, Locus, Move, Pole, Slip, Swing, Trial
-from graphplan.methods.motion.network import POLE, Network, Place
+from graphplan.methods.motion.moves import (
+    Auxiliary,
+    Carry,
+    FalsePosition,
+    Locus,
+    Move,
+    Pole,
+    SimilarFigure,
+    Slip,
+    Swing,
+)
+from graphplan.methods.motion.network import POLE, BodyPoint, Network
 from graphplan.methods.motion.residues import Two, line, meet, parallel
 
 MOST_TRIALS = 6  # at how many places a trial may begin
 DEEPEST = 4  # trials within trials
 MOST_FIGURES = 3  # by which one locus may close a trial
-Bar = tuple[str, Place, Place]
+Bar = tuple[str, BodyPoint, BodyPoint]
 
 
 @dataclass
@@ -33,7 +43,7 @@ class _Open:
     start: int
 
 
-class Options(NamedTuple):
+class Choices(NamedTuple):
     """How many ways on there were at one place of a plan; `rare` ones matter only where the first does not serve."""
 
     ways: int
@@ -44,7 +54,7 @@ class Closing(NamedTuple):
     """What a trial's error is seen by: an end that should lie on a locus, and the moves that draw them."""
 
     moves: tuple[Move, ...]
-    end: Place
+    end: BodyPoint
     locus: Locus
 
 
@@ -60,7 +70,7 @@ class Planner(Facts):
     def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False):
         super().__init__(network, general)
         self.method, self.choice = method, choice
-        self.options: list[Options] = []
+        self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
         self.open: list[_Open] = []
@@ -93,10 +103,10 @@ class Planner(Facts):
             ways += [partial(self._try, locus) for locus in self._trials(loose)[:MOST_TRIALS]]
         if not ways:
             return False
-        ways[self._chosen(Options(len(ways)))]()
+        ways[self._chosen(Choices(len(ways)))]()
         return True
 
-    def _chosen(self, options: Options) -> int:
+    def _chosen(self, options: Choices) -> int:
         """Which of several ways on is taken."""
         asked = len(self.options)
         self.options.append(options)
@@ -186,14 +196,14 @@ class Planner(Facts):
         closings = list(self._closings(body))
         if not closings:
             return
-        taken = self._chosen(Options(len(closings) + 1, rare=True))
+        taken = self._chosen(Choices(len(closings) + 1, rare=True))
         if taken == 1:
             return  # another body may close it
         moves, end, locus = closings[max(taken - 1, 0)]
         trial = self.open.pop()
         inner = (*self.moves[trial.start :], *moves)
         del self.moves[trial.start :]
-        self.moves.append(Trial(trial.at, inner, end, locus))
+        self.moves.append(FalsePosition(trial.at, inner, end, locus))
         self.spent[body] = self.spent.get(body, 0) + 1
         self._queue(*self.places)
 
@@ -209,11 +219,12 @@ class Planner(Facts):
             for (R, _), (X, source) in pairwise(self._loci(body, K)):
                 if R in told:
                     copy = (X[0], own)
-                    yield Closing((Figure(body, K, X, R=R, copy=copy),), copy, (X, source))
+                    yield Closing((SimilarFigure(body, K, X, R=R, copy=copy),), copy, (X, source))
         if closing := self._three_loci(body):
             yield closing
         loci = [locus for place in self.places[body] if (locus := self._locus_of(place, body))]
-        for figures in zip_longest(*(islice(self._figures(body, X), MOST_FIGURES) for X, _ in loci)):
+        ways = (chain(self._by_one(body, X), self._by_turning(body, X), self._by_two(body, X)) for X, _ in loci)
+        for figures in zip_longest(*(islice(way, MOST_FIGURES) for way in ways)):
             for (X, source), figure in zip(loci, figures, strict=True):
                 if figure:
                     copy = (X[0], own)
@@ -221,16 +232,6 @@ class Planner(Facts):
         for K, X in combinations(told, 2):
             if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
                 yield Closing((Swing(body, K, X, own),), X, (X, own))
-
-    def _figures(self, body: str, X: Place) -> Iterator[Figure]:
-        """The end of X by the others that are drawn: by one in the same spot, by one and the turning, or by two."""
-        yield from (Figure(body, K, X) for K in self._together(body, X) if K in self.drawn)
-        known, like = self._ends(body, X), self._like(body)
-        if like:
-            yield from (Figure(body, K, X, like=like) for K in known)
-        for K, R in combinations(known, 2):
-            if self.net.spot(K[0]) != self.net.spot(R[0]):
-                yield Figure(body, K, X, R=R)
 
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
@@ -253,7 +254,7 @@ class Planner(Facts):
                         return True
         return False
 
-    def _independent(self, body: str, X: Place, ends: list[Place], own: str) -> Move | None:
+    def _independent(self, body: str, X: BodyPoint, ends: list[BodyPoint], own: str) -> Move | None:
         """A locus for X by what the body heard elsewhere."""
         others = [place for place in ends if self.net.spot(place[0]) != self.net.spot(X[0])]
         if others:

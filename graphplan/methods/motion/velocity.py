@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Number, Slide
-from graphplan.methods.motion.moves import Carry, Figure, Guide, Meet, Settle, Slip, Swing
-from graphplan.methods.motion.network import Network, Place, Weld
-from graphplan.methods.motion.plan import Plan, Vector
+from graphplan.methods.motion.moves import Carry, Guide, Meet, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
+from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
@@ -17,7 +17,7 @@ LAWS: dict[type, str] = {
     Slip: said("the link's turning is known, so its points' ends differ by a known vector"),
     Carry: said("the end lies on a line through the auxiliary point's end, parallel to the line joining the points"),
     Settle: said("the ends of two points of a link lie on a parallel to their line"),
-    Figure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
+    SimilarFigure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
     Guide: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
     Meet: said("the end lies on both"),
 }
@@ -26,13 +26,13 @@ POLAR_LAWS: dict[type, str] = {
     Slip: LAWS[Slip],
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
     Settle: said("the velocity of one point of a link about another is square to their line"),
-    Figure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
+    SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("the sliding pair leaves only a velocity along the guide"),
     Meet: said("the end lies on both"),
 }
 
 
-class Velocity(Plan):
+class Velocity(MotionPlan):
     """What both velocity plans share: drives, guides, and the relative velocities that accelerations need."""
 
     def origin(self, point: str) -> Mark:
@@ -42,13 +42,13 @@ class Velocity(Plan):
     def prescribed(self, rates: tuple[Number, Number]) -> Number:
         return self.tempo.rate(rates[0])
 
-    def home(self, place: Place) -> Mark:
+    def home(self, place: BodyPoint) -> Mark:
         return self.origin(place[0])
 
     def figure(self, link: str, point: str) -> Mark:
         return self.origin(point)
 
-    def start(self, weld: Weld, point: str) -> Mark:
+    def start(self, weld: DrivenPair, point: str) -> Mark:
         return self.origin(point)
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
@@ -75,6 +75,7 @@ class Orthogonal(Velocity):
     """Velocities turned a quarter counter-clockwise, each drawn from its point on the mechanism plan."""
 
     panel, turn, across, laws, ending = MECHANISM, "parallel", True, LAWS, "v_{0}"
+    turned = True
 
     def origin(self, point: str) -> Mark:
         return self.pose.points[point]
@@ -93,7 +94,7 @@ class Polar(Velocity):
         with board.on(self.panel):
             self.pole = board.begin(plan=self.panel.words, number=1, name="p")
 
-    def far_from(self, place: Place) -> Mark:
+    def far_from(self, place: BodyPoint) -> Mark:
         """As far from the pole as the place is from another point of its link."""
         return self.board.transfer(self.point(place), super().far_from(place), self.pole)
 

@@ -12,7 +12,7 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel, Step
-from graphplan.methods.construction import Arrow
+from graphplan.methods.construction import DrawnVector
 from graphplan.sheet.plates import display, pens
 from graphplan.sheet.plates.display import Arc, Item, Polyline, Spot
 from graphplan.sheet.plates.pens import Pen
@@ -106,7 +106,7 @@ class Stroke:
     in_mm: bool = False
     head: float = 0.0
     layer: str = LAYER
-    vector: Arrow | None = None
+    vector: DrawnVector | None = None
 
     @property
     def ends(self) -> tuple[Spot, Spot]:

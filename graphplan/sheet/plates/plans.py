@@ -12,8 +12,8 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Step
-from graphplan.methods.construction import Arrow, Construction
-from graphplan.methods.panels import MECHANISM, Lever
+from graphplan.methods.construction import Construction, DrawnVector
+from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
@@ -107,13 +107,13 @@ class Plans:
         x, y = self.drawing.scene.points[name]
         return float(x), float(y)
 
-    def vectors(self, panel: str) -> list[Arrow]:
+    def vectors(self, panel: str) -> list[DrawnVector]:
         """The vectors drawn on a plan; one that begins on another plan cannot be."""
         return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
 
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
-        lever = {"velocity"} if panel == Lever.of() and self._moves else set()
+        lever = {"velocity"} if panel == LeverPlan.of() and self._moves else set()
         return lever | {vector.kind for vector in self.vectors(panel)}
 
     @property

@@ -5,18 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any, Self
 
+from graphplan.mechanism import units
 from graphplan.mechanism.model import Balance
-from graphplan.mechanism.units import (
-    ACCELERATING,
-    FORCE,
-    LENGTH,
-    MOMENT,
-    SPEED,
-    TURNING,
-    TURNING_FASTER,
-    Dimension,
-    metre,
-)
 from graphplan.phrases import said
 
 BY_PLANS, BY_LEVER, RUBBED = "balance", "lever", "with friction"  # how a balance is found
@@ -30,11 +20,11 @@ class ResultKind(str):
     """
 
     words: str
-    dimension: Dimension
+    dimension: units.Dimension
     pair: bool
     way: str
 
-    def __new__(cls, words: str, dimension: Dimension, *, pair: bool = False, way: str = "") -> Self:
+    def __new__(cls, words: str, dimension: units.Dimension, *, pair: bool = False, way: str = "") -> Self:
         self = super().__new__(cls, words)
         self.words, self.dimension, self.pair, self.way = words, dimension, pair, way
         return self
@@ -50,37 +40,39 @@ class ResultKind(str):
     @property
     def single(self) -> bool:
         """Whether it is one number; else it is a vector."""
-        return self.dimension in (TURNING, TURNING_FASTER, MOMENT)
+        return self.dimension in (units.TURNING, units.TURNING_FASTER, units.MOMENT)
 
     @property
     def turning(self) -> bool:
         """Whether it is the rate of a link."""
-        return self.dimension in (TURNING, TURNING_FASTER)
+        return self.dimension in (units.TURNING, units.TURNING_FASTER)
 
-    def arm(self, reach: Any, units: Any) -> Any:
+    def arm(self, reach: Any, scene: units.Units) -> Any:
         """At which arm it counts among its group: turnings with what they make at the mechanism's reach, moments as
         the forces that they are there."""
-        return reach if self.turning else metre(units) / reach if self.dimension == MOMENT else 1
+        return reach if self.turning else units.metre(scene) / reach if self.dimension == units.MOMENT else 1
 
 
-VELOCITY = ResultKind(said("velocity"), SPEED)
-ACCELERATION = ResultKind(said("acceleration"), ACCELERATING)
-OMEGA, ALPHA = ResultKind(said("omega"), TURNING), ResultKind(said("alpha"), TURNING_FASTER)
-SLIDE_VELOCITY = ResultKind(said("slide velocity"), SPEED, pair=True)
-SLIDE_ACCELERATION = ResultKind(said("slide acceleration"), ACCELERATING, pair=True)
-REACTION = ResultKind(said("reaction"), FORCE, pair=True)
-SLIDE_REACTION = ResultKind(said("slide reaction"), FORCE, pair=True)
-SLIDE_MOMENT = ResultKind(said("slide moment"), MOMENT, pair=True)
-SLIDE_ARM = ResultKind(said("slide arm"), LENGTH, pair=True)
+VELOCITY = ResultKind(said("velocity"), units.SPEED)
+ACCELERATION = ResultKind(said("acceleration"), units.ACCELERATING)
+OMEGA, ALPHA = ResultKind(said("omega"), units.TURNING), ResultKind(said("alpha"), units.TURNING_FASTER)
+SLIDE_VELOCITY = ResultKind(said("slide velocity"), units.SPEED, pair=True)
+SLIDE_ACCELERATION = ResultKind(said("slide acceleration"), units.ACCELERATING, pair=True)
+REACTION = ResultKind(said("reaction"), units.FORCE, pair=True)
+SLIDE_REACTION = ResultKind(said("slide reaction"), units.FORCE, pair=True)
+SLIDE_MOMENT = ResultKind(said("slide moment"), units.MOMENT, pair=True)
+SLIDE_ARM = ResultKind(said("slide arm"), units.LENGTH, pair=True)
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
     SLIDE_ARM,
-    ResultKind(said("balance"), FORCE, way=BY_PLANS), ResultKind(said("balance moment"), MOMENT, way=BY_PLANS),
-    ResultKind(said("balance with friction"), FORCE, way=RUBBED),
-    ResultKind(said("balance moment with friction"), MOMENT, way=RUBBED),
-    ResultKind(said("lever"), FORCE, way=BY_LEVER), ResultKind(said("lever moment"), MOMENT, way=BY_LEVER),
+    ResultKind(said("balance"), units.FORCE, way=BY_PLANS),
+    ResultKind(said("balance moment"), units.MOMENT, way=BY_PLANS),
+    ResultKind(said("balance with friction"), units.FORCE, way=RUBBED),
+    ResultKind(said("balance moment with friction"), units.MOMENT, way=RUBBED),
+    ResultKind(said("lever"), units.FORCE, way=BY_LEVER), ResultKind(said("lever moment"), units.MOMENT, way=BY_LEVER),
 )}
-POWER, POWER_MOMENT = ResultKind("power balance", FORCE), ResultKind("power balance moment", MOMENT)  # never read
+# A third opinion, which is never read off a drawing.
+POWER, POWER_MOMENT = ResultKind("power balance", units.FORCE), ResultKind("power balance moment", units.MOMENT)
 MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION)}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
 WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), "curves": said("curves")}

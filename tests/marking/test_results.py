@@ -13,7 +13,7 @@ from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
 from graphplan.methods.kinds import KINDS
-from graphplan.methods.results import READERS
+from graphplan.methods.recorded import READERS
 
 
 def numbers(folder: Path, text: str) -> tuple[Number, ...]:

@@ -6,19 +6,9 @@ from collections.abc import Iterable, Iterator
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Slide
+from graphplan.methods.forces import reactions
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import (
-    DrawnForces,
-    Known,
-    Pair,
-    Shown,
-    Span,
-    applied,
-    pair_letter,
-    reaction_letter,
-    signed,
-    signed_pair,
-)
+from graphplan.methods.forces.reactions import Known, Pair, Span, signed
 from graphplan.methods.forces.unknown_forces import ForceGroup, UnknownForce, has_line
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
 from graphplan.methods.poses import Pose
@@ -29,7 +19,7 @@ Part = frozenset[str]  # links of a group, seen as one free body
 class FreeBodies:
     """The known forces of one group, drawn on a panel of its own."""
 
-    def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: DrawnForces):
+    def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: reactions.DrawnForces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
         self.panel = ForcePlan.of(group.links, forces.number)
         self.known: dict[UnknownForce, Known] = {}
@@ -75,17 +65,17 @@ class FreeBodies:
     def _apply(self, loads: Iterable[Acting]) -> None:
         """Draw loads where they act; once, not again with friction."""
         if not self.forces.number:
-            self.forces.shown += [applied(self.board, force) for force in loads]
+            self.forces.shown += [reactions.applied(self.board, force) for force in loads]
 
     def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
         """The forces on one link: its loads, and what solved groups pass on to it."""
         own = list(self.loading.forces(link, corner))
-        self.forces.shown += [Shown("load", force.name, force.tail, force.head) for force in own]
+        self.forces.shown += [reactions.Shown("load", force.name, force.tail, force.head) for force in own]
         self._apply(own)
         for force in self._passed_to(link):
             tail = own[-1].head if own else corner
             own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail), force.name))
-            self.forces.shown.append(Shown("reaction", force.name, tail, own[-1].head))
+            self.forces.shown.append(reactions.Shown("reaction", force.name, tail, own[-1].head))
         for force in own:
             self.numbered(force.head)
         return own
@@ -98,14 +88,14 @@ class FreeBodies:
         for slide in self._solved_slides(link):
             one, other = (slide.along, slide.link) if slide.link == link else (slide.link, slide.along)
             span = signed(self.forces.slides[slide], 1 if slide.link == link else -1)
-            yield Acting(self.forces.seats[slide], *span, pair_letter(one, other))
+            yield Acting(self.forces.seats[slide], *span, reactions.pair_letter(one, other))
 
     def _couples_of_slides(self, link: str) -> Iterator[Pair]:
         """The couples of the slides that join a link to solved groups."""
         for slide in self._solved_slides(link):
             pair = self.forces.pairs[slide]
             if pair is not None:
-                yield signed_pair(pair, 1 if slide.link == link else -1)
+                yield reactions.signed_pair(pair, 1 if slide.link == link else -1)
 
     def _solved_slides(self, link: str) -> list[Slide]:
         """The slides that join a link to solved groups."""
@@ -117,7 +107,7 @@ class FreeBodies:
         for link in self.group.scene.links_of[point]:
             if link in self.group.done:
                 tail, head = self.forces.joints[point, link]
-                name = reaction_letter(self.forces.scene, point, self.group.members(point)[0])
+                name = reactions.reaction_letter(self.forces.scene, point, self.group.members(point)[0])
                 yield Acting(self.pose.points[point], head, tail, name)
 
     # ---- a part of the group -----------------------------------------------------------------------------------
@@ -180,13 +170,13 @@ class FreeBodies:
         for site, sign in self._solved(part):
             pair_of = self.pairs.get(site)
             if pair_of is not None and site != but:
-                yield from signed_pair(pair_of, sign)
+                yield from reactions.signed_pair(pair_of, sign)
         told = [*facts, (but, self.sign(part, but))] if isinstance(but, Slide) else list(facts)
         yield from self.parts_of(told)
         for site, sign in told:
             known = self.known.get(site)
             if known is not None and known.pair is not None and site not in self.ends:
-                yield from signed_pair(known.pair, sign)
+                yield from reactions.signed_pair(known.pair, sign)
 
     def acts_at(self, site: UnknownForce, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)

@@ -32,8 +32,8 @@ FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
 
 def drawn(chart: Chart) -> str:
     """The chart as SVG text: title and remarks at the top, the key at the foot, and the pictures between them."""
-    canvas, (wide, high), rows = Canvas(), chart.size, math.ceil(len(chart.panels) / chart.columns)
-    breadth = 2 * MARGIN + chart.columns * (LEFT + wide + RIGHT)
+    canvas, (wide, high), columns = Canvas(), chart.size, min(chart.columns, len(chart.panels) or 1)
+    rows, breadth = math.ceil(len(chart.panels) / columns), 2 * MARGIN + columns * (LEFT + wide + RIGHT)
     remarks = wrap(_set(chart.remarks), SIZE, breadth - 2 * MARGIN)
     head = MARGIN + TITLE + 3 + LINE * len(remarks)
     keys = list(_key_rows(chart, breadth - MARGIN))
@@ -42,7 +42,7 @@ def drawn(chart: Chart) -> str:
     for k, line in enumerate(remarks, 1):
         canvas.text((MARGIN, height - MARGIN - TITLE - 1.5 - k * LINE), line)
     for k, panel in enumerate(chart.panels):
-        row, column = divmod(k, chart.columns)
+        row, column = divmod(k, columns)
         left = MARGIN + column * (LEFT + wide + RIGHT) + LEFT
         top = height - head - row * (ABOVE + high + BELOW) - ABOVE
         _draw(canvas, panel, Rect(left, top - high, left + wide, top))

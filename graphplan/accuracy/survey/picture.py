@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
+from typing import TypeVar
 
+T = TypeVar("T")
 Place = float | str  # a number on an axis, or the name of one of its rails
 Spot = tuple[Place, Place]
 Rails = tuple[tuple[str, str], ...]  # lines beside the numbers of an axis, by name, with their labels, possibly empty
@@ -57,7 +60,7 @@ class SubChart:
 
 @dataclass(frozen=True)
 class Chart:
-    """Panels of one size in mm, in rows of so many, under a title and remarks; the key tells what each look means."""
+    """Panels of one size in mm, in rows of so many at most, under a title and remarks, and what each look means."""
 
     title: str
     remarks: str
@@ -65,3 +68,11 @@ class Chart:
     columns: int
     size: tuple[float, float]
     key: tuple[tuple[str, Look], ...]
+
+
+def grouped(rows: Iterable[T], field: str) -> dict[str, list[T]]:
+    """Rows by what a field of them says, in the order in which it is first said."""
+    found: dict[str, list[T]] = {}
+    for row in rows:
+        found.setdefault(getattr(row, field), []).append(row)
+    return found

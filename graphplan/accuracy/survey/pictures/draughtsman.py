@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 from itertools import pairwise
 
 from graphplan.accuracy.survey.draughtsman import STRICT, Draft
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, grouped
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
 
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up",
@@ -24,11 +24,10 @@ REMARKS = (
 
 def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     """The chart of these drafts, drawn with a pencil."""
-    scenes = list(dict.fromkeys(row.scene for row in rows))
-    panels = tuple(_panel(scene, [row for row in rows if row.scene == scene]) for scene in scenes)
+    panels = tuple(_panel(scene, of) for scene, of in grouped(rows, "scene").items())
     remarks = REMARKS.format(paper=rows[0].paper if rows else "", pencil=pencil)
     return Chart("The draughtsman: operations against pencil error", remarks, panels,
-                 min(6, len(panels) or 1), (44.0, 36.0), tuple(_key()))
+                 6, (44.0, 36.0), tuple(_key()))
 
 
 def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Sequence
 from itertools import groupby
 
 from graphplan.accuracy.survey.best_forms import EQUAL, PENCIL, ROUNDING, Sample
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, grouped
 from graphplan.methods.styles import METHODS, MOTION_PLANS
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, RED
 
@@ -27,11 +27,9 @@ REMARKS = (
 
 def picture(rows: Sequence[Sample]) -> Chart:
     """The chart of these samples."""
-    scenes = list(dict.fromkeys(row.scene for row in rows))
-    panels = tuple(SubChart(scene, TRAVEL, MEASURES, tuple(_bands([row for row in rows if row.scene == scene])))
-                   for scene in scenes)
+    panels = tuple(SubChart(scene, TRAVEL, MEASURES, tuple(_bands(of))) for scene, of in grouped(rows, "scene").items())
     key = (*LOOKS.items(), ("no form there", NOWHERE))
-    return Chart("The best form over the cycle", REMARKS, panels, min(2, len(panels) or 1), (160.0, 12.0), key)
+    return Chart("The best form over the cycle", REMARKS, panels, 2, (160.0, 12.0), key)
 
 
 def _bands(rows: Sequence[Sample]) -> Iterator[Series]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from graphplan.accuracy.survey.machine import ARITHMETICS, EXACT_SOLVER, LAPACK, SOLVER, Measure
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
 from graphplan.accuracy.survey.timing import spread
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 
@@ -26,12 +26,12 @@ REMARKS = (
 
 def picture(rows: Sequence[Measure]) -> Chart:
     """The chart of these measures."""
-    scenes = list(dict.fromkeys(row.scene for row in rows))
-    shown = [scene for scene in scenes if scene in SHOWN] or scenes[:1]
-    panels = [SubChart(scene, TIME, ERROR, tuple(_alone(row for row in rows if row.scene == scene))) for scene in shown]
+    scenes = grouped(rows, "scene")
+    shown = [scene for scene in scenes if scene in SHOWN] or list(scenes)[:1]
+    panels = [SubChart(scene, TIME, ERROR, tuple(_alone(scenes[scene]))) for scene in shown]
     if len(scenes) > 1:
         panels.append(SubChart(f"median of {len(scenes)} scenes", TIME, ERROR, tuple(_median(rows))))
-    return Chart("The machine: time against error", REMARKS, tuple(panels), min(2, len(panels)),
+    return Chart("The machine: time against error", REMARKS, tuple(panels), 2,
                  (140.0, 85.0), tuple(_key()))
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, Spot, SubChart
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, Spot, SubChart, grouped
 from graphplan.accuracy.survey.stability import EPSILON, METHODS, Sample
 from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, GREY, INK, RED, VIOLET
 
@@ -33,10 +33,9 @@ REMARKS = (
 def picture(rows: Sequence[Sample]) -> Chart:
     """The chart of these samples."""
     about = {degeneracy.name: degeneracy.what for degeneracy in DEGENERACIES}
-    names = list(dict.fromkeys(row.degeneracy for row in rows))
-    panels = tuple(_panel(f"{name} – {about[name]}", [row for row in rows if row.degeneracy == name]) for name in names)
+    panels = tuple(_panel(f"{name} – {about[name]}", of) for name, of in grouped(rows, "degeneracy").items())
     return Chart("Stability: error near the places where methods fail", REMARKS, panels,
-                 min(3, len(panels) or 1), (116.0, 70.0), tuple(_key()))
+                 3, (116.0, 70.0), tuple(_key()))
 
 
 def _panel(title: str, rows: Sequence[Sample]) -> SubChart:

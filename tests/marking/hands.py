@@ -102,6 +102,12 @@ def _spots(drawn: Drawn, step: Step, value: Any) -> list[complex]:
     """Where a thing was drawn: a line between the outermost of its marks, and a little beyond."""
     on = [complex(*drawn.values[mark][:2]) for mark in Plans(drawn.drawing).marks_on.get(step.index, ())
           if drawn.values[mark] is not None]
+    size = max(abs(complex(*v[:2])) for v in drawn.values if v is not None and len(v) == 2) * 0.05
+    return extent(step, value, on, size)
+
+
+def extent(step: Step, value: Any, on: Sequence[complex], beyond: float) -> list[complex]:
+    """Spots of a mark, in plan units: a line from the first to the last mark on it, of an arc a little each way."""
     if step.op.gives == POINT:
         return [complex(*value[:2])]
     if step.op.gives == LINE:
@@ -109,11 +115,10 @@ def _spots(drawn: Drawn, step: Step, value: Any) -> list[complex]:
         way = complex(b, -a) / math.hypot(a, b)
         foot = -complex(a, b) * c / (a * a + b * b)
         along = [((z - foot) * way.conjugate()).real for z in on] or [0.0]
-        size = max(abs(complex(*v[:2])) for v in drawn.values if v is not None and len(v) == 2) * 0.05
-        return [foot + way * (min(along) - size), foot + way * (max(along) + size)]
+        return [foot + way * (min(along) - beyond), foot + way * (max(along) + beyond)]
     centre, radius = complex(value[0], value[1]), math.sqrt(max(value[2], 0.0))
-    turns = [cmath.phase(z - centre) for z in on] or [0.0]
-    return [centre + cmath.rect(radius, turns[0] + turn) for turn in (-0.2, 0.0, 0.2)]
+    turn = cmath.phase(on[0] - centre) if on else 0.0
+    return [centre + cmath.rect(radius, turn + part) for part in (-0.2, 0.0, 0.2)]
 
 
 def wrong_by(drawn: Drawn, step: Step) -> float:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from functools import cache
 
+from hands import extent
+
 import graphplan as gp
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
+from graphplan.kernel.kinds import OPENING, POINT
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSEEN, WRONG, Ellipse, Judgement, Verdict
 from graphplan.marking.traces import PlanFrame, Trace
@@ -62,22 +63,6 @@ class Maker:
         """A true mark on the student's sheet, moved by so many mm."""
         frame = self.frames[self.plans.plan_of_step[step.index]]
         on = [complex(*self.plans.spot(mark)) for mark in self.plans.marks_on.get(step.index, ())]
-        found = [frame.onto(spot) + off for spot in spots(step, value, on)]
+        found = [frame.onto(spot) + off for spot in extent(step, value, on, 3.0)]
         label = self.drawing.drawn.text(step.index)
         return Trace(step.op.gives, tuple((spot.real, spot.imag) for spot in found), label)
-
-
-def spots(step: Step, value: tuple[float, ...], on: list[complex]) -> list[complex]:
-    """Spots of a mark, in plan units: a line from the first to the last mark on it, of an arc a little each way."""
-    if step.op.gives == POINT:
-        return [complex(*value)]
-    if step.op.gives == LINE:
-        a, b, c = value
-        way = complex(b, -a) / math.hypot(a, b)
-        foot = -complex(a, b) * c / (a * a + b * b)
-        along = [((spot - foot) * way.conjugate()).real for spot in on] or [0.0]
-        return [foot + way * (min(along) - 3.0), foot + way * (max(along) + 3.0)]
-    assert step.op.gives == CIRCLE
-    centre, radius = complex(*value[:2]), math.sqrt(value[2])
-    turn = (on[0] - centre) / radius if on else 1.0
-    return [centre + radius * turn * complex(math.cos(t), math.sin(t)) for t in (-0.2, 0.0, 0.2)]

@@ -12,7 +12,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, full, reach
 from graphplan.marking.files.drawing import drawing
-from graphplan.marking.files.geogebra_values import CIRCLES, LINES, Circle, Line, Objects, Vector, finite
+from graphplan.marking.files.geogebra_values import CIRCLES, LINES, CircleValue, LineValue, Objects, Vector, finite
 from graphplan.marking.files.safe import MB, contents, tree, unpacked
 from graphplan.marking.spelling import greek, mark
 from graphplan.marking.traces import Spot, Submission, Trace
@@ -61,7 +61,7 @@ def _curve(objects: Objects, label: str, box: list[Spot]) -> Iterator[Trace]:
     if element.get("type") in CIRCLES:
         yield from _round(objects, label, name)
     elif element.get("type") in LINES:
-        ends = _ends(objects, label) or (reach(value.at, value.along, box) if isinstance(value, Line) else None)
+        ends = _ends(objects, label) or (reach(value.at, value.along, box) if isinstance(value, LineValue) else None)
         if ends is not None:
             yield Trace(LINE, ends, name)
 
@@ -75,7 +75,7 @@ def _round(objects: Objects, label: str, name: str) -> Iterator[Trace]:
         centre, *ends = arc
         angles = [math.degrees(math.atan2((end - centre).imag, (end - centre).real)) for end in ends]
         yield Trace(CIRCLE, bow((centre.real, centre.imag), abs(ends[0] - centre), *angles), name)
-    elif isinstance(circle, Circle):
+    elif isinstance(circle, CircleValue):
         found = full((circle.at.real, circle.at.imag), circle.radius)
         yield Trace(found.kind, found.spots, name)
 

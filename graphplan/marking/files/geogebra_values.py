@@ -33,7 +33,7 @@ SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": f"**{DEG
 FLOATS = Floats()
 
 
-class Line(NamedTuple):
+class LineValue(NamedTuple):
     """A line a x + b y + c = 0, which runs along (b, -a)."""
 
     a: float
@@ -50,7 +50,7 @@ class Line(NamedTuple):
         return -self.c * complex(self.a, self.b) / (self.a**2 + self.b**2)
 
 
-class Circle(NamedTuple):
+class CircleValue(NamedTuple):
     """A circle by its centre and the square of its radius."""
 
     x: float
@@ -80,31 +80,31 @@ def _ruled(rule: Callable[..., Any], *things: Any, **params: float) -> Any:
     """What a rule of the kernel gives."""
     read = [(thing.real, thing.imag) if isinstance(thing, complex) else thing for thing in things]
     found = rule(FLOATS, *read, **params)
-    return Line(*found) if len(found) == 3 else complex(*found)
+    return LineValue(*found) if len(found) == 3 else complex(*found)
 
 
-def _line(point: complex, second: Any) -> Line:
+def _line(point: complex, second: Any) -> LineValue:
     match second:
         case Vector(z):
             found = _ruled(guide, point, dx=z.real, dy=z.imag)
-        case Line():
+        case LineValue():
             found = _ruled(parallel, second, point)
         case _:
             found = _ruled(line, point, second)
-    return Line(*found)
+    return LineValue(*found)
 
 
-def _upright(point: complex, other: Any) -> Line:
-    return Line(*_ruled(perpendicular, _line(point, other), point))
+def _upright(point: complex, other: Any) -> LineValue:
+    return LineValue(*_ruled(perpendicular, _line(point, other), point))
 
 
 def _distance(point: complex, other: Any) -> float:
-    end: complex = _ruled(foot, other, point) if isinstance(other, Line) else other
+    end: complex = _ruled(foot, other, point) if isinstance(other, LineValue) else other
     return abs(point - end)
 
 
-def _circle(centre: complex, other: Any) -> Circle:
-    return Circle(centre.real, centre.imag, (abs(other - centre) if isinstance(other, complex) else other) ** 2)
+def _circle(centre: complex, other: Any) -> CircleValue:
+    return CircleValue(centre.real, centre.imag, (abs(other - centre) if isinstance(other, complex) else other) ** 2)
 
 
 def _unit(thing: Any, turn: complex = 1.0) -> Vector:
@@ -112,18 +112,18 @@ def _unit(thing: Any, turn: complex = 1.0) -> Vector:
 
 
 NUMBER = float | int
-DIRECTED = Line | Vector
+DIRECTED = LineValue | Vector
 CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
     **dict.fromkeys(("Line", "Ray"), (_line, (complex, complex | DIRECTED))), "Segment": (_line, (complex, complex)),
     **dict.fromkeys(("OrthogonalLine", "PerpendicularLine"), (_upright, (complex, DIRECTED))),
     **dict.fromkeys(("LineBisector", "PerpendicularBisector"),
                     (lambda one, two: _ruled(bisector, one, two), (complex, complex))),
-    "Intersect": (lambda one, two: _ruled(meet, one, two), (Line, Line)),
+    "Intersect": (lambda one, two: _ruled(meet, one, two), (LineValue, LineValue)),
     "Midpoint": (lambda one, two: _ruled(midpoint, one, two), (complex, complex)),
-    "Distance": (_distance, (complex, complex | Line)), "Circle": (_circle, (complex, complex | NUMBER)),
-    "Center": (lambda circle: circle.at, (Circle,)), "Radius": (lambda circle: circle.radius, (Circle,)),
+    "Distance": (_distance, (complex, complex | LineValue)), "Circle": (_circle, (complex, complex | NUMBER)),
+    "Center": (lambda circle: circle.at, (CircleValue,)), "Radius": (lambda circle: circle.radius, (CircleValue,)),
     "Vector": (lambda start, end=None: Vector(start if end is None else end - start), (complex, complex)),
-    "Direction": (lambda line: Vector(line.along), (Line,)), "UnitVector": (_unit, (DIRECTED,)),
+    "Direction": (lambda line: Vector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED,)),
     "OrthogonalVector": (lambda thing: Vector(1j * thing.along), (DIRECTED,)),
     "UnitOrthogonalVector": (lambda thing: _unit(thing, 1j), (DIRECTED,)),
     "Translate": (lambda point, vector: point + vector.z, (complex, Vector)),
@@ -312,7 +312,7 @@ def stated(element: Element) -> Any:
         return complex(x / z, y / z) if z else None
     if kind == "vector":
         return Vector(complex(x, y))
-    return Line(x, y, z) if (x or y) and kind in LINES else None
+    return LineValue(x, y, z) if (x or y) and kind in LINES else None
 
 
 def finite(written: str) -> float:
@@ -320,7 +320,7 @@ def finite(written: str) -> float:
     return math.nan if written in UNDEFINED else number(written)
 
 
-def _conic(matrix: Element | None) -> Circle | None:
+def _conic(matrix: Element | None) -> CircleValue | None:
     """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None where it is none."""
     if matrix is None:
         return None
@@ -329,4 +329,4 @@ def _conic(matrix: Element | None) -> Circle | None:
         return None
     centre = complex(-x / xx, -y / xx)
     square = abs(centre) ** 2 - one / xx
-    return Circle(centre.real, centre.imag, square) if square > 0 else None
+    return CircleValue(centre.real, centre.imag, square) if square > 0 else None

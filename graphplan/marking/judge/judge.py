@@ -97,11 +97,11 @@ class Judge:
         plan_of_step, start = register.plan_of_step, self._start(fits)
         for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
-            start = start.moved(self._start(fits)).until(plan_of_step.index(panel))
+            start = start.fork(self._start(fits)).until(plan_of_step.index(panel))
             matching = start.fork().until(end)
             wrong, best = float(_wrong(matching, panel)), fits[panel]
             for fit, weight in register.rivals(panel, matching) if wrong else ():
-                other = start.moved(self._start({**fits, panel: fit})).until(end)
+                other = start.fork(self._start({**fits, panel: fit})).until(end)
                 if _wrong(other, panel) + weight < wrong:
                     wrong, best = _wrong(other, panel) + weight, fit
             fits[panel] = best
@@ -130,7 +130,8 @@ class Judge:
     def matching(self, fits: Mapping[str, Fit], mistakes: int = 0) -> Matching:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
         matching = self._start(fits)
-        return matching.through(Search(matching.fork()).found(mistakes) if mistakes and self.unlabelled else {})
+        found = Search(matching.fork()).found(mistakes) if mistakes and self.unlabelled else {}
+        return matching.until(len(matching.steps), found)
 
     def _start(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
+from copy import copy
 from dataclasses import dataclass
 from typing import Any
 
@@ -85,18 +86,13 @@ class Matching:
         self.weight = 0.0  # what speaks for this way
         self._now: list[tuple[Any, Sequence[Any]]] | None = None  # what the next step should make
 
-    def fork(self) -> Matching:
-        """Another one that goes on from here."""
-        return self.moved(self)
-
-    def moved(self, other: Matching) -> Matching:
-        """Another one that goes on from here in the frames of the other, which differ only in plans to come."""
-        moved = Matching(other.sheet, self.rules, self.traces, self.labels, other.unlabelled, other.image)
-        moved.own, moved.mended = list(self.own), list(self.mended)
-        moved.matches, moved.erred = list(self.matches), self.erred
-        moved.used, moved.over = set(self.used), set(self.over)
-        moved.weight, moved.found, moved.dead = self.weight, self.found, set(self.dead)
-        return moved
+    def fork(self, other: Matching | None = None) -> Matching:
+        """Another one that goes on from here, in the frames of the other, which differ only in plans to come."""
+        fork, other = copy(self), other or self
+        fork.sheet, fork.unlabelled, fork.image, fork._now = other.sheet, other.unlabelled, other.image, None
+        fork.own, fork.mended, fork.matches = [*self.own], [*self.mended], [*self.matches]
+        fork.used, fork.over, fork.dead = {*self.used}, {*self.over}, {*self.dead}
+        return fork
 
     @property
     def steps(self) -> Sequence[Step]:
@@ -106,12 +102,9 @@ class Matching:
     def next(self) -> Step:
         return self.steps[len(self.own)]
 
-    def through(self, found: Mapping[int, int | Mistake] | None = None) -> Matching:
-        """Go to the end, taking every trace that fits, what steps were found to be mistaken for, and no others."""
-        return self.until(len(self.steps), found)
-
     def until(self, end: int, found: Mapping[int, int | Mistake] | None = None) -> Matching:
-        """Go on so before the step of this place."""
+        """Go on before the step of this place, taking every trace that fits, what steps were found to be mistaken for,
+        and no others."""
         self.found = found or {}
         while len(self.own) < end:
             self.go(self.found.get(len(self.own)))

@@ -233,7 +233,7 @@ def pages() -> Iterator[tuple[list[Sheet], str]]:
     solution = layout(drawing, composition=composition, document=SOLUTION)
     yield [solution], "Solution"
     yield task(solution, composition), "Task"
-    yield guided(solution, composition), "Slide construction"
+    yield guided(solution, composition), "Guided construction"
     yield strip(drawing, "A3"), "Film strip"
 
 

@@ -7,12 +7,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphplan.kernel.expand import crossing
-from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
+from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.plates.plans import Plans
 
 
 @dataclass(frozen=True)
@@ -74,12 +73,10 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
     drawn = drawing.drawn
     crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
                  for step in drawn.steps if step.op.crossing]
-    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(drawing, composition))
+    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(composition))
 
 
-def _off_sheet(drawing: Construction, composition: Composition) -> tuple[int, ...]:
+def _off_sheet(composition: Composition) -> tuple[int, ...]:
     """The steps whose points lie outside the paper of their plans."""
-    plans = Plans(drawing)
-    off = [index for panel, view in composition.views.items() for index in plans.points(panel)
-           if not view.rect.holds(view(plans.spot(index)))]
-    return tuple(drawing.drawn.number(index) for index in sorted(off))
+    points = (drawn for drawn in composition.plates.steps if drawn.kind == POINT)
+    return tuple(point.number for point in points if not point.view.rect.holds(point.at))

@@ -6,10 +6,9 @@ stand in the same places.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
-from graphplan.kernel.kinds import Movement
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
 from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
@@ -20,14 +19,14 @@ from graphplan.sheet.layout.pages import packed
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
+from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.words.rows import lettered
 from graphplan.sheet.words.task import Task
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
-EDGE = 0.01  # mm by which what is on an edge may be beyond it
 FREE = 4.0  # mm about a beginning without crosses
 
 
@@ -59,9 +58,9 @@ def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[
     arrangement = composition.arrangement
     words = Task(composition.plans).lines(arrangement.columns[0].width, document == GUIDED)
     apart = (*arrangement.columns, arrangement.title)
-    bare = [item for item in solved.items if item.step is None and not _within(item, apart)]
+    bare = [item for item in solved.items if item.step is None and not within(item, apart)]
     begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
-    empty = [item for item in bare if not _within(item, arrangement.panels.values())]
+    empty = [item for item in bare if not within(item, arrangement.panels.values())]
     pages = packed(words, arrangement)
     marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
     for number, page in enumerate(pages, 1):
@@ -70,40 +69,20 @@ def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[
         yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
 
 
-def _within(item: Item, rects: Iterable[Rect]) -> bool:
-    """Whether an item lies in one of the rectangles."""
-    return any(all(rect.holds(spot, EDGE) for spot in _spots(item)) for rect in rects)
-
-
-def _spots(item: Item) -> tuple[Spot, ...]:
-    """Where an item lies: its corners or ends, its middle, or where its lettering begins."""
-    match item:
-        case Polyline() | Polygon():
-            return item.spots
-        case Circle() | Arc():
-            return (item.centre,)
-        case Arrow():
-            return item.start, item.end
-        case Text():
-            return (item.at,)
-    raise TypeError(f"no {type(item).__name__} lies anywhere")
-
-
 def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterator[Item]:
     """What a plan has before its first step: where it begins, and crosses to measure by unless the mechanism is there.
     """
-    plans, window = composition.plans, composition.views[panel]
-    begins = [step for step in plans.drawing.drawn.steps
-              if step.op.movement is Movement.BEGUN and plans.plan_of_step[step.index] == panel]
-    spots = [window(plans.spot(step.index)) for step in begins]
-    dots = [Circle(ORIGIN, "construction", step.index, spot, 0.5) for step, spot in zip(begins, spots, strict=True)]
-    wishes = [Wish(listed([step.name]), (spot,), step=step.index, label=step.name)
-              for step, spot in zip(begins, spots, strict=True) if step.name]
-    around = [_covered(item) for item in bare if _within(item, (window.rect,))]
+    rect = composition.views[panel].rect
+    begins = [drawn for drawn in composition.plates.steps if drawn.panel == panel and drawn.free and drawn.number]
+    spots = [drawn.at for drawn in begins]
+    dots = [Circle(ORIGIN, LAYER, drawn.index, drawn.at, 0.5) for drawn in begins]
+    wishes = [Wish(listed([drawn.name]), (drawn.at,), step=drawn.index, label=drawn.name)
+              for drawn in begins if drawn.name]
+    around = [_covered(item) for item in bare if within(item, (rect,))]
     if panel != MECHANISM:
-        yield from _ruling(window.rect, spots)
+        yield from _ruling(rect, spots)
     yield from dots
-    yield from placed(wishes, [*dots, *around], spots, window.rect)
+    yield from placed(wishes, [*dots, *around], spots, rect)
 
 
 def _covered(item: Item) -> Item:

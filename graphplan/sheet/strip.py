@@ -7,9 +7,10 @@ number of its step.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import combinations
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel, Step
@@ -27,7 +28,7 @@ from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked
-from graphplan.sheet.plates.view import View, least, plan_scale, view
+from graphplan.sheet.plates.view import View, least, plan_box, plan_scale, view
 from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
@@ -36,7 +37,6 @@ WIDTHS = 92.0, 125.0, 170.0  # mm: of a picture; the wider where the letters of 
 ASPECT, GAP, INDENT, CAPTION = 0.72, 4.0, 7.0, 5.0
 MOST = 12  # steps in a picture
 NO_SCALE = "—"  # of a sheet with pictures in scales of their own
-Group = tuple[Step, ...]
 
 
 def strip(drawing: Construction, paper: str | None = None, *, single: bool = False,
@@ -59,38 +59,35 @@ class Strip:
     single: bool
 
     @cached_property
-    def groups(self) -> list[Group]:
+    def groups(self) -> list[list[Step]]:
         """The steps of each picture: on one plan, up to the next lettered mark, if it is not too far."""
-        drawn, groups, group = self.plans.drawing.drawn, list[Group](), list[Step]()
+        drawn, groups = self.plans.drawing.drawn, list[list[Step]]()
         for step in drawn.steps[drawn.givens :]:
-            if group and self._home(step) != self._home(group[-1]):
-                groups.append(tuple(group))
-                group = []
-            group.append(step)
-            if step.name or self.single or len(group) == MOST:
-                groups.append(tuple(group))
-                group = []
-        return [*groups, tuple(group)] if group else groups
+            last = groups[-1] if groups else []
+            full = not last or last[-1].name or self.single or len(last) == MOST
+            if full or self._home(step) != self._home(last[-1]):
+                groups.append([])
+            groups[-1].append(step)
+        return groups
 
     def _home(self, step: Step) -> Panel:
         return self.plans.plan_of_step[step.index]
 
     @cached_property
-    def pictured(self) -> dict[str, DrawnPlan]:
-        """Each plan, drawn once as large as all pictures are, in the narrowest width in which its letters are apart."""
+    def pictured(self) -> tuple[Rect, dict[str, list[Item]]]:
+        """The frame of all pictures, and each plan in it: the narrowest in which no letters stand on each other."""
         for wide in WIDTHS:
             frame = Rect(0.0, 0.0, wide, ASPECT * wide)
-            views: dict[str, View] = {panel: self._window(panel, frame) for panel in self.plans.panels}
-            plates = Plates(self.plans, views)
-            found: dict[str, DrawnPlan] = {
-                plate.panel: DrawnPlan(plate.view, tuple(stacked(picture(plate)))) for plate in plates}
-            if not any(plan.crowded for plan in found.values()):
+            plates = Plates(self.plans, {panel: self._window(panel, frame) for panel in self.plans.panels})
+            found: dict[str, list[Item]] = {plate.panel: stacked(picture(plate)) for plate in plates}
+            if not any(map(crowded, found.values())):
                 break
-        return found
+        return frame, found
 
     def _window(self, panel: str, frame: Rect) -> View:
-        _, box = plan_scale(self.plans.extent(panel), inside(frame))
-        return view(box, frame, least(box, inside(frame)) or 1.0)
+        extent, room = self.plans.extent(panel), inside(frame)
+        box = plan_box(extent, room, plan_scale(extent, room))
+        return view(box, frame, least(box, room) or 1.0)
 
     def sheets(self, paper: str) -> list[Sheet]:
         """The strip on sheets of this paper."""
@@ -116,11 +113,10 @@ class Strip:
         return Sheet(wide, high, frame, {}, items, scene.title, say(told), tuple(map(say, drawing.sentences())),
                      Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text)  # fmt: skip
 
-    @cached_property
+    @property
     def size(self) -> tuple[float, float]:
         """Width and height of all pictures."""
-        rect = next(iter(self.pictured.values())).window.rect
-        return rect.width, rect.height
+        return self.pictured[0].width, self.pictured[0].height
 
     def _pages(self, frame: Rect, block: Rect) -> Iterator[list[tuple[int, Spot]]]:
         """For each page its pictures by number, and where each has its upper left corner; clear of the title block."""
@@ -152,7 +148,7 @@ class Strip:
         head = arranged("{0}. {1:capital}", place + 1, self._home(group[-1]).words)
         yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.plans.tongue(head)), SIZE, bold=True)
         yield Polygon(pens.BORDER, "paper", None, Rect(x, y - high, x + wide, y).corners)
-        for item in self.pictured[self._home(group[-1])].items:
+        for item in self.pictured[1][self._home(group[-1])]:
             if item.step is None or item.step <= last:
                 yield moved(inked(item, first), x, y - high)
         level = y - high - 1.2
@@ -160,7 +156,7 @@ class Strip:
             level -= row.height
             yield from lettered([(row, x, level + row.size * (LEADING - 1))])
 
-    def _lines(self, group: Group) -> list[TextRow]:
+    def _lines(self, group: list[Step]) -> list[TextRow]:
         """The steps of a picture in words."""
         drawn, rows = self.plans.drawing.drawn, list[TextRow]()
         names = tuple(step.name for step in drawn.steps if step.name)
@@ -176,15 +172,7 @@ class Strip:
         return TextRow((*head, Cell(INDENT, runs)), step=step.index)
 
 
-@dataclass(frozen=True)
-class DrawnPlan:
-    """A plan as the pictures show it."""
-
-    window: View
-    items: tuple[Item, ...]
-
-    @property
-    def crowded(self) -> bool:
-        """Whether letters stand on each other."""
-        boxes = [item.box for item in self.items if isinstance(item, Text)]
-        return any(one.meets(other) for i, one in enumerate(boxes) for other in boxes[:i])
+def crowded(items: Iterable[Item]) -> bool:
+    """Whether letters stand on each other."""
+    boxes = [item.box for item in items if isinstance(item, Text)]
+    return any(one.meets(other) for one, other in combinations(boxes, 2))

@@ -17,7 +17,7 @@ from graphplan.sheet.lettering.lettering import Run, plain
 from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import with_numbers
-from graphplan.sheet.strip import Strip
+from graphplan.sheet.strip import Strip, crowded
 
 NUMBERED = ("point", "line", "arc", "step")
 
@@ -106,4 +106,4 @@ def test_pictures_of_a_strip_bear_numbers_apart(name: str) -> None:
     """The plans of a film strip are no larger for their numbers, and none is crowded."""
     plain_strip, strip = (Strip(Plans(drawing_of(name), numbered=option), False) for option in (False, True))
     assert strip.size == plain_strip.size
-    assert not [panel for panel, plan in strip.pictured.items() if plan.crowded]
+    assert not [panel for panel, items in strip.pictured[1].items() if crowded(items)]

@@ -5,7 +5,7 @@ What is wrong first stands in a box, where it covers least of its plan, with a l
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -23,7 +23,7 @@ from graphplan.sheet.layout.pages import packed
 from graphplan.sheet.lettering.label_candidates import SMALL, Array, Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, Runs, sentence_runs, width, wrap
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
 from graphplan.sheet.words.rows import LEADING, Placed, lettered
 from graphplan.sheet.words.texts import RESULTS
@@ -31,7 +31,6 @@ from graphplan.sheet.words.texts import RESULTS
 FAINT, LETTERED, TINTED = "#a6a6a6", "#7a7a7a", "#efefef"
 THIN = 0.18  # mm: the widest stroke of the true drawing
 BESIDE = ("paper", BORDER, "text")  # the layers of what is not on a plan
-EDGE = 0.01  # mm by which what is on an edge may be beyond it
 LIFT = 1.2  # mm from the base line of the legend's words up to its samples
 CALLED = Pen(0.35, RED)
 
@@ -42,8 +41,8 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     arrangement, tongue = composition.arrangement, composition.plans.tongue
     solution = layout(judgement.drawing, composition=composition)
     apart = (*arrangement.columns, arrangement.title)
-    around = [item for item in solution.items if item.layer in BESIDE and not _within(item, apart)]
-    empty = [item for item in around if not _within(item, arrangement.panels.values())]
+    around = [item for item in solution.items if item.layer in BESIDE and not within(item, apart)]
+    empty = [item for item in around if not within(item, arrangement.panels.values())]
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
     over += StudentStrokes(judgement).items()
     over += [item for panel in composition.views for item in _told(judgement, panel, over)]
@@ -64,13 +63,6 @@ def faint(item: Item) -> Item:
         return replace(item, pen=Pen(0.0, LETTERED, fill=LETTERED))
     fill = pen.fill if pen.fill in ("none", PAPER) else FAINT if pen.width else TINTED
     return replace(item, pen=Pen(min(pen.width, THIN), FAINT, pen.dash, fill))
-
-
-def _within(item: Item, rects: Iterable[Rect]) -> bool:
-    """Whether an item beside the plans, a stroke or lettering, lies in one of the rectangles."""
-    assert isinstance(item, Text | Polyline | Polygon)
-    spots = (item.at,) if isinstance(item, Text) else item.spots
-    return any(all(rect.holds(spot, EDGE) for spot in spots) for rect in rects)
 
 
 def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[Item]:

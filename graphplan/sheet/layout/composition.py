@@ -137,7 +137,7 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    k_s = given.k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))[0]
+    k_s = given.k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))
     most = {p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]}
     multiples: dict[str, Fraction] = {p: min(most[q] for q in most if q.twin == p.twin) for p in most}  # comparable
     drawing, names = plans.drawing, plans.drawing.scene.units

@@ -7,6 +7,7 @@ step that an item belongs to, so that a stepper can show or light up one movemen
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.layout.scales import Scales
@@ -14,6 +15,7 @@ from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, Run, width
 from graphplan.sheet.plates.pens import Pen
 
 Spot = tuple[float, float]
+EDGE = 0.01  # mm by which what is on an edge may be beyond it
 
 
 @dataclass(frozen=True)
@@ -163,6 +165,20 @@ def moved(item: Item, dx: float, dy: float) -> Item:
         case Text():
             return replace(item, at=there(item.at))
     raise TypeError(f"no {type(item).__name__} can be moved")
+
+
+def within(item: Item, rects: Iterable[Rect]) -> bool:
+    """Whether an item lies in one of the rectangles: its corners or ends, its middle, or where its lettering begins."""
+    match item:
+        case Polyline() | Polygon():
+            spots = item.spots
+        case Circle() | Arc():
+            spots = (item.centre,)
+        case Arrow():
+            spots = item.start, item.end
+        case Text():
+            spots = (item.at,)
+    return any(all(rect.holds(spot, EDGE) for spot in spots) for rect in rects)
 
 
 @dataclass(frozen=True)

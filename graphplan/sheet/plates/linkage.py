@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Run, sentence_runs
-from graphplan.sheet.plates import symbols
+from graphplan.sheet.plates import clip, symbols
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, Vector, off, turn, unit
 from graphplan.sheet.plates.view import View
@@ -47,13 +47,9 @@ class Linkage:
 
     def _pairs(self) -> Iterator[Item]:
         """A circle for each joint and each driven point; a dot for a point that only traces."""
-        seen: list[Spot] = []
-        pairs = [*self.scene.joints, *self.scene.motions]
-        for name in [*pairs, *self.scene.points]:
-            spot = self.spots[name]
-            if all(math.dist(spot, other) > NEAR for other in seen):
-                seen.append(spot)
-                yield symbols.revolute(spot) if name in pairs else symbols.tracer(spot)
+        pairs = [self.spots[name] for name in (*self.scene.joints, *self.scene.motions)]
+        for spot in _places([*pairs, *self.spots.values()]):
+            yield symbols.revolute(spot) if spot in pairs else symbols.tracer(spot)
 
     # ---- ground ----------------------------------------------------------------------------------------------------
 
@@ -121,11 +117,7 @@ class Linkage:
 
     def _distinct(self, link: str) -> list[Spot]:
         """The places of a link's points, coincident ones once."""
-        found: list[Spot] = []
-        for name in self.scene.links[link]:
-            if all(math.dist(self.spots[name], other) > NEAR for other in found):
-                found.append(self.spots[name])
-        return found
+        return _places(self.spots[name] for name in self.scene.links[link])
 
     def _link(self, link: str) -> Iterator[Item]:
         spots = self._distinct(link)
@@ -186,12 +178,12 @@ class Linkage:
                 yield Wish(runs, (spots[0],), LONG, label=f"link {link}", balloon=True)
             elif symbols.straight(spots):
                 ends = max(((p, q) for p in spots for q in spots), key=lambda pair: math.dist(*pair))
-                middles = tuple(_between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
+                middles = tuple(clip.between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
                 yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
             else:
                 n = len(spots)
                 centre = sum(x for x, _ in spots) / n, sum(y for _, y in spots) / n
-                inside = [_between(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
+                inside = [clip.between(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
                 yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
 
     def letters(self) -> dict[Spot, tuple[tuple[Run, ...], str]]:
@@ -204,5 +196,10 @@ class Linkage:
         return {spot: (runs[spot], ",".join(names)) for spot, names in found.items()}
 
 
-def _between(p: Spot, q: Spot, t: float) -> Spot:
-    return p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])
+def _places(spots: Iterable[Spot]) -> list[Spot]:
+    """The spots in order, coincident ones once."""
+    found: list[Spot] = []
+    for spot in spots:
+        if all(math.dist(spot, other) > NEAR for other in found):
+            found.append(spot)
+    return found

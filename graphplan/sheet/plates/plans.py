@@ -77,20 +77,15 @@ class Plans:
     @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
         """For each line and each arc, the marks that lie on it by construction."""
-        found: dict[int, list[int]] = {}
-        for step in self.drawing.drawn.steps:
-            if step.op.gives in (LINE, CIRCLE):
-                found.setdefault(step.index, [])
-            for claim in step.op.claims:
-                if claim[0] == "on":
-                    self._note(found, step.index, step.args[claim[1]])
-        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in found.items()}
-
-    def _note(self, found: dict[int, list[int]], one: int, other: int) -> None:
         steps = self.drawing.drawn.steps
-        curve, mark = (one, other) if steps[other].op.gives == POINT else (other, one)
-        if steps[mark].op.gives == POINT and steps[curve].op.gives in (LINE, CIRCLE):
-            found.setdefault(curve, []).append(mark)
+        found: dict[int, list[int]] = {step.index: [] for step in steps if step.op.gives in (LINE, CIRCLE)}
+        for step in steps:
+            for place in step.op.claimed("on"):
+                pair = step.index, step.args[place]
+                curve, mark = pair if steps[pair[1]].op.gives == POINT else pair[::-1]
+                if curve in found and steps[mark].op.gives == POINT:
+                    found[curve].append(mark)
+        return {curve: tuple(dict.fromkeys(marks)) for curve, marks in found.items()}
 
     def points(self, panel: str) -> list[int]:
         """The points that lie on a plan, by step."""

@@ -42,18 +42,14 @@ def _box(extent: Extent, room: Rect, most: float, nice: bool = False) -> Rect:
 
 def whole(extent: Extent, room: Rect) -> float:
     """The mm per unit at which all the marks of a plan just fit."""
-    box = extent.core
-    for spot in extent.extra:
-        box = grown(box, spot)
-    return 1 / (least(box, room) or 1e-9)
+    return 1 / (least(_box(extent, room, math.inf), room) or 1e-9)
 
 
-def plan_scale(extent: Extent, room: Rect) -> tuple[float, Rect]:
-    """The round k_s of the mechanism plan in this room, and the box that is then on paper."""
+def plan_scale(extent: Extent, room: Rect) -> float:
+    """The round k_s of the mechanism plan in this room."""
     core = round_up(least(extent.core, room))
     box = _box(extent, room, core * COARSER if extent.core.width or extent.core.height else math.inf)
-    k_s = round_up(least(box, room))
-    return k_s, plan_box(extent, room, k_s)
+    return round_up(least(box, room))
 
 
 def plan_multiple(extent: Extent, room: Rect, k_s: float) -> Fraction:

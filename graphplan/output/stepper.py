@@ -21,7 +21,7 @@ from svgwrite.container import SVG
 
 from graphplan.output.svg import MAKE, Element, group, groups
 from graphplan.phrases import arranged, said
-from graphplan.sheet.cycle_frames import CycleFrames, Still
+from graphplan.sheet.cycle_frames import CycleFrame, CycleFrames
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
@@ -52,12 +52,12 @@ def stepper(found: CycleFrames) -> str:
 
 def _parts(found: CycleFrames) -> dict[str, str]:
     """What the page is filled with besides words."""
-    sheet = found.stills[0].sheet
-    poses = [_groups(still) for still in found.stills]
+    sheet = found.frames[0].sheet
+    poses = [_groups(frame) for frame in found.frames]
     return {
         "language": sheet.language, "title": escape(sheet.title), "source": escape(found.drawing.scene.source),
         "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, poses),
-        "list": "\n".join(_entries(found)), "turned": "" if len(found.stills) > 1 else "hidden",
+        "list": "\n".join(_entries(found)), "turned": "" if len(found.frames) > 1 else "hidden",
         "remark": escape(_remark(found)), "data": _script(json.dumps(_data(found), ensure_ascii=False)),
         "poses": _packed(found, poses), "scene": _script(sheet.scene),
     }  # fmt: skip
@@ -97,7 +97,7 @@ def _entries(found: CycleFrames) -> Iterator[str]:
 
 def _data(found: CycleFrames) -> dict[str, Any]:
     """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
-    drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.stills[0].sheet
+    drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.frames[0].sheet
     panels = list(sheet.panels)
     steps = [{
         "name": _set(found, drawn.text(step.index)), "told": _set(found, drawn.told(step.index)),
@@ -107,14 +107,14 @@ def _data(found: CycleFrames) -> dict[str, Any]:
     return {
         "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},
         "panels": [_box(sheet, rect) for rect in sheet.panels.values()],
-        "travels": [f"{digits(still.travel)}°" for still in found.stills],
-        "spots": _spots(found.stills[0]),
+        "travels": [f"{digits(frame.travel)}°" for frame in found.frames],
+        "spots": _spots(found.frames[0]),
     }  # fmt: skip
 
 
-def _spots(still: Still) -> dict[int, tuple[float, float]]:
+def _spots(frame: CycleFrame) -> dict[int, tuple[float, float]]:
     """Where marks lie on the picture."""
-    return {index: (round(x, 2), round(still.sheet.height - y, 2)) for index, (x, y) in still.spots.items()}
+    return {index: (round(x, 2), round(frame.sheet.height - y, 2)) for index, (x, y) in frame.spots.items()}
 
 
 def _box(sheet: Sheet, rect: Rect) -> list[float]:
@@ -125,9 +125,9 @@ def _box(sheet: Sheet, rect: Rect) -> list[float]:
 # ---- the picture -------------------------------------------------------------------------------------------------
 
 
-def _groups(still: Still) -> Groups:
+def _groups(frame: CycleFrame) -> Groups:
     """The groups of a sheet; the words of the steps stand in groups apart, as a page lights them up otherwise."""
-    return dict(groups(replace(still.sheet, items=tuple(map(_parted, still.sheet.items)))))
+    return dict(groups(replace(frame.sheet, items=tuple(map(_parted, frame.sheet.items)))))
 
 
 def _parted(item: Item) -> Item:
@@ -139,7 +139,7 @@ def _parted(item: Item) -> Item:
 
 def _picture(found: CycleFrames, poses: list[Groups]) -> str:
     """The sheet of the given pose, with a group for whatever is drawn in any pose."""
-    sheet, plans = found.stills[0].sheet, found.composition.plans
+    sheet, plans = found.frames[0].sheet, found.composition.plans
     panels, size = list(sheet.panels), f"0 0 {sheet.width:g} {sheet.height:g}"
     picture = SVG(id="picture", viewBox=size, role="img", aria_label=sheet.title, debug=False)
     picture.set_desc(desc=sheet.description)
@@ -191,7 +191,7 @@ def _packed(found: CycleFrames, poses: list[Groups]) -> str:
     keys = dict.fromkeys(key for pose in poses for key in pose)
     varied = {key: [inside.get(key, "") for inside in insides] for key in keys}
     data = {"groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
-            "spots": list(map(_spots, found.stills))}
+            "spots": list(map(_spots, found.frames))}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
 

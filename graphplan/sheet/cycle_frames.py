@@ -95,7 +95,7 @@ def _scene(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, com
 
 
 @dataclass(frozen=True)
-class Still:
+class CycleFrame:
     """One pose of the round on paper: how far the drive has gone, in degrees, the sheet, and where its marks lie."""
 
     travel: float
@@ -113,14 +113,14 @@ class CycleFrames:
 
     drawing: Construction
     composition: Composition
-    stills: tuple[Still, ...]
+    frames: tuple[CycleFrame, ...]
     lost: tuple[tuple[float, float], ...] = ()
     why: str = ""
 
 
 def standing(drawing: Construction, composition: Composition, why: str = "") -> CycleFrames:
     """The given pose alone."""
-    return CycleFrames(drawing, composition, (_still(0.0, composition),), why=why)
+    return CycleFrames(drawing, composition, (_frame(0.0, composition),), why=why)
 
 
 def turning(drawing: Construction, composition: Composition, travel: Sequence[float],
@@ -141,9 +141,9 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
         else:
             lost.append([k])
     base = _roomy(composition, [Plans(found) for found in poses.values()])
-    stills = (_still(travel, _composed(base, found)) for travel, found in poses.items())
+    frames = (_frame(travel, _composed(base, found)) for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
-    return CycleFrames(drawing, base, (_still(0.0, base), *stills), ends)
+    return CycleFrames(drawing, base, (_frame(0.0, base), *frames), ends)
 
 
 def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
@@ -173,10 +173,10 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
     return whole
 
 
-def _still(travel: float, composition: Composition) -> Still:
+def _frame(travel: float, composition: Composition) -> CycleFrame:
     """A composed construction on its sheet."""
     spots = {drawn.index: drawn.at for drawn in composition.plates.steps if drawn.kind == POINT}
-    return Still(travel, layout(composition.plans.drawing, composition=composition), spots)
+    return CycleFrame(travel, layout(composition.plans.drawing, composition=composition), spots)
 
 
 def _composed(base: Composition, drawing: Posed) -> Composition:

@@ -15,7 +15,7 @@ from graphplan.output.exports.walk import corners, identifiers
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline
-from graphplan.sheet.plates.linkage import Linkage
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import LINK
 from graphplan.sheet.plates.symbols import turn
 
@@ -84,7 +84,7 @@ def test_plates_have_their_inner_points_tied_to_a_corner(name: str) -> None:
     """A link is a bar between its ends or a plate with a convex outline; what lies within a plate has a rib to it."""
     _, plates, composition = drafted_plates(name)
     joints = {point.at: point.name for point in plates.pose.values()}
-    items = list(Linkage(plates.scene, composition.views[MECHANISM]).items())
+    items = list(DrawnMechanism(plates.scene, composition.views[MECHANISM]).items())
     hulls = [item.spots for item in items if isinstance(item, Polygon) and item.layer == "plates"]
     ribs = [item.spots for item in items if isinstance(item, Polyline) and item.pen == LINK and len(item.spots) == 2]
     for hull in hulls:

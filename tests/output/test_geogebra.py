@@ -11,7 +11,7 @@ from geogebra_reader import COMMANDS, Ray, Round, opened, read
 from objects import NAMES, PLACES, drafted_plates, farthest, gap, loose, moved, programs
 
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.geogebra import _Writer, geogebra, labels
+from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra, labels
 from graphplan.sheet.plates.pens import BLUE
 
 SCENES = [("rosenauer-basic", False), ("jaanimets-10", False), ("walschaerts-loaded", False), ("four-bar", True)]
@@ -74,7 +74,7 @@ def test_what_is_seen() -> None:
     assert {"β", "γ"} <= letters
     assert {element.get("type") for element in elements} >= {"segment", "polygon", "vector", "conicpart", "text"}
     blue = [e for e in elements if e.get("type") == "vector" and e.find("objColor").get("b") == str(0x8C)]
-    heads = [one for ones in _Writer(plates).due.values() for one in ones if getattr(one, "head", 0.0)]
+    heads = [one for ones in _GeoGebraWriter(plates).due.values() for one in ones if getattr(one, "head", 0.0)]
     assert len(blue) == sum(stroke.pen.colour == BLUE for stroke in heads) > 0
 
 

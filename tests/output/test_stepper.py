@@ -113,10 +113,10 @@ def test_other_poses_have_the_groups_of_the_given_one() -> None:
     poses = unpacked(page)
     shown = {look["data-key"] for _, look in Reader(page).elements if "data-key" in look}
     assert set(poses["groups"]) <= shown
-    assert {len(insides) for insides in poses["groups"].values()} == {len(found.stills)}
+    assert {len(insides) for insides in poses["groups"].values()} == {len(found.frames)}
     assert {"links", "pairs", "results"} <= set(poses["groups"])
     assert "paper" not in poses["groups"]
-    assert len(poses["spots"]) == len(found.stills)
+    assert len(poses["spots"]) == len(found.frames)
 
 
 def test_the_scene_is_in_the_page_once() -> None:
@@ -241,7 +241,7 @@ def test_the_turn_changes_the_drawing_and_keeps_the_step(page: Any) -> None:
 def test_zoom_follows_the_plan_of_the_step(page: Any) -> None:
     """Zoomed, the window is the panel of the current step's plan, and the whole sheet again when let go."""
     found = round_of("slider-crank")
-    sheet, plans = found.stills[0].sheet, found.composition.plans
+    sheet, plans = found.frames[0].sheet, found.composition.plans
     whole = page.get_attribute("#picture", "viewBox")
     page.click("#zoom")
     for place in (1, len(found.drawing.drawn) - found.drawing.drawn.givens):

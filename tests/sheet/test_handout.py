@@ -168,9 +168,9 @@ def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
     drawing = drawing_of("slider-crank")
     turn = follow(drawing.scene, 12)
     found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
-    assert [still.travel for still in found.stills] == [30.0 * k for k in range(12)]
+    assert [still.travel for still in found.frames] == [30.0 * k for k in range(12)]
     assert found.lost == ()
-    for still in found.stills:
+    for still in found.frames:
         assert (still.sheet.panels, still.sheet.scales) == (solved.panels, solved.scales)
         joints = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
         assert len(joints) == 4
@@ -182,7 +182,7 @@ def test_poses_that_cannot_be_drawn_are_told_in_stretches() -> None:
     drawing, (composition, *_) = drawing_of("stephenson"), handout_of("stephenson")
     turn = follow(drawing.scene, 12)
     found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
-    lost = {30.0 * k for k in range(1, 12)} - {still.travel for still in found.stills}
+    lost = {30.0 * k for k in range(1, 12)} - {still.travel for still in found.frames}
     assert lost
     assert {angle for low, high in found.lost for angle in lost if low <= angle <= high} == lost
     assert len(found.lost) < len(lost)

@@ -57,7 +57,7 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
     read = [_local(domain, arg, texts, similar) for arg, texts in zip(drawn.args, coordinates, strict=True)]
     value = drawn.step.op.rule(domain, *read, **drawn.step.params)
     told = [domain.tape.place(part) for part in _told(domain, drawn, value, similar)]
-    return _Writer(domain.tape, told, language, term, deepest).formula()
+    return _TapeText(domain.tape, told, language, term, deepest).formula()
 
 
 def _similar(drawn: DrawnStep) -> bool:
@@ -122,7 +122,7 @@ def _foot(plan: View, line: Any, similar: bool) -> tuple[Any, Any]:
     return x - a * off, y - b * off
 
 
-class _Writer:
+class _TapeText:
     """Writes what stands on a tape."""
 
     def __init__(self, tape: Tape, told: Sequence[int], language: Language, term: str, deepest: float):

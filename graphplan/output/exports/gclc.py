@@ -122,7 +122,7 @@ SIDES = "r", "rt", "t", "lt", "l", "lb", "b", "rb"  # where a letter stands off 
 
 def gclc(plates: Plates) -> str:
     """The construction as a GCLC source (.gcl): points, steps with their sentences, strokes and letters."""
-    return _Writer(plates).text()
+    return _GclcWriter(plates).text()
 
 
 def decimal(number: float) -> str:
@@ -144,7 +144,7 @@ SIGN = "ite(abs({0})<={2}*({1}),0,ite({0}>0,1,-1))"
 EXPRESSIONS = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", SIGN))
 
 
-class _Writer(Source):
+class _GclcWriter(Source):
     """Writes the commands of each step, with what they need written where it is first needed."""
 
     commands, whole = COMMANDS, {Movement.LAID_OFF: "translate {out} {0} {1} {2}"}

@@ -16,7 +16,7 @@ from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.output.exports.geogebra_commands import number, written
-from graphplan.output.exports.walk import BACK, FRONT, Page
+from graphplan.output.exports.walk import BACK, FRONT, Elements
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot
@@ -38,7 +38,7 @@ STAMP = (1980, 1, 1, 0, 0, 0)  # of the file in the archive: a construction has 
 
 def geogebra(plates: Plates) -> bytes:
     """The construction as a .ggb file, the same bytes in every run."""
-    root = _Writer(plates).document()
+    root = _GeoGebraWriter(plates).document()
     indent(root, " ")
     packed = io.BytesIO()
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
@@ -66,7 +66,7 @@ def labels(plates: Plates) -> dict[DrawnStep, str]:
     return found
 
 
-class _Writer(Page):
+class _GeoGebraWriter(Elements):
     """Writes one construction, mark by mark."""
 
     part, along = "Translate[{0}, {part} * Vector[{0}, {1}]]", "Translate[{0}, {part} * UnitVector[{2}]]"

@@ -14,7 +14,7 @@ from importlib.resources import files
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.output.exports.formula import Language, formula, operations
-from graphplan.output.exports.walk import BACK, FRONT, Page, at_home, identifiers, parameters
+from graphplan.output.exports.walk import BACK, FRONT, Elements, at_home, identifiers, parameters
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens
@@ -69,7 +69,7 @@ def jsxgraph(plates: Plates, script: str | None = None) -> str:
     parts = {name: escape(say(word)) if name in TITLES else _json(say(word)) for name, word in WORDS.items()}
     parts |= {"language": say.code, "title": escape(plates.scene.title), "source": escape(plates.scene.source),
               "library": library, "box": _json(corners), "sentences": _json(sentences), "steps": str(len(sentences)),
-              "elements": "\n".join(f"  {line};" for line in _Writer(plates).elements())}  # fmt: skip
+              "elements": "\n".join(f"  {line};" for line in _JsxGraphWriter(plates).elements())}  # fmt: skip
     page = files("graphplan.output").joinpath("jsxgraph.html").read_text("utf-8")
     return re.sub(r"\{\{(\w+)\}\}", lambda word: parts[word[1]], page)
 
@@ -89,7 +89,7 @@ def _letters(name: str) -> str:
     return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in name_runs(name))
 
 
-class _Writer(Page):
+class _JsxGraphWriter(Elements):
     """Writes one construction as statements, element by element."""
 
     part, along = "() => part({0}, {1}, {part})", "() => by({0}, {2}, {part}, 0)"

@@ -82,7 +82,7 @@ COMMANDS = {
 
 def tikz(plates: Plates) -> str:
     """The construction as a standalone LaTeX file that draws with TikZ and its library calc."""
-    return Writer(plates).text()
+    return TikzWriter(plates).text()
 
 
 def plain(number: float) -> str:
@@ -102,7 +102,7 @@ def _operand(number: float) -> str:
 ARITHMETIC = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", "(abs({0})<={2}*({1})?0:sign({0}))"))
 
 
-class Writer(Source):
+class TikzWriter(Source):
     """Writes first every step, then what is drawn of it, plan by plan."""
 
     live, commands, preamble = False, COMMANDS, PREAMBLE + MEETING

@@ -36,10 +36,10 @@ CLEAR = 0.05, 0.95  # how far from a circle's centre a line passes, in radii, wh
 
 def tkz_euclide(plates: Plates) -> str:
     """The construction as a standalone LaTeX file that draws with tkz-euclide."""
-    return _Writer(plates).text()
+    return _TkzWriter(plates).text()
 
 
-class _Writer(tikz.Writer):
+class _TkzWriter(tikz.TikzWriter):
     """Writes with the macros of tkz-euclide, where it has them."""
 
     commands, whole, preamble = {**tikz.COMMANDS, **COMMANDS}, WHOLE, PREAMBLE + tikz.MEETING

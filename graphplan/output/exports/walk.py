@@ -229,7 +229,7 @@ class Source(Walk):
         raise NotImplementedError
 
 
-class Page(Walk):
+class Elements(Walk):
     """Writes elements that depend on each other; a stroke hangs on its marks as soon as the last of them is there."""
 
     part, along = "", ""  # {part} of the way from {0} to {1}; so many mm from {0} along the line {2}

@@ -13,8 +13,8 @@ from functools import cached_property
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import DrawnVector
-from graphplan.sheet.plates import display, pens
-from graphplan.sheet.plates.display import Arc, Item, Polyline, Spot
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Arrow, Item, Polyline, Spot
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.view import View
 
@@ -135,7 +135,7 @@ class Stroke:
         if not self.head:
             return Polyline(self.pen, self.layer, self.of.index, self.ends)
         label = f"{self.vector.kind} {self.vector.point}" if self.vector else ""
-        return display.Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
+        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
 
 
 @dataclass(frozen=True)

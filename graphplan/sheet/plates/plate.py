@@ -17,8 +17,8 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
-from graphplan.sheet.plates.linkage import Linkage
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plans import Plans, around, corner
 from graphplan.sheet.plates.symbols import turn
@@ -132,8 +132,8 @@ class Plate:
     @cached_property
     def mechanism(self) -> list[Item]:
         """The links, pairs and ground, on the plan of the mechanism."""
-        linkage = Linkage(self.plates.scene, self.view)
-        shown = linkage.items() if self.panel == MECHANISM else ()
+        mechanism = DrawnMechanism(self.plates.scene, self.view)
+        shown = mechanism.items() if self.panel == MECHANISM else ()
         return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
 
     def items(self) -> Iterator[Item]:

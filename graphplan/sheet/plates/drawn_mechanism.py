@@ -20,7 +20,7 @@ NEAR = 0.05  # mm: spots closer than this are one
 
 
 @dataclass(frozen=True)
-class Linkage:
+class DrawnMechanism:
     """A mechanism seen through a window."""
 
     scene: Scene

@@ -8,7 +8,6 @@ drawing step is one group, which bears the step's sentence. The same sheet is th
 from __future__ import annotations
 
 import io
-import math
 from collections import Counter, defaultdict
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -132,11 +131,8 @@ class _Model:
 
     def _arrow(self, arrow: Arrow, look: dict[str, Any]) -> Iterator[Any]:
         """The shaft ends in the head, so that the tip is sharp; the extended data keep the true ends."""
-        tip, left, right = arrow.barbs
-        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
-        strokes: list[Any] = [self.space.add_solid((tip, left, right), dxfattribs=look)]
-        if math.dist(arrow.start, neck) > 0.01:
-            strokes.append(self.space.add_line(arrow.start, neck, dxfattribs=look))
+        strokes = [self.space.add_solid(arrow.barbs, dxfattribs=look)]
+        strokes += [self.space.add_line(*shaft, dxfattribs=look) for shaft in arrow.shaft]
         for stroke in strokes:
             stroke.set_xdata(NAME, [(1000, arrow.label), (1011, (*arrow.start, 0.0)), (1011, (*arrow.end, 0.0))])
             yield stroke
@@ -145,8 +141,7 @@ class _Model:
         """A single run is anchored by whoever letters it; several stand side by side, as they are measured."""
         style, anchor, (x, y) = "bold" if text.bold else "book", ANCHORS[text.anchor], text.at
         if len(text.runs) > 1:
-            shift = {"start": 0.0, "middle": 0.5, "end": 1.0}[text.anchor]
-            x, anchor = x - shift * width(text.runs, text.size, text.bold), TextEntityAlignment.LEFT
+            x, anchor = text.box.left, TextEntityAlignment.LEFT
         for run in text.runs:
             high = CAPS * text.size * (SUBSCRIPT if run.level else 1.0)
             letters = self.space.add_text(run.text, height=high, dxfattribs=look | {"style": style})

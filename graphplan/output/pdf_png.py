@@ -8,7 +8,6 @@ what of the font they need. Nothing depends on time or memory: the same sheets a
 from __future__ import annotations
 
 import io
-import math
 import re
 from collections.abc import Iterator, Sequence
 from functools import lru_cache
@@ -114,11 +113,9 @@ class _Painter:
 
     def _arrow(self, arrow: Arrow) -> None:
         """The shaft ends in the head, so that the tip is sharp."""
-        tip, left, right = arrow.barbs
-        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
-        if math.dist(arrow.start, neck) > 0.01:
-            self._stroke(arrow.pen, Path([arrow.start, neck]))
-        self._stroke(Pen(0.0), Path([tip, left, right, tip], closed=True), arrow.pen.colour)
+        for shaft in arrow.shaft:
+            self._stroke(arrow.pen, Path(shaft))
+        self._stroke(Pen(0.0), Path([*arrow.barbs, arrow.end], closed=True), arrow.pen.colour)
 
     def _stroke(self, pen: Pen, path: Path, fill: str = "none") -> None:
         """A path in mm, drawn with a pen and filled."""

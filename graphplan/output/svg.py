@@ -6,7 +6,6 @@ same text.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
@@ -103,13 +102,11 @@ class _SheetWriter:
 
     def _arrow(self, arrow: Arrow) -> Element:
         """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""
-        tip, left, right = arrow.barbs
-        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
         (x, y), (u, v) = self._spots((arrow.start, arrow.end))
         made = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
-        if math.dist(arrow.start, neck) > 0.01:
-            made.add(self._line((arrow.start, neck), arrow.pen))
-        made.add(MAKE.polygon(self._spots((tip, left, right)), fill=arrow.pen.colour))
+        for shaft in arrow.shaft:
+            made.add(self._line(shaft, arrow.pen))
+        made.add(MAKE.polygon(self._spots(arrow.barbs), fill=arrow.pen.colour))
         return made
 
     def _text(self, text: Text) -> Element:

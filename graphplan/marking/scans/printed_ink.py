@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.pens import Pen, rgb
 
 Light = NDArray[np.float32]
 SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
@@ -122,5 +122,5 @@ def _pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[np.
 
 def _light(colour: str) -> tuple[int]:
     """How light a colour is to a scanner, 0..255."""
-    red, green, blue = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
+    red, green, blue = rgb(colour)
     return (round(0.299 * red + 0.587 * green + 0.114 * blue),)

@@ -299,8 +299,7 @@ class _GclcWriter(Source):
 
     def _pen(self, pen: Pen) -> None:
         """Width and colour, where they change."""
-        red, green, blue = (int(pen.colour[i : i + 2], 16) for i in (1, 3, 5))
-        taken = [f"linethickness {decimal(pen.width)}", f"color {red} {green} {blue}"]
+        taken = [f"linethickness {decimal(pen.width)}", f"color {' '.join(map(str, pens.rgb(pen.colour)))}"]
         if taken != self.held:
             self.lines += taken
             self.held = taken

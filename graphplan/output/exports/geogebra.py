@@ -177,7 +177,7 @@ class _GeoGebraWriter(Elements):
     def _element(self, type: str, label: str, shown: bool, lettered: bool, pen: Pen, layer: int) -> Element:
         element = SubElement(self.construction, "element", {"type": type, "label": label})
         _empty(element, "show", object=shown, label=lettered)
-        r, g, b = (int(pen.colour[i : i + 2], 16) for i in (1, 3, 5))
+        r, g, b = pens.rgb(pen.colour)
         _empty(element, "objColor", r=r, g=g, b=b, alpha=0.1 if type == "polygon" else 0.0)
         _empty(element, "layer", val=layer)
         _empty(element, "labelMode", val=NAME)

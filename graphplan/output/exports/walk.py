@@ -14,7 +14,6 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import LINE, Movement
 from graphplan.phrases import said
-from graphplan.sheet.lettering.lettering import ANCHORS, width
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
@@ -84,8 +83,7 @@ class Letter:
 
     def __init__(self, mark: DrawnStep, text: Text, *before: Item):
         self.mark, self.text = mark, text
-        across = width(text.runs, text.size, text.bold) * (0.5 - ANCHORS[text.anchor])
-        self.off = self._from_mark((text.at[0] + across, text.at[1]))
+        self.off = self._from_mark((text.box.centre[0], text.at[1]))
         self.leader = [self._from_mark(spot) for item in before if isinstance(item, Polyline) for spot in item.spots]
         self.ringed = next((self._from_mark(item.centre) for item in before if isinstance(item, Circle)), None)
 

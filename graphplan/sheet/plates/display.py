@@ -130,6 +130,14 @@ class Arrow(Item):
         return self.end, (x - uy / 6, y + ux / 6), (x + uy / 6, y - ux / 6)
 
 
+    @property
+    def shaft(self) -> tuple[tuple[Spot, Spot], ...]:
+        """The stroke that ends in the head, so that the tip is sharp; none where the vector is all head."""
+        _, left, right = self.barbs
+        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
+        return ((self.start, neck),) if math.dist(self.start, neck) > 0.01 else ()
+
+
 @dataclass(frozen=True)
 class Text(Item):
     """Lettering on its base line; `anchor` is start, middle or end; `label` names the marks it stands for, if any."""

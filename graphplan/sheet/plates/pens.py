@@ -79,8 +79,12 @@ def pale(pen: Pen) -> Pen:
     return replace(pen, colour=_lighter(pen.colour), fill=_lighter(pen.fill))
 
 
+def rgb(colour: str) -> tuple[int, int, int]:
+    """Red, green and blue of a colour, 0..255."""
+    return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)
+
+
 def _lighter(colour: str) -> str:
     if not colour.startswith("#"):
         return colour
-    parts = (int(colour[i : i + 2], 16) for i in (1, 3, 5))
-    return "#" + "".join(f"{255 - (255 - part) // 2:02x}" for part in parts)
+    return "#" + "".join(f"{255 - (255 - part) // 2:02x}" for part in rgb(colour))

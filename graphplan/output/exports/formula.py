@@ -16,10 +16,10 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import LEAVES, Symbols, Tape, operands
 from graphplan.sheet.plates.drawn_step import DrawnStep
@@ -54,9 +54,10 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
     `term` with a number; without a `term` it stands where it is used.
     """
     domain, similar = Symbols(), _similar(drawn)
-    read = [_local(domain, arg, texts, similar) for arg, texts in zip(drawn.args, coordinates, strict=True)]
+    read = [_local(domain, arg.kind, _window(arg, similar), texts)
+            for arg, texts in zip(drawn.args, coordinates, strict=True)]  # fmt: skip
     value = drawn.step.op.rule(domain, *read, **drawn.step.params)
-    told = [domain.tape.place(part) for part in _told(domain, drawn, value, similar)]
+    told = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
     return _TapeText(domain.tape, told, language, term, deepest).formula()
 
 
@@ -65,61 +66,36 @@ def _similar(drawn: DrawnStep) -> bool:
     return all(arg.view is drawn.view for arg in drawn.args) and SHAPELESS.issuperset(drawn.step.op.params)
 
 
-def _local(d: Symbols, arg: DrawnStep, texts: Sequence[str], similar: bool) -> tuple[Any, ...]:
+def _window(drawn: DrawnStep, similar: bool) -> View:
+    """How lengths of a plan become mm."""
+    return replace(drawn.view, scale=1.0, origin=(0.0, 0.0)) if similar else drawn.view
+
+
+def _local(d: Symbols, kind: str, window: View, texts: Sequence[str]) -> tuple[Any, ...]:
     """The value that a rule reads, from coordinates in mm."""
-    parts = [d.tape.input(text) for text in texts]
-    if arg.kind == OPENING:
-        return (_square(_divided(parts[0], arg.view, similar)),)
-    x, y = _at(parts, arg.view, similar)
-    if arg.kind == CIRCLE:
-        return x, y, _square(_divided(parts[2], arg.view, similar))
-    return _through(x, y, *parts[2:]) if arg.kind == LINE else (x, y)
-
-
-def _at(parts: Sequence[Any], plan: View, similar: bool) -> tuple[Any, Any]:
-    """A place on the plan."""
-    if similar:
-        return parts[0], parts[1]
-    return (parts[0] - plan.origin[0]) / plan.scale, (parts[1] - plan.origin[1]) / plan.scale
-
-
-def _divided(part: Any, plan: View, similar: bool) -> Any:
-    return part if similar else part / plan.scale
+    parts: list[Any] = [d.tape.input(text) for text in texts]
+    if kind == OPENING:
+        return (_square(parts[0] / window.scale),)
+    x, y = window.back((parts[0], parts[1]))
+    if kind == CIRCLE:
+        return x, y, _square(parts[2] / window.scale)
+    return (-parts[3], parts[2], parts[3] * x - parts[2] * y) if kind == LINE else (x, y)
 
 
 def _square(part: Any) -> Any:
     return part * part
 
 
-def _through(x: Any, y: Any, dx: Any, dy: Any) -> tuple[Any, Any, Any]:
-    return -dy, dx, dy * x - dx * y
-
-
-def _told(d: Symbols, drawn: DrawnStep, value: Any, similar: bool) -> list[Any]:
-    """A rule's answer in mm."""
-    plan, scale = drawn.view, 1.0 if similar else drawn.view.scale
-    if drawn.kind == OPENING:
-        return [scale * _root(d, value[0])]
-    if drawn.kind == LINE:
-        return [*_placed(_foot(plan, value, similar), plan, similar), value[1], -value[0]]
-    centre = _placed(value, plan, similar)
-    return [*centre, scale * _root(d, value[2])] if drawn.kind == CIRCLE else centre
-
-
-def _placed(spot: Sequence[Any], plan: View, similar: bool) -> list[Any]:
-    return list(spot[:2]) if similar else [plan.origin[i] + plan.scale * spot[i] for i in (0, 1)]
-
-
-def _root(d: Symbols, square: Any) -> Any:
-    return d.sqrt(square, "not-rational", "a length is never imaginary")
-
-
-def _foot(plan: View, line: Any, similar: bool) -> tuple[Any, Any]:
-    """The point of a line that is next to the middle of its window."""
-    x, y = plan.rect.centre if similar else _at(plan.rect.centre, plan, similar)
-    a, b, c = line
-    off = (a * x + b * y + c) / (a * a + b * b)
-    return x - a * off, y - b * off
+def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
+    """A rule's answer in mm; of a line the point that is next to the middle of its window, and its way."""
+    if kind == LINE:
+        (x, y), (a, b, c) = window.back(window.rect.centre), value
+        off = (a * x + b * y + c) / (a * a + b * b)
+        return [*window((x - a * off, y - b * off)), b, -a]
+    at = () if kind == OPENING else window((value[0], value[1]))
+    if kind == POINT:
+        return [*at]
+    return [*at, window.scale * d.sqrt(value[-1], "not-rational", "a length is never imaginary")]
 
 
 class _TapeText:

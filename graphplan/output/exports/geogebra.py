@@ -148,14 +148,14 @@ class _GeoGebraWriter(Elements):
 
     def _made(self, drawn: DrawnStep, label: str) -> None:
         """The command or expression by which it depends on others."""
-        made = written(drawn, self.names)
-        for term, text in made.terms:
+        terms, name, inputs = written(drawn, self.names)
+        for term, text in terms:
             _empty(self.construction, "expression", label=term, exp=text)
             self._element("numeric", term, False, False, pens.THIN, CURVES)
-        if made.name:
-            self._command(made.name, made.inputs, [label])
+        if name:
+            self._command(name, inputs, [label])
         else:
-            _empty(self.construction, "expression", label=label, exp=made.inputs[0], type=TYPES[drawn.kind])
+            _empty(self.construction, "expression", label=label, exp=inputs[0], type=TYPES[drawn.kind])
 
     def _command(self, name: str, inputs: Sequence[str], outputs: Sequence[str]) -> None:
         command = SubElement(self.construction, "command", {"name": name})

@@ -7,22 +7,13 @@ numbers its intersections, but not by side.
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import NamedTuple
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.output.exports.formula import Language, formula, operations
 from graphplan.output.exports.walk import at_home, parameters, turned_back
 from graphplan.sheet.plates.drawn_step import DrawnStep
 
-
-class Written(NamedTuple):
-    """The numbers that a mark needs, by label, and its command; without a name its one input is an expression."""
-
-    terms: Sequence[tuple[str, str]]
-    name: str
-    inputs: list[str]
-
-
+Terms = Sequence[tuple[str, str]]
 DEEPEST = 3  # operations within each other: GeoGebra 4.0 takes twice as long to read each one more
 CENTRES = "Vector[{centre0}, {centre1}]"
 APART = "Distance[{centre0}, {centre1}]"
@@ -69,8 +60,8 @@ RESULTS = {
 }
 
 
-def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> Written:
-    """What makes a mark in GeoGebra."""
+def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[Terms, str, list[str]]:
+    """The numbers that a mark needs, by label, and its command with its inputs; without a name an expression."""
     movement = drawn.step.op.movement
     if movement in COMMANDS and at_home(drawn):
         name, *inputs = COMMANDS[movement]
@@ -79,11 +70,11 @@ def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> Written:
             if arg.kind == CIRCLE:
                 told[f"centre{place}"], told[f"radius{place}"] = _circle(arg, labels)
         told["sign"] = "-" if turned_back(drawn) else ""
-        return Written((), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs])
+        return (), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs]
     read = [_coordinates(arg, labels) for arg in drawn.args]
     found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
     name, texts = RESULTS[drawn.kind]
-    return Written(found.terms, name, [text.format(*found.results) for text in texts])
+    return found.terms, name, [text.format(*found.results) for text in texts]
 
 
 def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:

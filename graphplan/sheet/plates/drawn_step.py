@@ -116,6 +116,11 @@ class Stroke:
         return (x + self.low * dx, y + self.low * dy), (x + self.high * dx, y + self.high * dy)
 
     @property
+    def kind(self) -> str:
+        """The kind of vector, if it is one that is asked for."""
+        return self.vector.kind if self.vector else ""
+
+    @property
     def letter(self) -> str:
         """What a vector is called, if it is."""
         return self.vector.label if self.vector else ""
@@ -134,7 +139,7 @@ class Stroke:
         """The stroke as it lies."""
         if not self.head:
             return Polyline(self.pen, self.layer, self.of.index, self.ends)
-        label = f"{self.vector.kind} {self.vector.point}" if self.vector else ""
+        label = f"{self.kind} {self.vector.point}" if self.vector else ""
         return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
 
 

@@ -148,7 +148,9 @@ class Plate:
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
         """What dots a mark that a step makes, but for corners of force polygons and where forces end."""
-        if not (drawn.number and self.shown(drawn)) or corner(drawn.step) or drawn in self._force_heads:
+        if not (drawn.number and self.shown(drawn)) or corner(drawn.step):
+            return None
+        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self._asked):
             return None
         return pens.ORIGIN if drawn.free else pens.DOT
 
@@ -162,22 +164,18 @@ class Plate:
     def vectors(self) -> list[Stroke]:
         """The vectors that are asked for and long enough to be drawn."""
         least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
-        return [stroke for kind, stroke in self._asked if stroke.length >= least.get(kind, SHORT)]
+        return [stroke for stroke in self._asked if stroke.length >= least.get(stroke.kind, SHORT)]
 
     @cached_property
-    def _asked(self) -> list[tuple[str, Stroke]]:
-        """All vectors that are asked for on this plan, by kind; each is there when both its ends are."""
+    def _asked(self) -> list[Stroke]:
+        """All vectors that are asked for on this plan; each is there when both its ends are."""
         found = []
         for vector in self.plans.vectors(self.panel):
-            start, end = self.plates.steps[vector.start], self.plates.steps[vector.end]
-            found.append((vector.kind, Stroke(
-                max(start, end, key=lambda mark: mark.index), start, end, pen=pens.VECTORS[vector.kind],
-                head=min(pens.HEADS[vector.kind], 0.6 * math.dist(start.at, end.at)), layer="vectors", vector=vector)))
+            start, end = (self.plates.steps[mark] for mark in (vector.start, vector.end))
+            last = max(start, end, key=lambda mark: mark.index)
+            head = min(pens.HEADS[vector.kind], 0.6 * math.dist(start.at, end.at))
+            found.append(Stroke(last, start, end, 0.0, 1.0, pens.VECTORS[vector.kind], False, head, "vectors", vector))
         return found
-
-    @cached_property
-    def _force_heads(self) -> set[DrawnStep]:
-        return {stroke.end for kind, stroke in self._asked if kind in pens.FORCES}
 
     # ---- strokes ---------------------------------------------------------------------------------------------------
 
@@ -204,7 +202,7 @@ class Plate:
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
-        ends = [(stroke.start.at, stroke.end.at) for _, stroke in self._asked]
+        ends = [(stroke.start.at, stroke.end.at) for stroke in self._asked]
         return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
                    for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
 
@@ -268,7 +266,7 @@ class Plate:
     def _forces_along(self, stroke: Stroke) -> Iterator[tuple[float, float]]:
         """Where forces that are drawn before a step lie along its stroke: it does not cross their arrows out."""
         for force in self.vectors if stroke.length > NOTHING else ():
-            if force.vector and force.vector.kind in pens.FORCES and force.end.index < stroke.of.index:
+            if force.kind in pens.FORCES and force.end.index < stroke.of.index:
                 hit = _along(stroke, force.ends)
                 if len(hit) == 2 and max(hit) > 0 and min(hit) < 1:
                     yield max(min(hit), 0.0), min(max(hit), 1.0)

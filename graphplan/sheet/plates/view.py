@@ -24,6 +24,10 @@ class View:
     def __call__(self, spot: Spot) -> Spot:
         return self.origin[0] + self.scale * spot[0], self.origin[1] + self.scale * spot[1]
 
+    def back(self, spot: Spot) -> Spot:
+        """The place on the plan of a spot on paper."""
+        return (spot[0] - self.origin[0]) / self.scale, (spot[1] - self.origin[1]) / self.scale
+
 
 def least(box: Rect, room: Rect) -> float:
     """Units per mm that make a box just fit."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Hashable, Iterator
 from dataclasses import dataclass, field
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple, TypeAlias
 
 from graphplan.errors import by_name
 from graphplan.mechanism.items import Item, described
@@ -55,16 +55,6 @@ class Names:
         return tuple(p for p in self.points if p in self.held and p not in self.links.get(FRAME, ()))
 
 
-class Value(Protocol):
-    """A kind of value: in words, and how it is read."""
-
-    @property
-    def says(self) -> str: ...
-
-    def read(self, item: Item, names: Names) -> Any:
-        """What an item says, or None where that noted a fault."""
-
-
 class Field(NamedTuple):
     """A key of a table, what it says, and the kind of its value.
 
@@ -78,7 +68,7 @@ class Field(NamedTuple):
     default: Any = None
 
 
-@dataclass(frozen=True)
+@dataclass
 class Row:
     """A table as it was read: its values by key, the items that they are from, and what the scene has."""
 
@@ -91,21 +81,15 @@ class Row:
         return self.values[key]
 
 
-@dataclass(frozen=True)
-class Kind:
-    """A kind of value that is no table."""
+class Kind(NamedTuple):
+    """A kind of value that is no table: in words, how it is read (None where that noted a fault), and its schema."""
 
     says: str
-    reader: Callable[[Item, Names], Any]
+    read: Callable[[Item, Names], Any]
     schema: Fragment
 
-    def read(self, item: Item, names: Names) -> Any:
-        """What an item says, or None where that noted a fault."""
-        return self.reader(item, names)
 
-
-@dataclass(frozen=True)
-class Table:
+class Table(NamedTuple):
     """A table of these fields and no others, and what is made of it: by default the values by key.
 
     Just one of the keys `either` must be there, which `remedy` says.
@@ -139,8 +123,7 @@ class Table:
         return self.make(Row(item, items, values, names)) if len(item.faults) == before else None
 
 
-@dataclass(frozen=True)
-class Either:
+class Either(NamedTuple):
     """One of several forms, which its own rule may choose.
 
     Without a rule it is the last of which a key is there that no other form has, otherwise the first.
@@ -166,8 +149,7 @@ class Either:
         return self.forms[0].read(item, names)
 
 
-@dataclass(frozen=True)
-class Rows:
+class Rows(NamedTuple):
     """An array of tables; a `single` one may stand as a table of its own.
 
     `once` gives what of an entry may not come twice, and what it is called.
@@ -183,7 +165,7 @@ class Rows:
         """The entries in words."""
         return f"{'a table or ' if self.single else ''}an array of tables: {self.entry.says}"
 
-    def read(self, item: Item, names: Names) -> tuple[Any, ...]:
+    def read(self, item: Item, names: Names) -> Any:
         """What is made of the tables without faults, in order."""
         rows = [item] if self.single and not isinstance(item.value, list) else item.rows()
         found: list[Any] = []
@@ -201,8 +183,7 @@ class Rows:
         return tuple(found)
 
 
-@dataclass(frozen=True)
-class Named:
+class Named(NamedTuple):
     """A table whose keys are names, of points or links of the scene or others; `check` notes what is wrong with one."""
 
     entry: Value
@@ -215,13 +196,16 @@ class Named:
         """The entries in words."""
         return f"by {self.key.says}: {self.entry.says}"
 
-    def read(self, item: Item, names: Names) -> dict[str, Any]:
+    def read(self, item: Item, names: Names) -> Any:
         """What the entries say, without those that say nothing."""
         found = {}
         for name, entry in (item.table() or {}).items():
             self.check(name, entry, names)
             found[name] = self.entry.read(entry, names)
         return {name: value for name, value in found.items() if value is not None}
+
+
+Value: TypeAlias = Kind | Table | Either | Rows | Named
 
 
 def inner(value: Value) -> Iterator[Field]:

@@ -51,7 +51,6 @@ def schema(value: Value) -> Fragment:
             return named | ({"minProperties": least} if least else {})
         case Kind(schema=fragment):
             return fragment
-    raise TypeError(value)
 
 
 def _default(field: Field) -> Fragment:

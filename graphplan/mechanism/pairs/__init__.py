@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
+import os
 from importlib import import_module
-from pathlib import Path
 from typing import Any
 
-KINDS = sorted(path.stem for path in Path(__file__).parent.glob("[a-z]*.py"))
+KINDS = sorted(name[:-3] for name in os.listdir(os.path.dirname(__file__)) if name[0] != "_" and name.endswith(".py"))
 """The kinds of pairs: every file here is one, but for what they are made of."""
 
 

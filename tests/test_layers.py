@@ -1,11 +1,13 @@
-"""The arrows between the folders, read from the imports: errors <- kernel <- methods, and so on."""
+"""The arrows between the folders, read from all imports: errors <- kernel <- methods, and so on."""
 
 from __future__ import annotations
 
 import ast
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from functools import cache
+from graphlib import TopologicalSorter
 from pathlib import Path
 
 import pytest
@@ -26,7 +28,8 @@ MAY = {
     "solver": {"errors", "mechanism"},
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
-    "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking"},
+    "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
+               "accuracy"},
     "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle"},
@@ -57,23 +60,36 @@ def folder(path: Path) -> str:
     return path.relative_to(PACKAGE).parts[0].removesuffix(".py")
 
 
-def imports(path: Path, *, typing: bool = False) -> Iterator[str]:
-    """The modules that a file imports; those for the type checker alone only if asked for."""
-    tree = ast.parse(path.read_text())
-    skipped = {id(node) for block in ast.walk(tree) if _for_typing(block) for node in ast.walk(block)}
-    for node in ast.walk(tree):
-        if id(node) in skipped and not typing:
-            continue
-        if isinstance(node, ast.Import):
-            yield from (alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom):
-            assert node.level == 0, f"{path}: imports are absolute"
-            module = node.module or ""
-            yield from (f"{module}.{alias.name}" for alias in node.names) if module == "graphplan" else [module]
+def named(path: Path) -> str:
+    return str(path.relative_to(PACKAGE))
 
 
-def _for_typing(node: ast.AST) -> bool:
-    return isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+def dotted(path: Path) -> str:
+    """The module of a file."""
+    return ".".join(("graphplan", *path.relative_to(PACKAGE).with_suffix("").parts)).removesuffix(".__init__")
+
+
+MODULES = {dotted(path): path for path in FILES}
+
+
+@cache
+def imports(path: Path) -> frozenset[str]:
+    """The modules that a file imports: at its top, in functions, for the type checker alone, and by their names."""
+    return frozenset(name for node in ast.walk(ast.parse(path.read_text())) for name in _imported(node))
+
+
+def _imported(node: ast.AST) -> Iterator[str]:
+    """The modules that are imported at one place; of a name that is put together, the package that it begins with."""
+    if isinstance(node, ast.Import):
+        yield from (alias.name for alias in node.names)
+    elif isinstance(node, ast.ImportFrom):
+        assert node.level == 0, f"{ast.unparse(node)}: imports are absolute"
+        inner = [f"{node.module}.{alias.name}" for alias in node.names]
+        yield from (name if name in MODULES else str(node.module) for name in inner)
+    elif isinstance(node, ast.Call) and node.args and ast.unparse(node.func).endswith(("import_module", "__import__")):
+        name = node.args[0].values[0] if isinstance(node.args[0], ast.JoinedStr) else node.args[0]
+        if isinstance(name, ast.Constant):
+            yield str(name.value).removesuffix(".")
 
 
 def inside(path: Path) -> set[str]:
@@ -83,11 +99,7 @@ def inside(path: Path) -> set[str]:
 
 def outside(path: Path) -> set[str]:
     """The packages beyond graphplan and Python that a file imports."""
-    return {name.split(".")[0] for name in imports(path, typing=True)} - set(sys.stdlib_module_names) - {"graphplan"}
-
-
-def named(path: Path) -> str:
-    return str(path.relative_to(PACKAGE))
+    return {name.split(".")[0] for name in imports(path)} - set(sys.stdlib_module_names) - {"graphplan"}
 
 
 DOORS = {"sheet/__init__.py"}  # calls the back end, as users do: `gp.sheet.svg(drawing)`
@@ -101,9 +113,40 @@ def test_arrows(path: Path) -> None:
     assert inside(path) - {folder(path)} <= MAY[folder(path)]
 
 
-def test_no_circles() -> None:
-    """What a folder may import may not import it."""
-    assert not [(one, two) for one, below in MAY.items() for two in below if one in MAY[two]]
+def test_no_circles_of_rooms() -> None:
+    """What a folder imports, by whatever way, does not import it."""
+    below = {room: set[str]() for room in MAY}
+    for path in LAYERED:
+        below[folder(path)] |= inside(path) - {folder(path)}
+    for arrows in (below, MAY):
+        TopologicalSorter(arrows).prepare()  # fails where arrows run in a circle
+
+
+# Circles of files that are still there: each is to be opened.
+KNOWN = {"mechanism/directions.py", "mechanism/fields.py", "mechanism/model.py", "mechanism/pairs/drives.py",
+         "mechanism/pairs/pair.py", "mechanism/pairs/revolute.py", "mechanism/pairs/sliding.py"}
+
+
+def test_no_circles_of_files() -> None:
+    """No file imports one that imports it, at its top, in a function or for the type checker alone."""
+    below = {path: {MODULES[name] for name in imports(path) if name in MODULES} - {path} for path in LAYERED}
+    further = {path: reached(path, below) for path in LAYERED}
+    assert {named(path) for path in LAYERED if path in further[path]} <= KNOWN
+
+
+def reached(path: Path, below: Mapping[Path, set[Path]]) -> set[Path]:
+    """All files that a file imports, and those that these import, and so on."""
+    found, left = set[Path](), [path]
+    while left:
+        new = below.get(left.pop(), set()) - found
+        found |= new
+        left += new
+    return found
+
+
+def test_there_are_twelve_rooms() -> None:
+    """graphplan has twelve folders of code."""
+    assert len({folder(path) for path in FILES if path.parent != PACKAGE}) <= 12
 
 
 @pytest.mark.parametrize("path", FILES, ids=named)

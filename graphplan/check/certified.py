@@ -10,13 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from decimal import Decimal
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
-from graphplan.check.decimals import OPEN, SPARE, decimal, upwards
 from graphplan.check.json_results import data
 from graphplan.check.opinion import Opinion, opinion
 from graphplan.check.report import Report
@@ -31,6 +31,8 @@ from graphplan.solver import solve
 
 MOST = 10_000  # digits
 ENOUGH = 1 << 14  # bits, to which the precision is doubled at most; for many digits it is doubled once in any case
+OPEN = "the bounds of a number do not close, as where a pair with friction may stand still"
+SPARE = 12  # digits beyond the last that are known before it is rounded: it is off by half a unit and 10^-12 at most
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -205,3 +207,49 @@ def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> Graphpla
 def _most(value: Enclosure) -> Fraction:
     """What a number's size is at most."""
     return abs(value.middle) + value.error
+
+
+# ---- proven decimals: numerals of which every digit is right -------------------------------------------------------
+
+
+def decimal(value: Enclosure, digits: int, size: Fraction) -> str:
+    """A number to so many significant digits: its own, or those of `size` where it is next to nothing beside that.
+
+    Fails with `Undecided` where the enclosure is too wide.
+    """
+    error, middle = value.error * 10**SPARE, value.middle
+    least = _exponent(size) + 1 - digits
+    place = _exponent(abs(middle)) + 1 - digits if middle else least
+    if error > _ten(place):
+        place = least
+        if error > _ten(place) or abs(middle) > _ten(place):
+            raise Undecided(OPEN)
+    number = round(middle / _ten(place))
+    if abs(number) == 10**digits:
+        number, place = number // 10, place + 1
+    return _numeral(number, place)
+
+
+def upwards(bound: Fraction) -> str:
+    """An upper bound to two digits, rounded up."""
+    place = _exponent(bound) - 1 if bound else 0
+    return _numeral(math.ceil(bound / _ten(place)), place)
+
+
+def _numeral(number: int, place: int) -> str:
+    """`number` times 10^`place` in digits."""
+    sign, figures, _ = Decimal(number).as_tuple()
+    return str(Decimal((sign, figures, place))).lower() if number else "0"
+
+
+def _ten(power: int) -> Fraction:
+    return Fraction(10) ** power
+
+
+def _exponent(size: Fraction) -> int:
+    """The power of ten of the first digit."""
+    bits = size.numerator.bit_length() - size.denominator.bit_length()
+    exponent = math.floor((bits - 1) * math.log10(2))
+    while _ten(exponent + 1) <= size:
+        exponent += 1
+    return exponent

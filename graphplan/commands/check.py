@@ -28,8 +28,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.replacement import replacements
-    from graphplan.check.shortcuts import shortcuts
+    from graphplan.check.shortcuts import replacements, shortcuts
     from graphplan.mechanism.structure import structure
     from graphplan.methods.panels import redundancies
 

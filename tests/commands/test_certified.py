@@ -10,10 +10,11 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from command_line import run
+from four_bars import four_bar
 
 from graphplan.check.certified import certified
 from graphplan.check.trusted import report
-from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel import TABLE
 from graphplan.mechanism.model import Friction, Scene
@@ -21,23 +22,9 @@ from graphplan.mechanism.scene import load, packaged, parse
 
 PI = Decimal("3.14159265358979323846264338327950288419716939937510582097494459230781640628620899")
 
-FOUR_BAR = """
-[points]
-O = [0, 0]
-A = [30, 40]
-B = { distances = { A = 110, C = 90 }, side = "left" }
-C = [150, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-rpm = 95
-"""
-
 BY_COMPASSES = '{ distances = { A = 110, C = 90 }, side = "left" }'
+FOUR_BAR = four_bar("rpm = 95", B=BY_COMPASSES)
+
 APART = """
 T = [90, 20.0000000000000000000000000000000000000001]
 B = { distances = { T = 50 }, on = { through = "T", direction = "A C" }, pick = "right" }
@@ -71,14 +58,6 @@ at = "A"
 on = "1"
 direction = 130
 """
-
-
-def run(*arguments: str) -> int:
-    """The exit status of the command line, whether it returns or exits."""
-    try:
-        return main(arguments)
-    except SystemExit as end:
-        return int(end.code or 0)
 
 
 def numbers(value: Any) -> list[Any]:

@@ -9,26 +9,13 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+from command_line import run
+from four_bars import four_bar
 
-from graphplan.commands import SUBCOMMANDS, main
+from graphplan.commands import SUBCOMMANDS
 from graphplan.mechanism.scene import packaged
 
-FOUR_BAR = """
-title = "Four-bar"
-[points]
-O = [0, 0]
-A = [30, 40]
-B = [130, 90]
-C = [150, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 2.0
-"""
+FOUR_BAR = four_bar(head='title = "Four-bar"\n')
 
 DEAD_CENTRE = FOUR_BAR.replace('link = "1"', 'link = "3"').replace("B = [130, 90]", "B = [90, 120]")
 
@@ -100,14 +87,6 @@ BAD = {  # what replaces what in the four-bar, what the line must say
     "broken TOML": ("[points]", "[points", "line"),
     "arcs that do not meet": ("B = [130, 90]", 'B = { distances = { A = 10, C = 10 }, side = "left" }', "points.B"),
 }
-
-
-def run(*arguments: str) -> int:
-    """The exit status of the command line, whether it returns or exits."""
-    try:
-        return main(arguments)
-    except SystemExit as end:
-        return int(end.code or 0)
 
 
 @pytest.fixture

@@ -8,6 +8,7 @@ from fractions import Fraction
 from typing import Any
 
 import pytest
+from four_bars import four_bar
 
 from graphplan.commands import main
 
@@ -52,22 +53,7 @@ LEVERED = PRESS.replace('4 = "B"', '3 = "B"\n4 = "B"\n5 = "D"').replace("[links]
     'frame = "O"', 'frame = "O D"').replace(
     "[[drive]]", '[[slides]]\nlink = "3"\nalong = "5"\nat = "B"\ndirection = [3, 4]\n[[drive]]')
 
-REST = """
-title = "Press"
-[points]
-O = [0, 0]
-A = [30, 40]
-B = [130, 90]
-C = [150, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 0
-[[forces]]
+REST = four_bar("omega = 0", head='title = "Press"\n', more="""[[forces]]
 on = "3"
 at = "B"
 value = [-12, 5]
@@ -75,7 +61,7 @@ value = [-12, 5]
 at = "A"
 on = "2"
 direction = [-4, 3]
-"""
+""")
 
 
 def ran(arguments: list[str], text: str, monkeypatch: pytest.MonkeyPatch) -> int:

@@ -3,26 +3,14 @@
 from __future__ import annotations
 
 import pytest
+from four_bars import four_bar
 
 from graphplan.errors import SceneError
 from graphplan.mechanism.scene import parse
 
-SCENE = """\
-gravity = [0, -9.81]
-[points]
-O = [0, 0]
-A = { from = "O", distance = 50, angle = 20 }
-B = { distances = { A = 120, C = 80 }, side = "left" }
-C = [150, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 2
-[masses.2]
+SCENE = four_bar(
+    "omega = 2", head="gravity = [0, -9.81]\n", A='{ from = "O", distance = 50, angle = 20 }',
+    B='{ distances = { A = 120, C = 80 }, side = "left" }', more="""[masses.2]
 mass = 10
 centre = "B"
 [[forces]]
@@ -33,7 +21,7 @@ value = [-150, 0]
 at = "A"
 on = "1"
 direction = 30
-"""
+""")
 PLACES = {  # a number as it stands, and where its faults are told
     "distance = 50": "points.A.distance", "angle = 20": "points.A.angle", "A = 120": "points.B.distances.A",
     "omega = 2": "drive.1.omega", "mass = 10": "masses.2.mass", "direction = 30": "balance.direction",

@@ -9,6 +9,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
+from four_bars import SMALL as FOUR_BAR
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
@@ -27,24 +28,6 @@ from graphplan.methods.motion.time_scale import Tempo
 def asked(scene: Scene, velocity: str = "", acceleration: str = "") -> Scene:
     """The scene with another question."""
     return replace(scene, find=Find(tuple(velocity.split()), tuple(acceleration.split())))
-
-
-FOUR_BAR = """
-[points]
-O = [0, 0]
-A = [20, 10]
-B = [70, 40]
-C = [80, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 2.0
-alpha = 3
-"""
 
 
 def test_the_velocity_of_one_point_draws_no_more_than_it_needs() -> None:

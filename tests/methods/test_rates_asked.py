@@ -8,6 +8,7 @@ from random import Random
 
 import numpy as np
 import pytest
+from four_bars import SMALL as FOUR_BAR
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
@@ -38,22 +39,6 @@ direction = "O A"
 slide = ["rod", "barrel"]
 speed = 20
 acceleration = 3
-"""
-FOUR_BAR = """
-[points]
-O = [0, 0]
-A = [20, 10]
-B = [70, 40]
-C = [80, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 2
-alpha = 3
 """
 FAST = """
 [points]

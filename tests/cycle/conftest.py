@@ -1,8 +1,0 @@
-"""The random mechanisms serve the cycle too."""
-
-from __future__ import annotations
-
-import sys
-from pathlib import Path
-
-sys.path.append(str(Path(__file__).parents[1] / "methods"))

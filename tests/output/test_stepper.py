@@ -8,6 +8,8 @@ import json
 import math
 import re
 import shutil
+import subprocess
+import sys
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
@@ -284,3 +286,14 @@ def test_printed_it_is_the_solution(page: Any) -> None:
     assert shown_steps(page) == groups
     for part in ("nav", "#controls", "#told", "#halos"):
         assert page.eval_on_selector(part, "part => getComputedStyle(part).display") == "none"
+
+
+def test_the_bytes_are_the_same_whatever_the_hashes() -> None:
+    """Two processes with other hashes write the same page."""
+    code = ("import sys, graphplan as gp; from graphplan.output.stepper import stepper; "
+            "from graphplan.sheet.cycle_frames import standing; from graphplan.sheet.layout.compose import compose; "
+            "drawing = gp.construct(gp.load('slider-crank')); "
+            "sys.stdout.write(stepper(standing(drawing, compose(drawing))))")
+    pages = {subprocess.run([sys.executable, "-c", code], capture_output=True, check=True,
+                            env={"PYTHONHASHSEED": seed, "PYTHONPATH": ":".join(sys.path)}).stdout for seed in "12345"}
+    assert len(pages) == 1

@@ -34,8 +34,14 @@ def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
     """A binary scene with some points elsewhere; guides through two points turn with them."""
     points: dict[str, Pair] = {name: _pair(at) for name, at in scene.points.items()}
     points |= {name: (Fraction(z.real), Fraction(z.imag)) for name, z in places.items()}
-    slides = (_slide(slide, points) for slide in scene.slides)
-    return replace(scene, points=points, written=(*slides, *scene.drives))
+
+    def direction(slide: Slide) -> tuple[Fraction, Fraction]:
+        if slide.through is None:
+            return _pair(slide.direction)
+        (ax, ay), (bx, by) = (_pair(points[name]) for name in slide.through)
+        return bx - ax, by - ay
+
+    return scene.posed(points, direction)
 
 
 def truth(scene: Scene) -> Rates:
@@ -65,11 +71,3 @@ def _middles(vectors: dict[str, Any]) -> dict[str, Pair]:
 def _pair(pair: Pair) -> tuple[Fraction, Fraction]:
     x, y = (Fraction(float(number)) for number in pair)
     return x, y
-
-
-def _slide(slide: Slide, points: Mapping[str, Pair]) -> Slide:
-    """A slide along the direction that its guide's points give, or along its own."""
-    if slide.through is None:
-        return replace(slide, direction=_pair(slide.direction), written=None)
-    (ax, ay), (bx, by) = (points[name] for name in slide.through)
-    return replace(slide, direction=(bx - ax, by - ay), written=None)

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import pytest
 from sheets import drawing_of
 
 import graphplan as gp
+from graphplan.errors import Refused
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.compose import compose
 from graphplan.sheet.layout.pages import packed, paged
@@ -30,6 +32,17 @@ def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> Non
     assert len(found) == len(loose) - saved
     assert (found == loose) != saved
     assert sum(map(len, found)) == len(rows)
+
+
+def test_a_page_ends_after_any_row_and_holds_no_row_that_is_higher() -> None:
+    """In a column that holds one row the first stands alone; a row that is higher than any page is refused."""
+    arrangement = compose(drawing_of("four-bar")).arrangement
+    narrow = replace(arrangement, columns=arrangement.columns[:1])
+    high = TextRow((Cell(0.0, (Run("A"),)),), tall=0.6 * (narrow.columns[0].top - narrow.columns[0].bottom))
+    first, *others = paged([high, high, high], narrow)
+    assert (len(first), sum(map(len, others))) == (1, 2)
+    with pytest.raises(Refused, match="does not fit on a page"):
+        list(paged([replace(high, tall=1e4), high], narrow))
 
 
 def test_a_box_for_a_number_gets_lower_but_not_narrower() -> None:

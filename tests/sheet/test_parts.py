@@ -15,7 +15,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
 from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
-from graphplan.sheet.lettering.label_candidates import Wish, places
+from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap
 from graphplan.sheet.plates import pens, symbols
@@ -247,7 +247,7 @@ def test_a_letter_whose_mark_is_off_the_panel_stands_whole_at_its_edge() -> None
     """Its one place is as near to the mark as the panel allows, and as large as the letter."""
     wish = Wish((Run("A"),), ((130, 50),))
     wide, high = wish.extent
-    assert places([wish], SQUARE).boxes.tolist() == [pytest.approx([100 - wide, 50, 100, 50 + high])]
+    assert candidates([wish], SQUARE).boxes.tolist() == [pytest.approx([100 - wide, 50, 100, 50 + high])]
 
 
 def test_a_letter_avoids_the_line_through_its_mark() -> None:

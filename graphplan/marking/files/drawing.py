@@ -6,16 +6,16 @@ Which words on a drawing name which of the things on it is told by where they st
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 from itertools import chain
 from pathlib import Path
-from typing import Any
 
-import numpy as np
+import shapely
+from shapely import LineString, Point, STRtree
 
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
 from graphplan.marking.spelling import greek, mark
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
@@ -39,11 +39,6 @@ class Lettering:
         """How long the words are, in mm; a subscript is smaller."""
         stem, _, index = self.text.partition("_")
         return width((Run(stem), Run(index, -1)), self.size)
-
-    @property
-    def middle(self) -> Spot:
-        """The middle of the words."""
-        return self.at[0] + self.long / 2, self.at[1] + CAPS * self.size / 2
 
     @property
     def names(self) -> list[str]:
@@ -92,8 +87,9 @@ def labelled(traces: Sequence[Trace], words: Sequence[Lettering]) -> list[Trace]
     named = [(word, names) for word in words[:WORDS] if (names := word.names)]
     taken: dict[int, list[str]] = {}
     if named and traces:
-        far = _distances(traces)
-        wishes = sorted(wish for i, (word, names) in enumerate(named) for wish in _wishes(i, word, names[0], far))
+        things = STRtree([Point(*trace.spots) if trace.kind == POINT else LineString(trace.spots) for trace in traces])
+        wishes = sorted(wish for i, (word, names) in enumerate(named)
+                        for wish in _wishes(i, word, names[0], traces, things))
         placed: set[int] = set()
         for shared in (False, True):
             for _, word, thing in wishes:
@@ -103,31 +99,18 @@ def labelled(traces: Sequence[Trace], words: Sequence[Lettering]) -> list[Trace]
     return [replace(trace, label=name) for i, trace in enumerate(traces) for name in taken.get(i, [trace.label])]
 
 
-def _wishes(place: int, word: Lettering, name: str, far: Callable[..., Any]) -> list[tuple[float, int, int]]:
-    """The things nearest to a word that it may name: how far each is, the word and the thing."""
-    gaps = far(word, lines=greek(name) or name.isdigit(), points=0.0 if not greek(name) else BESIDE / 2)
-    near = np.flatnonzero(gaps < BESIDE)
-    nearest = near[np.argsort(gaps[near], kind="stable")][:CHOICES]
-    return [(float(gaps[thing]), place, int(thing)) for thing in nearest]
-
-
-def _distances(traces: Sequence[Trace]) -> Callable[..., Any]:
-    """How far all things are from a word, in mm; what it may not name is infinitely far, and points `points` farther.
-    """
-    first, last = (np.array([complex(*trace.spots[end]) for trace in traces]) for end in (0, -1))
-    point = np.array([trace.kind == POINT for trace in traces])
-    circle = np.array([trace.kind == CIRCLE for trace in traces])
-    along = last - first
-    square = np.where(along == 0, 1.0, np.abs(along) ** 2)
-
-    def far(word: Lettering, lines: bool, points: float) -> Any:
-        middle = complex(*word.middle)
-        foot = first + np.clip(((middle - first) * along.conj()).real / square, 0.0, 1.0) * along
-        across = np.maximum(0.0, np.abs((foot - middle).real) - word.long / 2)
-        gaps = np.hypot(across, np.maximum(0.0, np.abs((foot - middle).imag) - CAPS * word.size / 2))
-        return np.where(point, gaps + points, gaps if lines else np.inf) + np.where(circle, np.inf, 0.0)
-
-    return far
+def _wishes(place: int, word: Lettering, name: str, traces: Sequence[Trace], things: STRtree
+            ) -> list[tuple[float, int, int]]:
+    """The things nearest to a word that it may name: how far each is, in mm, the word and the thing."""
+    (x, y), lined = word.at, greek(name) or name.isdigit()
+    box = shapely.box(x, y, x + word.long, y + CAPS * word.size)
+    near = things.query(box, "dwithin", BESIDE)
+    found = []
+    for gap, thing in zip(shapely.distance(things.geometries[near], box), near, strict=True):
+        farther = BESIDE / 2 if greek(name) and traces[thing].kind == POINT else 0.0
+        if traces[thing].kind == POINT or (traces[thing].kind == LINE and lined):
+            found.append((float(gap) + farther, place, int(thing)))
+    return sorted(wish for wish in found if wish[0] < BESIDE)[:CHOICES]
 
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",

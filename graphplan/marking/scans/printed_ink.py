@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LinearRing, LineString
 
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen, rgb
@@ -51,29 +51,13 @@ def words(sheet: Sheet, scale: float) -> NDArray[np.bool_]:
 
 def pieces(sheet: Sheet) -> Pieces:
     """The straight lines of print, cut short."""
-    cut = [piece for item in sheet.items if item.layer != MARKS for one, two in _edges(item)
-           for piece in _cut(one, two)]
+    chains = [LineString(item.spots) if isinstance(item, Polyline) else LinearRing(item.spots)
+              for item in sheet.items if isinstance(item, Polyline | Polygon) and item.layer != MARKS]
+    cut = [piece for chain in chains for piece in pairwise(chain.segmentize(LONG).coords) if math.dist(*piece) >= SHORT]
     ends = np.array(cut, float).reshape(-1, 2, 2)
     way = ends[:, 1] - ends[:, 0]
     long = np.hypot(way[:, 0], way[:, 1])
     return Pieces(ends.mean(axis=1), way / long[:, None], long / 2)
-
-
-def _edges(item: Item) -> Iterator[tuple[Spot, Spot]]:
-    """The straight lines of an item."""
-    if isinstance(item, Polyline):
-        yield from pairwise(item.spots)
-    elif isinstance(item, Polygon):
-        yield from zip(item.spots, (*item.spots[1:], item.spots[0]), strict=True)
-
-
-def _cut(one: Spot, two: Spot) -> Iterator[tuple[Spot, Spot]]:
-    """A line in pieces that are neither short nor long."""
-    long = math.dist(one, two)
-    count = math.ceil(long / LONG) if long >= SHORT else 0
-    ends = [(one[0] + (two[0] - one[0]) * i / count, one[1] + (two[1] - one[1]) * i / count)
-            for i in range(count + 1)] if count else []
-    return pairwise(ends)
 
 
 # ---- drawn ---------------------------------------------------------------------------------------------------------

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LinearRing
 
 from graphplan.errors import Refused
 from graphplan.marking.scans.image import Grey
@@ -123,20 +124,13 @@ def _sharp(hull: Spots, four: Spots) -> Spots | None:
     its corners themselves have lost."""
     around = four if enclosed(four) < 0 else four[::-1]
     around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
-    rim = _every_pixel(hull)
+    rim = np.array(LinearRing(hull).segmentize(1.0).coords)
     sides = [_side(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
     if any(side is None for side in sides):
         return None
     lines = np.array(sides)
     return np.array([np.linalg.solve([one[:2], two[:2]], [one[2], two[2]])
                      for one, two in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
-
-
-def _every_pixel(hull: Spots) -> Spots:
-    """Spots all along a closed rim."""
-    closed = np.vstack([hull, hull[:1]])
-    way = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(closed, axis=0).T))])
-    return np.column_stack([np.interp(np.arange(0, way[-1]), way, closed[:, i]) for i in range(2)])
 
 
 def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:

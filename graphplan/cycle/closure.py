@@ -66,14 +66,13 @@ class Closure:
     def _gliding(self, linkage: Linkage, freedom: Array, bonds: dict[int, Along]) -> None:
         """A point of one link stays on another, or moves along a direction fixed to a third."""
         self.glide = np.array(list(bonds), dtype=int)
-        link, on, to = (np.array([linkage.order[end] for end in ends], dtype=int) for ends in (
-            [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()],
-            [bond.to or bond.on for bond in bonds.values()]))
-        self.base_ends, self.turn_ends = np.stack([link, on]), len(linkage.links) + np.stack([link, on, to])
-        self.arms = np.array([[linkage.places[bond.at] - linkage.origins[end] for bond, end in zip(
-            bonds.values(), ends, strict=True)] for ends in (
-                [bond.link for bond in bonds.values()], [bond.on for bond in bonds.values()])]) / linkage.reach
-        self.direction = np.array([direction(bond) for bond in bonds.values()], dtype=complex)
+        order, glides = linkage.order, bonds.values()
+        named = [(glide.link, glide.on, glide.to or glide.on) for glide in glides]
+        link, on, to = ends = np.array([[order[end] for end in three] for three in named], dtype=int).reshape(-1, 3).T
+        self.base_ends, self.turn_ends = ends[:2], len(linkage.links) + ends
+        arms = [[linkage.places[glide.at] - linkage.origins[end] for end in (glide.link, glide.on)] for glide in glides]
+        self.arms = np.array(arms, dtype=complex).reshape(-1, 2).T / linkage.reach
+        self.direction = np.array([direction(glide) for glide in glides], dtype=complex)
         row = self.glide * (len(self.drive) + 3)
         self.glide_cells = np.concatenate([row + freedom[end] + k for end in (link, on) for k in range(3)])
         self.to_cells = row + freedom[to] + 2

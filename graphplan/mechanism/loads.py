@@ -91,7 +91,7 @@ def _journal(row: Row) -> Friction | None:
 
 def _rubbing(row: Row) -> Friction | None:
     slide = has_slide(row, "a joint and its radius")
-    return Friction("", (slide.link, slide.along), Fraction(0), row["coefficient"]) if slide else None
+    return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
 
 
 def _rubbed(friction: Friction) -> tuple[object, str]:

@@ -12,7 +12,7 @@ import pytest
 from by_hand import force, hold, loads, mass, mechanism, turn
 
 import graphplan as gp
-from graphplan.check.trusted import trusted
+from graphplan.check.trusted import report
 from graphplan.mechanism.model import Find, Scene, Slide
 from graphplan.mechanism.pairs.pair import LINE
 from graphplan.mechanism.structure import structure
@@ -57,7 +57,7 @@ SCENES = {
 @pytest.mark.parametrize("name", SCENES)
 def test_construction_is_the_solver_to_the_last_digit(name: str) -> None:
     """Velocities, accelerations, reactions and the balance are drawn as the solver has them, in fractions."""
-    found = trusted(SCENES[name][0], exact=True)
+    found = report(SCENES[name][0], exact=True)
     assert {"velocity", "acceleration", "force"} <= {*found.check}
     assert not any(found.check.values())
 

@@ -126,13 +126,16 @@ class Walk:
             before = [*before, item] if item.layer == "letters" and not isinstance(item, Text) else []
 
     def _hung(self, plate: Plate, text: Text) -> DrawnStep:
-        """The mark that lettering hangs on: its own, or the next of its line or of the pose."""
+        """The mark that lettering hangs on: its own, its vector's end, or the next of its line or of the pose."""
         if text.step is None:
             pose = self.plates.pose
             name = text.label.partition(",")[0]
             return pose[name] if name in pose else min(pose.values(), key=lambda mark: math.dist(mark.at, text.at))
         drawn = self.plates.steps[text.step]
-        return min(plate.marks(drawn), key=lambda mark: math.dist(mark.at, text.at)) if drawn.kind == LINE else drawn
+        if drawn.kind == LINE:
+            return min(plate.marks(drawn), key=lambda mark: math.dist(mark.at, text.at))
+        ends = (vector.end for vector in plate.vectors if vector.of is drawn and vector.letter in text.label.split())
+        return next(ends, drawn)
 
 
 class Source(Walk):

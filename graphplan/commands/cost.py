@@ -32,7 +32,7 @@ def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.comparison import Comparison, legend
     from graphplan.accuracy.preference import forms
     from graphplan.check.trusted import construct
-    from graphplan.cycle.memory import afford
+    from graphplan.cycle.travel import afford
     from graphplan.errors import Disagreement
     from graphplan.mechanism.scene import load
 

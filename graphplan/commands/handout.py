@@ -46,7 +46,7 @@ def run(options: argparse.Namespace) -> int:
     if suffix == ".pdf":
         write(back_end("pdf")(_pages(on_paper(options).composition, options.only)), options.output)
         return 0
-    from graphplan.cycle.memory import afford
+    from graphplan.cycle.travel import afford
     from graphplan.output.stepper import stepper
 
     positions = POSITIONS if options.positions is None else options.positions

@@ -19,8 +19,7 @@ import numpy as np
 
 from graphplan.cycle.closure import SETTLED, Closure, distance, given, settle
 from graphplan.cycle.linkage import Array, Linkage
-from graphplan.cycle.memory import afford
-from graphplan.cycle.travel import TURN, travel_unit
+from graphplan.cycle.travel import TURN, afford, travel_unit
 
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""

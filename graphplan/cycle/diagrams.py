@@ -9,10 +9,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.chords import Ray
-from graphplan.cycle.curves import Curve, Places, Reals
-from graphplan.cycle.diagram_program import INTEGRATED, Found, Spot, constructed
-from graphplan.cycle.diagram_scales import DiagramScales, diagram_scales, sizes
+from graphplan.cycle.curves import Curve, DiagramScales, Places, Reals, diagram_scales, sizes
+from graphplan.cycle.diagram_program import INTEGRATED, Found, Ray, Spot, constructed
 from graphplan.errors import Refused
 from graphplan.kernel.program import Program
 

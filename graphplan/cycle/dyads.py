@@ -12,10 +12,8 @@ from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 from graphplan.cycle.linkage import Linkage, direction
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark, Program
+from graphplan.kernel.program import Board, Mark, Program, evaluate, freeze
 from graphplan.mechanism.model import Slide
 
 Vector = tuple[Any, Any]

@@ -15,11 +15,9 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.choice import Choice, Rating
-from graphplan.kernel.evaluate import error_at
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Movement, Primitive, plain
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
 
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
 SAME = 1e-12  # beside the drawing's size: two things that differ by less are one

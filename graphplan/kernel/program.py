@@ -1,19 +1,21 @@
 """The construction as a straight-line program: the board records it, the frozen program is read by all the rest.
+Passes prune and reorder it; one walk over its steps gives their numbers.
 
 A mark is a name for a step's result and nothing more: it has no coordinates, so a recipe cannot branch on them.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from typing import Any, NoReturn, Self
 
-from graphplan.kernel.choice import Choice
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Movement, Primitive
+from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive
+from graphplan.kernel.numbers import Domain
 from graphplan.phrases import Said, arranged, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
@@ -282,3 +284,97 @@ def _plain(value: Any) -> str:
     if not isinstance(value, Fraction | float) or 1000 % Fraction(value).denominator == 0:
         return f"{float(value):g}" if isinstance(value, Fraction | float) else str(value)
     return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{float(value):.6g}"
+
+
+# ---- passes: each gives a new program, numbered afresh ---------------------------------------------------------------
+
+
+def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
+    """The steps that the wanted marks need, renumbered in drawing order: what nothing needs is not drawn."""
+    return pruned(Program(tuple(board.steps), tuple(mark.step.index for mark in wanted)))
+
+
+def needed_steps(board: Board, wanted: Iterable[Mark]) -> set[int]:
+    """The steps, by index, that the wanted marks need."""
+    return _needed(board.steps, (mark.step.index for mark in wanted))
+
+
+def _needed(steps: Sequence[Step], wanted: Iterable[int]) -> set[int]:
+    needed = set(wanted)
+    for step in reversed(steps):
+        if step.index in needed:
+            needed.update(step.args)
+    return needed
+
+
+def pruned(program: Program) -> Program:
+    """The same program without the steps that no wanted mark needs."""
+    needed = _needed(program.steps, program.wanted)
+    place: dict[int, int] = {}
+    steps: list[Step] = []
+    for step in program.steps:
+        if step.index in needed:
+            place[step.index] = len(steps)
+            steps.append(replace(step, index=len(steps), args=tuple(place[arg] for arg in step.args)))
+    return Program(tuple(steps), tuple(place[index] for index in program.wanted))
+
+
+def gathered(program: Program) -> tuple[Program, list[int]]:
+    """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
+    order: list[int] = []
+    left = list(range(len(program)))
+    done = [False] * len(program)
+    while left:
+        panel = program.steps[left[0]].panel
+        later = []
+        for index in left:
+            step = program.steps[index]
+            if step.panel == panel and all(done[arg] for arg in step.args):
+                done[index] = True
+                order.append(index)
+            else:
+                later.append(index)
+        left = later
+    place = {index: position for position, index in enumerate(order)}
+    old = [program.steps[index] for index in order]
+    steps = [replace(s, index=place[s.index], args=tuple(place[arg] for arg in s.args)) for s in old]
+    return Program(tuple(steps), tuple(place[index] for index in program.wanted)), order
+
+
+# ---- numbers: one walk over the steps, whatever the number domain ----------------------------------------------------
+
+
+def evaluate(
+    program: Program,
+    domain: Domain,
+    given: Mapping[Any, Mapping[str, Any]] | None = None,
+    after: Callable[[Step], None] | None = None,
+) -> list[Any]:
+    """The value of every step, in order.
+
+    Reads a program, a number domain and, by name or index of a step, other parameters than were recorded (where a
+    point is given, how a guide runs); calls `after` after each step.
+    Fails with :class:`ConstructionError` naming the step, where the domain raises; arrays give nan instead.
+    """
+    values: list[Any] = []
+    given = given or {}
+    for step in program.steps:
+        other = given.get(step.name) or given.get(step.index)
+        params = {**step.params, **other} if other else step.params
+        try:
+            values.append(domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args], **params)))
+        except Undrawable as fault:
+            raise error_at(program, step, fault) from None
+        if after is not None:
+            after(step)
+    return values
+
+
+def error_at(program: Program, step: Step, fault: Undrawable) -> ConstructionError:
+    """The rule's fault with its step attached, in the letters of the sheet."""
+    names = [program.described(arg) for arg in step.args]
+    drawing = f"{program.text(step.index)} = {step.op.name}({', '.join(names)})"
+    if step.op.movement is Movement.MET:
+        drawing = f"{program.text(step.index)}, where {names[0]} should meet {names[1]}"
+    what_to_do = FAILURES[fault.code][1]
+    return ConstructionError(fault.code, program.number(step.index), drawing, fault.why, what_to_do, step.links)

@@ -10,10 +10,9 @@ from typing import Any
 import numpy as np
 
 from graphplan.errors import Refused, Undrawable
-from graphplan.kernel.evaluate import error_at
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.arrays import Arrays
-from graphplan.kernel.program import Step
+from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.motion.network import Network
 from graphplan.methods.recorded import Recorded

@@ -7,8 +7,7 @@ from collections.abc import Iterable, Iterator
 from itertools import combinations
 
 from graphplan.errors import Refused
-from graphplan.kernel.passes import freeze
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, freeze
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods import kinds

@@ -7,9 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
 from typing import Any, NamedTuple
 
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step
+from graphplan.kernel.program import Program, Step, evaluate
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind

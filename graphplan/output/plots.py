@@ -22,8 +22,7 @@ from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOL
 from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:
-    from graphplan.cycle.chords import Ray
-    from graphplan.cycle.diagram_program import Spot
+    from graphplan.cycle.diagram_program import Ray, Spot
     from graphplan.cycle.diagrams import Diagram
 
 HEADING, GAP = 3.5, 10.0  # mm: the letters of a quantity's name; between columns and rows

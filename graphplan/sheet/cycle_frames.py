@@ -12,11 +12,10 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.errors import ConstructionError
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM

@@ -17,7 +17,7 @@ from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import freeze
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Text
 

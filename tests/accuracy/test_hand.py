@@ -9,10 +9,9 @@ import pytest
 
 from graphplan.accuracy.hand import Hand, Slips
 from graphplan.kernel import Board, Mark
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.gradients import Gradients
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate, freeze
 
 Points = Sequence[Mark]
 Draw = Callable[[Board, Points], Mark]

@@ -14,17 +14,15 @@ import numpy as np
 import pytest
 
 from graphplan import construct, load
-from graphplan.cycle.chords import axes, by_chords, by_tangents, integrate
 from graphplan.cycle.curves import Curve, followed
-from graphplan.cycle.diagram_program import Found
+from graphplan.cycle.diagram_program import Found, axes, by_chords, by_tangents, integrate
 from graphplan.cycle.diagrams import Diagram, diagram
 from graphplan.errors import Refused
 from graphplan.kernel import Board, Mark
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.fractions import Fractions
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate, freeze
 from graphplan.output import plots
 
 HO = Fraction(25)

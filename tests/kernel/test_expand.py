@@ -6,11 +6,10 @@ import pytest
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
-from graphplan.kernel.choice import Choice
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.kinds import Choice
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate, freeze
 
 
 def points(board: Board, **places: tuple[float, float]) -> list[Mark]:

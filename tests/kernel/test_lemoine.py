@@ -7,11 +7,10 @@ from collections.abc import Callable
 import pytest
 
 from graphplan.kernel import Board, Mark
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.expand import STRICT, Expander
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate, freeze
 
 Draw = Callable[[Board, Mark, Mark, Mark], Mark]
 

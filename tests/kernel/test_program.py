@@ -13,9 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from graphplan.kernel import TABLE, Board, Mark, Program
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze, gathered, pruned
+from graphplan.kernel.program import evaluate, freeze, gathered, pruned
 
 
 def triangle() -> tuple[Board, list[Mark]]:

@@ -10,9 +10,8 @@ import pytest
 from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, quarters
 
 from graphplan.kernel import TABLE, Board, Program
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate, freeze
 from graphplan.kernel.tape import blocks
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.record import Symbols

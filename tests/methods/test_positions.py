@@ -7,8 +7,8 @@ import math
 import pytest
 
 import graphplan as gp
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import evaluate
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.positions import layout
 

@@ -17,10 +17,9 @@ import graphplan as gp
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import pencil
 from graphplan.check.trusted import report
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, TABLE
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Panel, Program
+from graphplan.kernel.program import Panel, Program, evaluate
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said

@@ -12,10 +12,8 @@ from dataclasses import replace
 from typing import Any
 
 from graphplan.errors import ConstructionError, Refused
-from graphplan.kernel.evaluate import evaluate
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.passes import freeze, needed_steps
-from graphplan.kernel.program import Mark
+from graphplan.kernel.program import Mark, evaluate, freeze, needed_steps
 from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow

@@ -10,8 +10,7 @@ from collections.abc import Iterable
 from itertools import combinations
 from typing import NamedTuple
 
-from graphplan.kernel.passes import needed_steps
-from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.program import Board, Mark, needed_steps
 from graphplan.mechanism.model import Scene
 from graphplan.methods.motion.plan import MotionPlan
 

@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from typing import NoReturn
 
 from graphplan import __version__
-from graphplan.commands.output import flush, hush
+from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout",
@@ -57,14 +57,10 @@ def _run(arguments: Sequence[str]) -> int:
         finally:
             flush()
     except GraphplanError as fault:
-        from graphplan.commands.messages import error
-
         for line in fault.lines:
             error(line)
         return fault.status
     except MemoryError as fault:
-        from graphplan.commands.messages import error
-
         error(f"graphplan {arguments[0]}: there is not enough memory ({fault or 'for so much'}); ask for less")
         return 2
     except BrokenPipeError:
@@ -90,36 +86,26 @@ class Parser(argparse.ArgumentParser):
 
     def error(self, message: str) -> NoReturn:
         """Tell what is wrong with the words, and end."""
-        from graphplan.commands.messages import error
-
         error(f"{self.prog}: {message}; {self.prog} --help tells what there is")
         raise SystemExit(2)
 
 
 def parser(names: Sequence[str]) -> argparse.ArgumentParser:
     """The command line of these subcommands."""
-    parser = Parser(
-        prog="graphplan",
-        description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as ordered "
-        "compass-and-straightedge steps, and checks them.",
-        epilog=EXAMPLES,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
-    )
+    raw = argparse.RawDescriptionHelpFormatter
+    parser = Parser(prog="graphplan", epilog=EXAMPLES, formatter_class=raw,
+                    description="Graphical analysis of planar mechanisms: constructs velocities and accelerations as "
+                    "ordered compass-and-straightedge steps, and checks them.")
     parser.add_argument("-V", "--version", action="version", version=f"graphplan {__version__}")
     commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, prog="graphplan")
     for name in names:
         module = importlib.import_module(f"graphplan.commands.{MODULES.get(name, name)}")
         summary, _, details = (module.__doc__ or "").partition("\n")
-        command = commands.add_parser(
-            name,
-            help=summary[0].lower() + summary[1:].rstrip("."),
-            description=summary,
-            epilog=details.strip() or None,
-            formatter_class=argparse.RawDescriptionHelpFormatter,
-        )
+        command = commands.add_parser(name, help=summary[0].lower() + summary[1:].rstrip("."), description=summary,
+                                      epilog=details.strip() or None, formatter_class=raw)
         if name not in SCENELESS:
-            what = "a scene file, - for standard input, or a packaged scene"
-            command.add_argument("scene", metavar="SCENE", help=what)
+            command.add_argument("scene", metavar="SCENE",
+                                 help="a scene file, - for standard input, or a packaged scene")
         module.options(command)
         command.add_argument("-q", "--quiet", action="store_true", help="no progress and no remarks, errors alone")
         command.set_defaults(run=module.run)

@@ -11,12 +11,11 @@ import argparse
 import shutil
 import sys
 from collections.abc import Iterator, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from graphplan.commands.output import as_json, write
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene import load, packaged
 
 ASKED = {"velocity": "v", "acceleration": "a", "forces": "F"}
 HEAD = ("scene", "links", "asks", "title", "source")
@@ -29,8 +28,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.mechanism.scene import load, packaged
-
     scenes = [load(name) for name in packaged()]
     if options.json:
         write(as_json([_data(scene) for scene in scenes]))
@@ -42,10 +39,10 @@ def run(options: argparse.Namespace) -> int:
 
 def _asked(scene: Scene) -> Iterator[str]:
     """What kinds of results a scene asks for."""
-    if scene.find.velocity or scene.find.links or scene.find.slides:
-        yield "velocity"
-    if scene.find.acceleration or scene.find.links or scene.find.slides:
-        yield "acceleration"
+    find = scene.find
+    for kind, points in (("velocity", find.velocity), ("acceleration", find.acceleration)):
+        if points or find.links or find.slides:
+            yield kind
     if scene.loads is not None:
         yield "forces"
 

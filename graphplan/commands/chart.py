@@ -19,15 +19,13 @@ import argparse
 from collections.abc import Callable, Iterable, Iterator
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 from graphplan.commands.choices import add_pencil, pencil
-from graphplan.commands.messages import Messages
-from graphplan.commands.output import folder_at, write
+from graphplan.commands.output import Messages, folder_at, write
 from graphplan.errors import Refused
-
-if TYPE_CHECKING:
-    from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.scene import load, packaged
 
 
 class Survey(NamedTuple):
@@ -66,7 +64,6 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.accuracy.survey.table import table
-    from graphplan.mechanism.scene import load
     from graphplan.output.charts import drawn
 
     for name in options.names:
@@ -87,8 +84,6 @@ def run(options: argparse.Namespace) -> int:
 
 def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: Messages) -> Iterator[Any]:
     """The rows of a chart, of these scenes or else of those that it is of; progress names each scene as it begins."""
-    from graphplan.mechanism.scene import load, packaged
-
     survey = CHARTS[name]
     if survey.progress:
         for row in survey.rows(module):

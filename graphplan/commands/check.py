@@ -14,8 +14,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices, given, reported
-from graphplan.commands.messages import error
-from graphplan.commands.output import as_json, write
+from graphplan.commands.output import as_json, error, write
 
 if TYPE_CHECKING:
     from graphplan.check.report import Report

@@ -12,8 +12,7 @@ import argparse
 from itertools import product
 
 from graphplan.commands.choices import add_paper, add_pencil, count, pencil
-from graphplan.commands.messages import Messages
-from graphplan.commands.output import as_json, write
+from graphplan.commands.output import Messages, as_json, write
 from graphplan.methods.styles import MOTION_PLANS
 
 HAND = 4096  # bytes for what one hand draws, as measured

@@ -18,8 +18,7 @@ from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, add_language, count, presented
-from graphplan.commands.messages import Messages, error
-from graphplan.commands.output import apart, kind, write
+from graphplan.commands.output import Messages, apart, error, kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:

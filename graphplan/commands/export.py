@@ -75,10 +75,6 @@ def _more(name: str, library: str | None) -> Mapping[str, str]:
         raise Refused(f"--library {library}", f"cannot be read ({why})", "name a copy of jsxgraphcore.js") from None
 
 
-def _plates(on_sheet: Drafted) -> Any:
-    return on_sheet.composition.plates
-
-
 def _sheet(on_sheet: Drafted) -> Any:
     from graphplan.sheet.layout.layout import layout
 
@@ -86,7 +82,7 @@ def _sheet(on_sheet: Drafted) -> Any:
 
 
 READ: dict[str, Callable[[Drafted], Any]] = {  # what back ends read
-    "plates": _plates,
+    "plates": lambda on_sheet: on_sheet.composition.plates,
     "sheet": _sheet,
     "sheets": lambda on_sheet: [_sheet(on_sheet)],
     "steps": lambda on_sheet: as_json(data(on_sheet)),

@@ -13,8 +13,7 @@ from html import escape
 from importlib.resources import files
 from pathlib import Path
 
-from graphplan.commands.messages import Messages, error
-from graphplan.commands.output import folder_at, write
+from graphplan.commands.output import Messages, error, folder_at, write
 
 HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked
 
@@ -52,8 +51,7 @@ def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
     from graphplan.commands.steps import protocol
     from graphplan.mechanism.scene import load, packaged
 
-    entries = []
-    names = packaged()
+    entries, names = [], packaged()
     for count, name in enumerate(names, 1):
         messages.progress(f"{count}/{len(names)} {name}")
         found = report(load(name))

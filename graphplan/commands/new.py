@@ -11,12 +11,31 @@ examples:
 from __future__ import annotations
 
 import argparse
+import re
+import tomllib
+from collections.abc import Iterable, Mapping
+from importlib.resources import files
 
-from graphplan.commands.messages import Messages
-from graphplan.commands.output import STANDARD, kind, write
-from graphplan.commands.templates import KINDS, template
+from graphplan.commands.output import STANDARD, Messages, kind, write
+from graphplan.mechanism.fields import Field, inner
+from graphplan.mechanism.placements import COORDINATES, WAYS
+from graphplan.mechanism.scene import SCENE
 
-ENDINGS = (".toml",)
+# In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
+# holds as it is, once its `#` are taken away.
+KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "open-chain", "blank")
+TOP = ("title", "source", "gravity")
+LOADS = ("balance", "masses", "forces", "moments", "friction")  # one paragraph: all of them need a balance
+
+HEAD = """\
+# :schema ./scene.schema.json
+# An editor (Even Better TOML, taplo) completes and checks this file once the blank is taken from the line above,
+# and there is the file that it names, by: graphplan schema > scene.schema.json
+# A line that begins with # and no blank is optional: take the # away to use it, with all its paragraph."""
+
+FORCES = """\
+# Forces: one paragraph, as each of its tables needs the balance; leave out the tables that are not wanted.
+# With them [find] may name reactions = ["A", "3 along 2"], joints and slides; without that all reactions are found."""
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -25,9 +44,55 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    kind(options.file, ENDINGS, "scene", "new")
+    kind(options.file, (".toml",), "scene", "new")
     write(template(options.kind), options.file, new=True)
     if options.file != STANDARD:
         told = f"{options.file}: written; graphplan watch {options.file} draws it whenever it is saved"
         Messages(options.quiet).remark(told)
     return 0
+
+
+def template(kind: str) -> str:
+    """The scene file to begin with."""
+    sections, written = {field.name: field for field in SCENE.fields}, _sections(kind)
+    top = zip(written[""].splitlines(), TOP, strict=True)
+    tables = [_section(field, written) for name, field in sections.items() if name not in (*TOP, *LOADS)]
+    loads = [_section(sections[name], written) for name in LOADS]
+    paragraphs = HEAD, "\n".join(_aligned((line, sections[name].words) for line, name in top)), *tables
+    return "\n\n".join([*paragraphs, "\n".join([FORCES, *loads])]) + "\n"
+
+
+def _sections(kind: str) -> dict[str, str]:
+    """The paragraphs of a template by the names of their tables; the first stands before all tables."""
+    text = files("graphplan").joinpath("scenes", "new", f"{kind}.toml").read_text(encoding="utf-8")
+    first, *others = text.strip().split("\n\n")
+    return {"": first, **{re.findall(r"\w+", paragraph)[0]: paragraph for paragraph in others}}
+
+
+def _section(section: Field, written: Mapping[str, str]) -> str:
+    """A section: what it is, and its lines, or the template that shows them."""
+    told = f"# {section.name}: {section.words}"
+    if section.name not in written:
+        return f"{told}; see graphplan new --kind {next(kind for kind in KINDS if section.name in _sections(kind))}"
+    says = {field.name: field.words for field in inner(section.kind)}
+    return "\n".join([told, *_aligned((line, _said(line, says)) for line in written[section.name].splitlines())])
+
+
+def _said(line: str, says: Mapping[str, str]) -> str:
+    """What is said of the key in a line, or of the way in which it places a point."""
+    line = line.removeprefix("#")
+    if line.startswith("["):
+        return ""
+    ((key, value),) = tomllib.loads(line).items()
+    if key in says:
+        return says[key]
+    if isinstance(value, dict):
+        return next(way.says for way in WAYS if {*way.keys} == value.keys())
+    return COORDINATES.says if isinstance(value, list) else ""
+
+
+def _aligned(rows: Iterable[tuple[str, str]]) -> list[str]:
+    """Lines with what is said of them, in a column."""
+    lines = list(rows)
+    wide = max((len(line) for line, told in lines if told), default=0)
+    return [f"{line:<{wide}}  # {told}" if told else line for line, told in lines]

@@ -1,7 +1,10 @@
-"""Output: where a command writes what it gives. All commands write here.
+"""Output: where a command writes what it gives, and what it says on standard error. All commands write here.
 
 A regular file appears in one step, whole or not at all, also behind a symbolic link. A device or a pipe is written
 through and stays what it is. `-` is standard output.
+
+Errors are always said, red on a terminal unless NO_COLOR is set (no-color.org); remarks unless `--quiet` is given;
+progress on a terminal alone.
 """
 
 from __future__ import annotations
@@ -12,13 +15,16 @@ import stat
 import sys
 from collections.abc import Sequence
 from contextlib import suppress
+from dataclasses import dataclass
 from errno import EACCES, EBADF, EEXIST, EISDIR
 from io import StringIO
 from typing import Any
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, printable
 
 STANDARD = "-"
+RED, PLAIN = "\x1b[31m", "\x1b[0m"
+WIDTH = 60  # of the line of progress, which is written over and over
 
 
 def kind(path: str | None, endings: Sequence[str], what: str, option: str = "-o") -> str:
@@ -163,3 +169,41 @@ def _unwritable(path: str | None, error: OSError | ValueError) -> Refused:
     if getattr(error, "errno", None) == EEXIST:
         return Refused(f"{path}: output", "it is there already", "another name, or remove it first")
     return Refused(f"{path}: output", f"cannot be written ({why})", "name a file in a folder that can be written to")
+
+
+# --- on standard error ---------------------------------------------------------------------------------------------
+
+
+def error(line: str) -> None:
+    """Tell what went wrong."""
+    coloured = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
+    _say(line, *((RED, PLAIN) if coloured else ("", "")))
+
+
+def _say(line: str, before: str = "", after: str = "") -> None:
+    """A line, which covers progress that may stand there."""
+    told = printable(line)
+    covering = f"{told:<{WIDTH}}" if sys.stderr.isatty() else told
+    _tell(f"{before}{covering}{after}\n")
+
+
+def _tell(text: str) -> None:
+    with suppress(OSError):  # there is no place to say so
+        print(text, end="", file=sys.stderr, flush=True)
+
+
+@dataclass(frozen=True)
+class Messages:
+    """What a command says besides errors and its results."""
+
+    quiet: bool
+
+    def remark(self, line: str) -> None:
+        """Tell what is worth knowing, though nothing is wrong."""
+        if not self.quiet:
+            _say(line)
+
+    def progress(self, told: str) -> None:
+        """Say how far it is, over what was said before; nothing when it is done."""
+        if not self.quiet and sys.stderr.isatty():
+            _tell(f"\r{told:<{WIDTH}}\r")

@@ -30,8 +30,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.commands.choices import add_choices, add_pencil, add_sheet, on_paper
-from graphplan.commands.messages import Messages, error
-from graphplan.commands.output import STANDARD, as_json, kind, write
+from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, write
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 

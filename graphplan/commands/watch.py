@@ -16,7 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from graphplan.commands import draw
-from graphplan.commands.messages import Messages, error
+from graphplan.commands.output import Messages, error
 from graphplan.errors import GraphplanError, Refused
 
 PERIOD = 0.3  # seconds between two looks at the file

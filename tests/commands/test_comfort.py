@@ -17,7 +17,7 @@ import pytest
 from graphplan import __version__
 from graphplan.commands import main
 from graphplan.commands.catalogue import fitted
-from graphplan.commands.templates import KINDS, LOADS, template
+from graphplan.commands.new import KINDS, LOADS, template
 from graphplan.mechanism.scene import load, packaged, parse
 from graphplan.mechanism.schema import scene
 

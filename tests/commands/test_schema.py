@@ -15,8 +15,8 @@ from jsonschema import Draft202012Validator
 
 import graphplan
 from graphplan.commands import main
+from graphplan.commands.new import KINDS, template
 from graphplan.commands.result_schemas import printed as schema_of
-from graphplan.commands.templates import KINDS, template
 from graphplan.errors import SceneError
 from graphplan.mechanism.items import Item
 from graphplan.mechanism.scene import load, packaged, parse

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from graphplan.commands import main
-from graphplan.commands.templates import template
+from graphplan.commands.new import template
 
 ROOT = Path(__file__).parent.parent.parent
 SCENE = template("four-bar")

@@ -14,10 +14,9 @@ from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.phrases import Said, joined, said
-from graphplan.sheet.layout.compose import Composer
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composer, Composition
 from graphplan.sheet.layout.scales import digits
-from graphplan.sheet.words.deviations import Deviation, Deviations
+from graphplan.sheet.words.tables import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 if TYPE_CHECKING:

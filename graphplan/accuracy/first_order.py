@@ -27,7 +27,7 @@ from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.deviations import Deviation
+from graphplan.sheet.words.tables import Deviation
 
 ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
 

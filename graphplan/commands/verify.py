@@ -205,7 +205,7 @@ def _class(desk: Desk, folder: Path) -> Findings:
     found = Classroom(desk.on_sheet.drawing.scene.title, tuple(marked), tuple(unread))
 
     def page(ending: str) -> str:
-        from graphplan.output.class_report import class_list
+        from graphplan.output.report_page import class_list
 
         return class_list(found, desk.on_sheet.composition.plans.tongue)
 

@@ -25,7 +25,7 @@ from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.deviations import Deviations
+from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import Words
 
 SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails

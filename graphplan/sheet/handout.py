@@ -15,7 +15,7 @@ from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout, titled
-from graphplan.sheet.layout.pages import packed
+from graphplan.sheet.layout.paper import packed
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed

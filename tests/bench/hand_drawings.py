@@ -38,8 +38,7 @@ from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.sheet.handout import code, solution, task
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
 
 PENCIL, TRIES = Pencil(), 60

@@ -14,8 +14,7 @@ from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSEEN, WRONG, Ellip
 from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
 
 TURNED = complex(0.9, 0.3)  # the student's sheet beside ours: turned, and a little smaller
 TOLERANCE = 0.5

@@ -14,7 +14,7 @@ from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, Verdict
 from graphplan.phrases import said
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 
 WRONG_LINE = "wrong line"
 

@@ -21,8 +21,7 @@ from graphplan.marking.submission import read
 from graphplan.marking.traces import Number, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.output.svg import svg
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 
 PENCIL = Pencil()

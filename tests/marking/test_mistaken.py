@@ -20,7 +20,7 @@ from graphplan.marking.judge.student_sheet import FAINT, FILED, GONE, THERE, Res
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.marking.traces import Submission
 from graphplan.phrases import said
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 
 KINDS = (POINT, LINE, CIRCLE)
 

@@ -28,7 +28,7 @@ from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E4
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.corner_marks import cells, corner_marks, numbers, places, sheet_code  # noqa: E402
 from graphplan.sheet.handout import task  # noqa: E402
-from graphplan.sheet.layout.compose import compose  # noqa: E402
+from graphplan.sheet.layout.composition import compose  # noqa: E402
 from graphplan.sheet.layout.layout import layout  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402
 

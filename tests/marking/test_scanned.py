@@ -22,8 +22,7 @@ from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E
 from graphplan.marking.submission import read  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
 from graphplan.sheet.handout import code, solution, task  # noqa: E402
-from graphplan.sheet.layout.compose import compose  # noqa: E402
-from graphplan.sheet.layout.composition import Composition  # noqa: E402
+from graphplan.sheet.layout.composition import Composition, compose  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402
 
 

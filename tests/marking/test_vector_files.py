@@ -22,7 +22,7 @@ from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Polyline, Sheet
 from graphplan.sheet.plates.plate import Plates

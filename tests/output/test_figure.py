@@ -12,7 +12,7 @@ import graphplan as gp
 from graphplan.kernel.program import Panel
 from graphplan.output.exports.formula import Language, formula, operations
 from graphplan.output.exports.walk import corners, identifiers
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arrow, Polygon, Polyline
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism

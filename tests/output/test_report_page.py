@@ -17,10 +17,9 @@ from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict
 from graphplan.marking.traces import Number, PlanFrame, Trace
-from graphplan.output.class_report import class_list
-from graphplan.output.report_page import marked
+from graphplan.output.report_page import class_list, marked
 from graphplan.phrases import said
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.words.tongue import ENGLISH
 
 HOSTILE = "<script>alert(1)</script>\"'&<img src=x onerror=alert(1)>"

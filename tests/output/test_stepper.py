@@ -24,7 +24,7 @@ import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.output.stepper import stepper
 from graphplan.sheet.cycle_frames import CycleFrames, standing, turning
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import sentence_runs
 
 POSES = 12
@@ -291,7 +291,8 @@ def test_printed_it_is_the_solution(page: Any) -> None:
 def test_the_bytes_are_the_same_whatever_the_hashes() -> None:
     """Two processes with other hashes write the same page."""
     code = ("import sys, graphplan as gp; from graphplan.output.stepper import stepper; "
-            "from graphplan.sheet.cycle_frames import standing; from graphplan.sheet.layout.compose import compose; "
+            "from graphplan.sheet.cycle_frames import standing; "
+            "from graphplan.sheet.layout.composition import compose; "
             "drawing = gp.construct(gp.load('slider-crank')); "
             "sys.stdout.write(stepper(standing(drawing, compose(drawing))))")
     pages = {subprocess.run([sys.executable, "-c", code], capture_output=True, check=True,

@@ -20,7 +20,7 @@ from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, Page
 from graphplan.sheet.handout import guided, task
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
 from graphplan.sheet.plates.display import Polyline, Rect, Sheet, Text

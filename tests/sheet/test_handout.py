@@ -18,9 +18,8 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, turning
 from graphplan.sheet.frames.corner_marks import corner_marks
 from graphplan.sheet.handout import code, guided, solution, task
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.pages import paged
+from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.paper import paged
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Polygon, Sheet, Text
 from graphplan.sheet.words.rows import Cell, TextRow

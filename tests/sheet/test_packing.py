@@ -11,14 +11,14 @@ from sheets import drawing_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.pages import packed, paged
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.paper import packed, paged
 from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.answer_boxes import TALL, TIGHT, tightened
 from graphplan.sheet.words.rows import Cell, TextRow
+from graphplan.sheet.words.tables import TALL, TIGHT, tightened
 from graphplan.sheet.words.task import Task
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
-from graphplan.sheet.layout.divisions import divisions
+from graphplan.sheet.layout.paper import divisions
 from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed

@@ -14,7 +14,7 @@ from sheets import drawing_of, outside
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.methods.construction import Construction
-from graphplan.sheet.layout.compose import compose
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import plain

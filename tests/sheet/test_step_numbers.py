@@ -8,8 +8,7 @@ import pytest
 from sheets import SCENES, drawing_of, outside
 
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed

@@ -19,7 +19,7 @@ from graphplan.marking.judge.student_strokes import RED, SIZES, StudentStrokes, 
 from graphplan.marking.judge.verdict import WRONG, Judgement, Verdict
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
-from graphplan.sheet.layout.pages import packed
+from graphplan.sheet.layout.paper import packed
 from graphplan.sheet.lettering.label_candidates import SMALL, Array, Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, Runs, sentence_runs, width, wrap

@@ -16,9 +16,7 @@ from itertools import pairwise
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.presentation import SIZES
 from graphplan.phrases import joined, said
-from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.frames.title_gost import GostBlock
-from graphplan.sheet.frames.title_iso import IsoBlock
+from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
 from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import FRAME, LETTERS, Pen

@@ -1,17 +1,24 @@
-"""Title blocks: what they say of a sheet, and how lettering stands in their cells."""
+"""Title blocks: what they say of a sheet, and how lettering stands in their cells, after ISO 7200 and GOST 2.104.
+
+ISO: the title over its cells, in the lower right corner. The standard's block is 180 mm wide, as the frame of an
+upright A4; on larger sheets it is no wider than the column of words above it. The projection symbol is left out: a plan
+has none. GOST, form 1: 185 x 55 mm, with the widths and heights of the standard. A sheet of construction has no
+material, so the source stands in that cell; what a construction has nothing to say of, such as its mass, stays empty.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from itertools import pairwise
+from typing import NamedTuple, Protocol
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import Said, said
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs, wrap
+from graphplan.phrases import Said, joined, said, unit
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
-from graphplan.sheet.plates.pens import BORDER, FRAME, LETTERS
+from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
 from graphplan.words.tongue import Tongue
 
 CONSTRUCTION, SOLUTION, STRIP = said("Construction sheet"), said("Solution"), said("Film strip")
@@ -86,3 +93,208 @@ def filled(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str
     top = rect.centre[1] + (len(lines) - 1) * LEADING * size / 2 - CAPS * size / 2
     for i, runs in enumerate(lines):
         yield Text(LETTERS, "text", None, (x, top - i * LEADING * size), runs, size, anchor, bold)
+
+
+# ---- ISO 7200 ------------------------------------------------------------------------------------------------------
+
+WIDEST, PITCH = 180.0, 1.45
+PAD, CELL = 2.0, 1.2  # mm beside the title, and beside the lettering of a cell
+CELL_HIGH = 9.0  # mm: of a cell with one line
+FOOT, HEAD = 1.9, 2.8  # mm: the lowest base line of a cell above its edge, that of its heading below
+MOST = 3  # lines of a title in large letters; twice as many in small ones
+RATIO, PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
+ANY_PAGE = Page(CONSTRUCTION, "A0", RATIO)
+OPTIONAL = (  # which stand where the scene says them
+    TitleCell(said("Legal owner"), "sheet.owner"), TitleCell(said("Number"), "sheet.number"),
+    TitleCell(said("Date of issue"), "sheet.date"), TitleCell(said("Approved by"), "sheet.approved_by"),
+)  # fmt: skip
+ALWAYS = (
+    TitleCell(said("Document"), "document"), TitleCell(said("Drawn by"), "sheet.drawn_by"),
+    TitleCell(said("Scale"), "sheet.k_s"), TitleCell(said("Format"), "format"), TitleCell(said("Sheet"), "page"),
+    TitleCell(said("Language"), "language"),
+)  # fmt: skip
+
+
+class _Filled(NamedTuple):
+    """What a cell tells. It is as wide as its text or, where that differs from page to page, as the `longest` is."""
+
+    heading: str
+    text: str
+    longest: str
+
+    @property
+    def natural(self) -> float:
+        """The width in which all stands on one line."""
+        return max(_long(self.heading, HEADING), _long(self.longest or self.text)) + 2 * CELL
+
+    @property
+    def size(self) -> float:
+        """The size of the lettering, smaller only where the text is longer than what should be the longest."""
+        return SIZE * min(1.0, _long(self.longest) / _long(self.text)) if self.longest and self.text else SIZE
+
+    def lines(self, wide: float) -> list[Runs]:
+        """The lettering on lines."""
+        runs = sentence_runs(self.text)
+        return [runs] if self.longest else wrap(runs, SIZE, wide - 2 * CELL)
+
+
+@dataclass(frozen=True)
+class IsoBlock:
+    """The title block of a scene after ISO 7200."""
+
+    scene: Scene
+    tongue: Tongue
+
+    def width(self, frame: Rect, pitch: float) -> float:
+        """The whole frame where the block has room for no more, else the pitch of the columns."""
+        return frame.width if frame.width <= WIDEST else min(pitch, WIDEST)
+
+    def height(self, wide: float) -> float:
+        """The same for every page."""
+        rows = sum(_high(row, wide) for row in self._rows(wide))
+        return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide))
+
+    def items(self, rect: Rect, page: Page) -> Iterator[Item]:
+        """The block in its rectangle."""
+        yield stroke((rect.left, rect.bottom), (rect.left, rect.top), wide=True)
+        yield stroke((rect.left, rect.top), (rect.right, rect.top), wide=True)
+        y = rect.top - PAD
+        for runs, size, bold in self._title(rect.width):
+            y -= PITCH * size
+            yield Text(LETTERS, "text", None, (rect.left + PAD, y + 0.45 * size), runs, size, "start", bold)
+        y -= PAD
+        for row in self._rows(rect.width, page):
+            high = _high(row, rect.width)
+            yield stroke((rect.left, y), (rect.right, y))
+            yield from _cells(row, Rect(rect.left, y - high, rect.right, y))
+            y -= high
+
+    def _title(self, wide: float) -> list[tuple[Runs, float, bool]]:
+        """The wrapped title and source with their sizes; a long title is smaller. Refused where it is much too long."""
+        room = wide - 2 * PAD
+        large, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in (TITLE, SIZE))
+        source = wrap(sentence_runs(self.scene.source), SIZE, room)
+        for name, lines in (("title", small), ("source", source)):
+            if len(lines) > 2 * MOST:
+                raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")
+        lines, size = (large, TITLE) if len(large) <= MOST else (small, SIZE)
+        return [*((runs, size, True) for runs in lines), *((runs, SIZE, False) for runs in source)]
+
+    # ---- cells -----------------------------------------------------------------------------------------------------
+
+    def _rows(self, wide: float, page: Page = ANY_PAGE) -> Iterator[list[_Filled]]:
+        """The cells in rows: first those that a scene fills or not, then those of every sheet."""
+        found, longest = values(self.scene, self.tongue, page), self._longest()
+        for cells in ([cell for cell in OPTIONAL if found[cell.field]], ALWAYS):
+            row: list[_Filled] = []
+            for cell in cells:
+                made = _Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+                if row and sum(other.natural for other in (*row, made)) > wide:
+                    yield row
+                    row = []
+                row.append(made)
+            if row:
+                yield row
+
+    def _longest(self) -> dict[str, str]:
+        """The longest that fields have, as a rule, where they are not the same on every page."""
+        ratio, per_length = RATIO, joined((PER_LENGTH, unit(f"mm/{self.scene.units.length}")), " ")
+        if self.scene.sheet.convention == "drawn":
+            ratio = self.tongue(joined((RATIO, per_length), "; "))
+        document = max(map(self.tongue, DOCUMENTS), key=_long)
+        return {"document": document, "sheet.k_s": ratio, "format": "A0", "page": "00/00"}
+
+
+def _long(text: str, size: float = SIZE) -> float:
+    """How long a text is."""
+    return width(sentence_runs(text), size)
+
+
+def _high(row: list[_Filled], wide: float) -> float:
+    """The height of a row: cells that stand alone may have more than one line."""
+    return CELL_HIGH + PITCH * SIZE * (max(len(cell.lines(wide)) for cell in row) - 1)
+
+
+def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
+    """A row of cells, which share the width that they do not need."""
+    spare = max(rect.width - sum(cell.natural for cell in row), 0.0) / len(row)
+    x = rect.left
+    for i, cell in enumerate(row):
+        if i:
+            yield stroke((x, rect.bottom), (x, rect.top))
+        yield Text(FAINT, "text", None, (x + CELL, rect.top - HEAD), sentence_runs(cell.heading), HEADING)
+        lines = cell.lines(rect.width)
+        for k, runs in enumerate(reversed(lines)):
+            at = x + CELL, rect.bottom + FOOT + k * PITCH * SIZE
+            yield Text(LETTERS, "text", None, at, runs, cell.size)
+        x += cell.natural + spare
+
+
+# ---- GOST 2.104 ----------------------------------------------------------------------------------------------------
+
+WIDE, HIGH, ROW = 185.0, 55.0, 5.0
+CHANGES = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)  # the edges of the columns of changes; the first two make that of roles
+SMALL = (SIZE, 2.2, HEADING)  # of our own words, in narrow cells
+LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.0, 35.0, WIDE, 40.0)
+
+HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
+ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. check"), ""), ("", ""), (
+    said("Std. check"), ""), (said("Approved"), "sheet.approved_by")
+CELLS = (  # from left to right, by columns
+    *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL, middle=True)
+      for head, (left, right) in zip(HEADS, pairwise(CHANGES), strict=True)),
+    *(TitleCell(role, "", (0.0, 25.0 - ROW * i, 17.0, 30.0 - ROW * i), SMALL) for i, (role, _) in enumerate(ROLES)),
+    *(TitleCell("", name, (17.0, 25.0 - ROW * i, 40.0, 30.0 - ROW * i)) for i, (_, name) in enumerate(ROLES)),
+    TitleCell("", "sheet.date", (55.0, 25.0, 65.0, 30.0), SMALL, middle=True),
+    TitleCell("", "sheet.number", (65.0, 40.0, WIDE, HIGH), (5.0, TITLE, SIZE), middle=True),
+    TitleCell("", "title", (65.0, 20.0, 135.0, 40.0), (TITLE, 3.0, SIZE), bold=True, middle=True),
+    TitleCell("", "source", (65.0, 0.0, 135.0, 15.0), middle=True),
+    TitleCell("", "sheet.owner", (135.0, 0.0, WIDE, 15.0), (TITLE, SIZE), middle=True),
+    TitleCell("", "document", (65.0, 15.0, 135.0, 20.0), SMALL, middle=True),
+    TitleCell(said("Lit."), "", LIT, SMALL, middle=True),
+    TitleCell(said("Mass"), "", MASS, SMALL, middle=True),
+    TitleCell(said("Scale"), "", SCALE, SMALL, middle=True),
+    TitleCell("", "sheet.k_s", (167.0, 20.0, WIDE, 35.0), SMALL, middle=True),
+    TitleCell(said("Sheet"), "number", (135.0, 15.0, 155.0, 20.0), SMALL),
+    TitleCell(said("Sheets"), "of", (155.0, 15.0, WIDE, 20.0), SMALL),
+)
+LEVEL = (  # the lines across: how high, from where to where, and whether they are wide
+    *((ROW * row, 0.0, 65.0, row in (6, 7)) for row in range(1, 11)),
+    (HIGH, 0.0, WIDE, True), (40.0, 65.0, WIDE, True), (15.0, 65.0, WIDE, True), (35.0, 135.0, WIDE, True),
+    (20.0, 135.0, WIDE, True),
+)  # fmt: skip
+UPRIGHT = (  # the lines upwards: where, from how high to how high, and whether they are wide
+    (0.0, 0.0, HIGH, True), (7.0, 30.0, HIGH, True), *((x, 0.0, HIGH, True) for x in CHANGES[2:]),
+    (135.0, 0.0, 40.0, True), (140.0, 20.0, 35.0, False), (145.0, 20.0, 35.0, False), (150.0, 20.0, 40.0, True),
+    (155.0, 15.0, 20.0, True), (167.0, 20.0, 40.0, True),
+)  # fmt: skip
+
+
+@dataclass(frozen=True)
+class GostBlock:
+    """The title block of a scene after GOST 2.104."""
+
+    scene: Scene
+    tongue: Tongue
+
+    def width(self, frame: Rect, pitch: float) -> float:
+        """The same whatever the frame."""
+        return WIDE
+
+    def height(self, wide: float) -> float:
+        """The same whatever it says."""
+        return HIGH
+
+    def items(self, rect: Rect, page: Page) -> Iterator[Item]:
+        """The block in its rectangle."""
+        x, y, found = rect.left, rect.bottom, values(self.scene, self.tongue, page)
+        for at, start, end, wide in LEVEL:
+            yield stroke((x + start, y + at), (x + end, y + at), wide)
+        for at, start, end, wide in UPRIGHT:
+            yield stroke((x + at, y + start), (x + at, y + end), wide)
+        for cell in CELLS:
+            left, low, right, high = cell.place
+            text = " ".join(filter(None, (self.tongue(cell.words), found.get(cell.field, ""))))
+            place = Rect(x + left, y + low, x + right, y + high)
+            what = cell.field or cell.words
+            yield from filled(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)

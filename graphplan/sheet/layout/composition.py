@@ -3,23 +3,30 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
+from functools import cache, cached_property, partial
+from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.methods.panels import MECHANISM
+from graphplan.kernel.program import Panel
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.given_scales import ROUNDING, GivenScales, given_scales
 from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
-from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
+from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
 from graphplan.sheet.words.rows import TextRow
+from graphplan.sheet.words.tables import Deviations
+from graphplan.sheet.words.texts import Words
+from graphplan.words.tongue import Tongue
+from graphplan.words.tongue import tongue as tongue_of
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
@@ -164,3 +171,94 @@ def _shortest(plans: Plans) -> float:
     links = plans.drawing.scene.links.values()
     apart = (math.dist(plans.place(p), plans.place(q)) for names in links for p in names for q in names)
     return min((distance for distance in apart if distance > 0), default=math.inf)
+
+
+ROUNDING = 1e-9  # of a scale: closer than this two are one
+
+
+# ---- scales that the scene gives: they hold whatever room there is, or are refused ----------------------------------
+
+
+@dataclass(frozen=True)
+class GivenScales:
+    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one."""
+
+    k_s: float | None
+    multiples: dict[str, Fraction]
+
+
+def given_scales(plans: Plans) -> GivenScales:
+    """The scales that a scene gives for its sheet.
+
+    All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
+    plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
+    """
+    k_s = _mechanism_scale(plans.drawing)
+    multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
+    _check_force_plans(plans)
+    return GivenScales(k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None})
+
+
+def _mechanism_scale(drawing: Construction) -> float | None:
+    """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
+    first: float | None = None
+    for name, scale, lengths in _given(drawing):
+        if first is not None and not math.isclose(scale * lengths, first, rel_tol=ROUNDING):
+            raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
+                          f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
+        first = first or scale * lengths
+    return first
+
+
+def _given(drawing: Construction) -> Iterator[tuple[str, float, float]]:
+    """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
+    sheet = drawing.scene.sheet
+    if sheet.k_F and drawing.scene.loads is None:
+        raise Refused("sheet.k_F", "the scene has no forces to draw", "leave it out")
+    kinds = (("k_s", sheet.k_s, 1.0), ("k_v", sheet.k_v, drawing.kappa), ("k_a", sheet.k_a, drawing.kappa**2),
+             ("k_F", sheet.k_F, float(drawing.phi)))  # fmt: skip
+    yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
+
+
+def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
+    """The multiple given for a plan, or 1 where a scale of its vectors is given."""
+    sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
+    plan = panel.whole
+    told = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
+    scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
+    return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
+
+
+def _check_force_plans(plans: Plans) -> None:
+    """Every force plan that is spoken of is one that is drawn, unless none is."""
+    drawn = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
+    for plan in plans.drawing.scene.sheet.multiples:
+        if drawn and ForcePlan.names(plan) and plan not in drawn:
+            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")
+
+
+def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
+            pencil: Deviations | None = None, tongue: Tongue | None = None) -> Composition:
+    """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
+
+    Without a tongue it speaks that of the scene's sheet.
+
+    Fails with `Refused` where the words do not fit the paper named.
+    """
+    return Composer(drawing, paper, check, tongue).compose(pencil)
+
+
+class Composer:
+    """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
+
+    def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
+                 tongue: Tongue | None = None):
+        scene = drawing.scene
+        say = tongue or tongue_of(scene.sheet.language or "en")
+        self.plans, self.paper = Plans(drawing, say), paper or scene.sheet.paper or None
+        self.words, self.title = Words(self.plans, check or {}), frame_of(scene).block(scene, say)
+
+    def compose(self, pencil: Deviations | None = None) -> Composition:
+        """The composition with these drawing errors told on it."""
+        rows = cache(partial(self.words.rows, pencil=pencil or Deviations()))
+        return composed(self.plans, rows, self.title, self.paper)

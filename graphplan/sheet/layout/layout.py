@@ -3,19 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from fractions import Fraction
 from typing import Any
 
+from graphplan.kernel.program import Panel
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
-from graphplan.sheet.layout.compose import compose
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.scales import Scales, times
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Sheet
+from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Text
 from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.captions import captions
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
@@ -74,3 +76,22 @@ def _description(composition: Composition, plans: Plans) -> str:
     told = [joined((panel.words, joined(composition.scales.said(panel, plans.kinds(panel)))), ": ")
             for panel in composition.plans.panels]
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
+
+
+HEAD = 3.0  # mm: the size of a plan's name
+LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base line, and from base line to base line
+
+
+def captions(rect: Rect, panel: Panel, plans: Plans, scales: Scales) -> Iterator[Text]:
+    """Over a plan what it is, and its scales."""
+    kinds, multiple = plans.kinds(panel), scales.multiples.get(panel, Fraction(1))
+    head = panel.caption(kinds)
+    head = head if multiple == 1 else joined((head, times(multiple)))
+    heads = wrap(sentence_runs(plans.tongue(head)), HEAD, rect.width - 5, bold=True)
+    told = plans.tongue(joined(scales.said(panel, kinds), ",  "))
+    lines: list[Runs] = [*heads, *wrap(sentence_runs(told), SIZE, rect.width - 5)]
+    first, pitch = LINES[min(max(len(lines), 2), 3)]
+    for i, runs in enumerate(lines[:3]):
+        bold = i < len(heads)
+        yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - first - pitch * i), runs,
+                   HEAD if bold else SIZE, bold=bold)  # fmt: skip

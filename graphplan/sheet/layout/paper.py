@@ -6,6 +6,7 @@ The smallest sheet is taken on which the whole step list stands in legible lette
 from __future__ import annotations
 
 import math
+from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TypeVar
@@ -14,9 +15,9 @@ from graphplan.errors import Refused
 from graphplan.mechanism.presentation import SIZES
 from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.divisions import divisions
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.words.rows import TextRow, fill
+from graphplan.sheet.words.rows import Placed, TextRow, fill
+from graphplan.sheet.words.tables import tightened
 
 GUTTER, COLUMN = 5.0, 96.0
 SLACK = 1e-6  # mm by which edges that should be one may differ
@@ -118,3 +119,111 @@ def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
     feet = [block.top if left + pitch > block.left + SLACK else region.bottom for left in lefts]
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
     return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2, 2.0) for slot in slots)
+
+
+SHARES = (0.5, 0.55, 0.6, 0.66)
+
+
+# ---- how the plans share their part: the first has the larger share, the others stand beside or under it ------------
+
+
+def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rect]]:
+    """The ways to divide a region; `needs` says how much room each plan wants beside the others, in drawing order."""
+    first, *rest = needs
+    if not rest:
+        yield {first: plans}
+        return
+    left, bottom, right, top = plans.left, plans.bottom, plans.right, plans.top
+    others = {panel: needs[panel] for panel in rest}
+    for share in SHARES:
+        x, y = left + share * plans.width, bottom + (1 - share) * plans.height
+        for division in _shared(Rect(x, bottom, right, top), others, len(rest)):
+            yield {first: Rect(left, bottom, x, top), **division}
+        for division in _shared(Rect(left, bottom, right, y), others, 1):
+            yield {first: Rect(left, y, right, top), **division}
+
+
+def _shared(region: Rect, needs: Mapping[str, float], few: int) -> Iterator[dict[str, Rect]]:
+    """The ways in which plans share a region: one or two evenly in `few` rows, more in rows or columns."""
+    if len(needs) < 3:
+        yield _grid(region, dict.fromkeys(needs, 1.0), few)
+        return
+    for count in range(1, len(needs) + 1):
+        yield _grid(region, needs, count)
+        yield _grid(region, needs, count, even=True)
+        yield {panel: _turned(rect) for panel, rect in _grid(_turned(region), needs, count).items()}
+
+
+def _grid(region: Rect, needs: Mapping[str, float], count: int, even: bool = False) -> dict[str, Rect]:
+    """Rows from the top, plans from the left: areas are as the needs, or the rows are of even height."""
+    total, found, top = sum(needs.values()), dict[str, Rect](), region.top
+    for row in _rows(needs, count):
+        need, left = sum(needs[panel] for panel in row), region.left
+        bottom = top - region.height * (1 / count if even else need / total)
+        for panel in row:
+            right = left + region.width * needs[panel] / need
+            found[panel] = Rect(left, bottom, right, top)
+            left = right
+        top = bottom
+    return found
+
+
+def _rows(needs: Mapping[str, float], count: int) -> Sequence[Sequence[str]]:
+    """The plans in so many rows of about the same need, none of them empty."""
+    rows: list[list[str]] = [[]]
+    total, filled = sum(needs.values()), 0.0
+    for i, (panel, need) in enumerate(needs.items()):
+        due = len(needs) - i <= count - len(rows)  # each row left gets a plan of its own
+        if rows[-1] and len(rows) < count and (due or (filled + need / 2) * count / total > len(rows)):
+            rows.append([])
+        rows[-1].append(panel)
+        filled += need
+    return rows
+
+
+def _turned(rect: Rect) -> Rect:
+    """Right and down exchanged: what were rows are columns. Turned twice, a rectangle is as before."""
+    return Rect(-rect.top, -rect.right, -rect.bottom, -rect.left)
+
+
+# ---- words that run from one page to the next -----------------------------------------------------------------------
+
+
+def paged(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
+    """The rows page by page: the columns of the arrangement, then as many pages of columns as it takes.
+
+    Fails with `Refused` where what must stand together is higher than a page.
+    """
+    columns, further = arrangement.columns, _whole_page(arrangement)
+    while rows:
+        count = _fitting(rows, columns)
+        if not count and columns is further:
+            raise Refused(f"paper {arrangement.paper}", "a table does not fit on a page of it", "a larger sheet")
+        yield fill(rows[:count], columns) or []
+        rows, columns = rows[count:], further
+
+
+def packed(rows: Sequence[TextRow], arrangement: Arrangement) -> list[list[Placed]]:
+    """The rows page by page, closer to each other where that saves a page; fails as :func:`paged` does."""
+    loose, tight = (list(paged(kind, arrangement)) for kind in (rows, [tightened(row) for row in rows]))
+    return tight if len(tight) < len(loose) else loose
+
+
+def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
+    """How many of the rows the columns hold, not parted where rows keep together."""
+    breaks, held = [0], 0
+    for i, row in enumerate(rows):
+        held = min(max(held, i + row.keep), len(rows) - 1)
+        if held == i:
+            breaks.append(i + 1)
+    full = bisect_right(breaks, False, key=lambda count: fill(rows[:count], columns) is None)
+    return breaks[full - 1]
+
+
+def _whole_page(arrangement: Arrangement) -> tuple[Rect, ...]:
+    """Columns of the same width over a whole page, those over the title block ending above it."""
+    frame, title, wide = arrangement.frame, arrangement.title, arrangement.columns[0].width
+    count = max(1, int(frame.width // (wide + GUTTER)))
+    lefts = [frame.left + i * frame.width / count + GUTTER / 2 for i in range(count)]
+    feet = [title.top if left + wide > title.left else frame.bottom for left in lefts]
+    return tuple(Rect(left, foot + 2.0, left + wide, frame.top - 2.0) for left, foot in zip(lefts, feet, strict=True))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -11,7 +11,7 @@ import numpy as np
 
 from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SIZE, Run, Runs, width
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Rect, Spot
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 
 DIRECTIONS = np.array([(math.cos(i * math.pi / 8), math.sin(i * math.pi / 8)) for i in range(16)])
@@ -71,6 +71,25 @@ class Wish:
     def depth(self) -> float:
         """How far the letters reach below the base line, in ems."""
         return DROP + 0.15 if any(run.level < 0 for run in self.runs) else DEPTH
+
+    def items(self, place: Candidates) -> Iterator[Item]:
+        """The letter at its place."""
+        left, low, right, top = map(float, place.boxes)
+        x, y = map(float, place.spots)
+        middle = (left + right) / 2, (low + top) / 2
+        if place.led:
+            nearest = min(max(x, left), right), min(max(y, low), top)
+            yield Polyline(pens.LEADER, "letters", self.step, ((x, y), nearest))
+        if self.balloon:
+            yield Circle(pens.BALLOON, "letters", self.step, middle, BALLOON)
+            base = middle[0], middle[1] - self.size * CAPS / 2
+            yield Text(self.pen, "letters", self.step, base, self.runs, self.size, "middle", label=self.label)
+        else:
+            x, y = left, low + self.size * self.depth
+            yield Text(self.pen, "letters", self.step, (x, y), self.runs, self.size, bold=self.bold, label=self.label)
+            if self.raised:
+                yield Text(pens.FAINT, "letters", self.step, (x + self.tail, y + self.lift), self.figures, SMALL,
+                           label=f"step {self.raised}")
 
 
 @dataclass(frozen=True)

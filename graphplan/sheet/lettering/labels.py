@@ -1,22 +1,22 @@
 """Where letters go: beside their mark, off every line if they can be, never on each other.
 
 Each letter may stand in any of many places around its mark. A place costs what it covers: strokes by length and width,
-other marks, distance from its own mark. Letters take their cheapest places one by one, the most constrained first, and
+other marks, distance from its own mark; lengths are summed in arrays, as shapely cuts a line off at a box in ten times
+the time. Letters take their cheapest places one by one, the most constrained first, and
 then move again as long as that helps. All of it is deterministic.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
+import shapely
 
-from graphplan.sheet.lettering.label_candidates import AIR, BALLOON, SMALL, Array, Candidates, Wish, candidates
-from graphplan.sheet.lettering.lettering import CAPS
-from graphplan.sheet.lettering.obstacles import Lines, Marks, Surfaces
-from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
+from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates, Wish, candidates
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
 NEXT = 1.5  # a place dearer by no more than this is a choice as well
@@ -66,7 +66,7 @@ def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot],
         return []
     found = candidates(wishes, rect)
     choice = _chosen(Prices(found, (Lines(items), Marks(marks), Surfaces(items))), len(wishes))
-    return [item for wish, place in zip(wishes, choice, strict=True) for item in _items(wish, found[place])]
+    return [item for wish, place in zip(wishes, choice, strict=True) for item in wish.items(found[place])]
 
 
 def _chosen(prices: Prices, count: int) -> Array:
@@ -107,21 +107,114 @@ def _overlap(boxes: Array, others: Array) -> Array:
     return np.asarray((touch * (1.0 + np.clip(wide, 0, None) * np.clip(high, 0, None))).sum(axis=1))
 
 
-def _items(wish: Wish, place: Candidates) -> Iterator[Item]:
-    """A letter at its place."""
-    left, low, right, top = map(float, place.boxes)
-    x, y = map(float, place.spots)
-    middle = (left + right) / 2, (low + top) / 2
-    if place.led:
-        nearest = min(max(x, left), right), min(max(y, low), top)
-        yield Polyline(pens.LEADER, "letters", wish.step, ((x, y), nearest))
-    if wish.balloon:
-        yield Circle(pens.BALLOON, "letters", wish.step, middle, BALLOON)
-        base = middle[0], middle[1] - wish.size * CAPS / 2
-        yield Text(wish.pen, "letters", wish.step, base, wish.runs, wish.size, "middle", label=wish.label)
-    else:
-        x, y = left, low + wish.size * wish.depth
-        yield Text(wish.pen, "letters", wish.step, (x, y), wish.runs, wish.size, bold=wish.bold, label=wish.label)
-        if wish.raised:
-            yield Text(pens.FAINT, "letters", wish.step, (x + wish.tail, y + wish.lift), wish.figures, SMALL,
-                       label=f"step {wish.raised}")
+# ---- obstacles -----------------------------------------------------------------------------------------------------
+
+TOUCH = 0.15  # the price of touching, in mm or mm^2 of what is touched
+BESIDE, STRANGER = 0.3, 3.0  # mm by which a letter should be nearer to its own mark than to another; the price of each
+THICK = 0.6  # mm: a wider line is a surface
+
+
+class Lines:
+    """The thin lines of a plan, segment by segment, as something that letters cover at a price."""
+
+    def __init__(self, items: Iterable[Item]):
+        chains = list(strokes(items))
+        ends = [pair for chain, _ in chains for pair in pairwise(chain)]
+        self.start, self.end = np.array(ends, dtype=float).reshape(-1, 2, 2).swapaxes(0, 1)
+        self.tree = shapely.STRtree(shapely.linestrings(np.stack([self.start, self.end], axis=1)))
+        self.stroke = np.repeat(np.arange(len(chains)), [len(chain) - 1 for chain, _ in chains])
+        self.prices = np.array([price for _, price in chains])
+
+    def price(self, found: Candidates) -> Array:
+        """For every stroke its length in a place and the air around it, and for touching it."""
+        cells, count = found.cells, len(self.prices)
+        who, what = self.tree.query(_diagonals(cells))
+        share = _share(cells[who], self.start[what], self.end[what])
+        who, what, share = who[share >= 0], what[share >= 0], share[share >= 0]
+        length = np.hypot(*(self.end - self.start).T)[what] * share
+        pairs = np.sort(who * count + self.stroke[what])
+        touched, stroke = np.divmod(pairs[np.diff(pairs, prepend=-1) > 0], max(count, 1))
+        paid = np.concatenate([length * self.prices[self.stroke[what]], TOUCH * self.prices[stroke]])
+        return np.bincount(np.concatenate([who, touched]), paid, len(cells))
+
+
+def _diagonals(boxes: Array) -> Any:
+    """Boxes as lines, which are made faster and have the same bounds: a tree asks for no more."""
+    return shapely.linestrings(boxes.reshape(-1, 2, 2))
+
+
+def strokes(items: Iterable[Item]) -> Iterator[tuple[Sequence[Spot], float]]:
+    """The thin lines that letters should not cover, each a chain of spots, with its price per mm."""
+    for item in items:
+        price = 1.0 + 5.0 * item.pen.width
+        if isinstance(item, Polyline) and item.pen.width <= THICK:
+            yield item.spots, price
+        elif isinstance(item, Arc):
+            yield item.spots(), price
+        elif isinstance(item, Arrow):
+            yield (item.start, item.end), price
+
+
+def _share(cells: Array, start: Array, end: Array) -> Array:
+    """How much of each segment lies in its cell, beside its length (Liang and Barsky); negative where it passes by.
+
+    A segment along an axis is never cut off by the sides that it runs along, as its bounds meet the cell's.
+    """
+    way = end - start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        one, other = (cells[:, :2] - start) / way, (cells[:, 2:] - start) / way
+    enter = np.where(way == 0, 0.0, np.minimum(one, other)).max(axis=1)
+    leave = np.where(way == 0, 1.0, np.maximum(one, other)).min(axis=1)
+    return np.asarray(np.minimum(leave, 1.0) - np.maximum(enter, 0.0))
+
+
+class Marks:
+    """The marks of a plan: a letter should not stand nearer to another than to its own."""
+
+    def __init__(self, spots: Sequence[Spot]):
+        self.spots = np.array(spots, dtype=float).reshape(-1, 2)
+        self.tree = shapely.STRtree(shapely.points(self.spots))
+
+    def price(self, found: Candidates) -> Array:
+        """For every mark that is nearer than the place's own."""
+        own = _gap(found.boxes, found.spots)
+        who, what = self.tree.query(_diagonals(found.boxes + (own + BESIDE)[:, None] * OUTWARDS))
+        foreign = np.hypot(*(self.spots[what] - found.spots[who]).T) > BESIDE
+        nearer = foreign & (_gap(found.boxes[who], self.spots[what]) < own[who] + BESIDE)
+        return STRANGER * np.bincount(who[nearer], minlength=len(own))
+
+
+def _gap(boxes: Array, spots: Array) -> Array:
+    """How far each spot lies outside its box."""
+    return np.asarray(np.hypot(*np.maximum(np.maximum(boxes[:, :2] - spots, spots - boxes[:, 2:]), 0.0).T))
+
+
+class Surfaces:
+    """The thick lines and figures of a plan."""
+
+    def __init__(self, items: Iterable[Item]):
+        figures = list(surfaces(items))
+        self.figures, self.rates = np.array([f for f, _ in figures]), np.array([price for _, price in figures])
+        self.tree = shapely.STRtree(self.figures)
+
+    def price(self, found: Candidates) -> Array:
+        """For the area of every surface that a place and the air around it cover, and for touching it."""
+        cells = shapely.box(*found.cells.T)
+        who, what = self.tree.query(cells, predicate="intersects")
+        covered = shapely.area(shapely.intersection(cells[who], self.figures[what])) + TOUCH
+        return np.bincount(who, covered * self.rates[what], len(cells))
+
+
+def surfaces(items: Iterable[Item]) -> Iterator[tuple[Any, float]]:
+    """The thick lines and figures that letters should not cover, as polygons of shapely, each with its price per mm^2.
+    """
+    for item in items:
+        if isinstance(item, Polyline) and item.pen.width > THICK:
+            for ends in pairwise(item.spots):
+                yield shapely.LineString(ends).buffer(item.pen.width / 2, quad_segs=2), 5.0
+        elif isinstance(item, Arrow):
+            yield shapely.Polygon(item.barbs), 4.0
+        elif isinstance(item, Circle):
+            yield shapely.Point(item.centre).buffer(item.radius + 0.2, quad_segs=8), 5.0
+        elif isinstance(item, Polygon) and item.layer != "plates":
+            yield shapely.Polygon(item.spots), 3.0

@@ -16,8 +16,7 @@ from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
-from graphplan.sheet.words.deviations import Deviations
-from graphplan.sheet.words.tables import Table, figure, largest_size, with_deviations
+from graphplan.sheet.words.tables import Deviations, Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
 Pair = tuple[float, float]

@@ -4,12 +4,37 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
-from graphplan.sheet.words.deviations import Deviation
+from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.rows import Cell, TextRow
+
+
+@dataclass(frozen=True)
+class Deviation:
+    """How far off a result is drawn: in its own unit, and in mm of paper where it is one drawn vector."""
+
+    value: float
+    mm: float | None = None
+
+    def __str__(self) -> str:
+        return digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else "")
+
+
+@dataclass(frozen=True)
+class Deviations:
+    """The deviation of every result by kind and name, and what is said of the drawing model and the worst step."""
+
+    results: Mapping[str, Mapping[str, Deviation]] = field(default_factory=dict)
+    told: str = ""
+
+    def of(self, *kinds: str) -> dict[str, Deviation]:
+        """The deviations of some kinds, by name."""
+        return {name: deviation for kind in kinds for name, deviation in self.results.get(kind, {}).items()}
+
 
 APART = 3.0  # mm between two columns
 ROUNDING = 1e-12  # beside the largest number of its kind
@@ -90,3 +115,41 @@ def rows(table: Table) -> Iterator[TextRow]:
         numbers = [Cell(edge - APART / 2, runs, "end") for edge, runs in zip(edges[2:], row[1:], strict=True)]
         gap, keep = (1.0, min(TOGETHER, len(table) - 1)) if i == 0 else (0.0, 0)
         yield TextRow((Cell(0.0, row[0]), *numbers), gap=gap, keep=keep)
+
+
+TALL, TIGHT = 6.5, 5.2  # mm: a box has room for a number by hand, also where space is short
+NARROW = 11.0  # mm: the least that a number by hand needs
+TICK, TICKED = 2.2, 12.0  # mm: the box of a step, and where its sentence begins
+
+
+# ---- answer boxes: to fill in by hand, or to tick -------------------------------------------------------------------
+
+
+def answer_rows(table: Table, wide: float) -> Iterator[TextRow]:
+    """A table to fill in: its head and names as they are, and an empty box for every number."""
+    names = max(width(row[0], SIZE) for row in table) + APART
+    pitch = min((wide - names) / (len(table[0]) - 1), 2.4 * NARROW)
+    lefts = [names + i * pitch for i in range(len(table[0]) - 1)]
+    heads = [Cell(left + pitch / 2, runs, "middle") for left, runs in zip(lefts, table[0][1:], strict=True)]
+    yield TextRow((Cell(0.0, table[0][0]), *heads), gap=1.5, keep=min(TOGETHER, len(table) - 1))
+    for row in table[1:]:
+        boxes = [Rect(left, 0.0, left + pitch, TALL) for left, runs in zip(lefts, row[1:], strict=True) if runs]
+        yield TextRow((Cell(0.0, row[0]),), tall=TALL, boxes=tuple(boxes))
+
+
+def fits(table: Table, wide: float) -> bool:
+    """Whether all the boxes of a table have room for a number by hand."""
+    return max(width(row[0], SIZE) for row in table) + APART + (len(table[0]) - 1) * NARROW <= wide
+
+
+def ticked(row: TextRow) -> TextRow:
+    """A row with a box to tick before it."""
+    low = (row.height - TICK) / 2
+    return replace(row, gap=0.5, tall=row.height, boxes=(Rect(0.0, low, TICK, low + TICK),))
+
+
+def tightened(row: TextRow) -> TextRow:
+    """The row where space is short: nearer to the one above, its boxes for numbers lower."""
+    if row.tall > TIGHT:
+        row = replace(row, tall=TIGHT, boxes=tuple(replace(box, top=TIGHT) for box in row.boxes))
+    return replace(row, gap=row.gap / 2)

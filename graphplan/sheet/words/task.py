@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import partial
+from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
-from graphplan.methods.panels import slide_named
-from graphplan.phrases import joined, phrase, said, unit
+from graphplan.mechanism.model import Balance, Loads, Pair, Scene
+from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
+from graphplan.methods.panels import JointForce, link_named, listed, slide_named
+from graphplan.phrases import Said, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK, TITLE
+from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
-from graphplan.sheet.words.answer_boxes import TICKED, answer_rows, fits, ticked
-from graphplan.sheet.words.deviations import Deviations
-from graphplan.sheet.words.problem_text import data, question
 from graphplan.sheet.words.rows import TextRow
-from graphplan.sheet.words.tables import Table, joined_tables
+from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, ticked
 from graphplan.sheet.words.texts import Words
 
 INSTRUMENTS = {
@@ -85,3 +86,99 @@ class Task(Words):
                                                        joined(("y", unit(self.drawing.scene.units.length)), " "))]
         box = sentence_runs("0")  # stands for a number
         return [heads, *([sentence_runs(say(slides[name])), box, box] for name in arms)] if arms else []
+
+
+FIGURES = 6  # of what is given
+ASKED = {  # how kinds of results are asked for, and how those that have them are told
+    "velocity": (phrase("Velocities: {0}."), ", ".join), "acceleration": (phrase("Accelerations: {0}."), ", ".join),
+    "omega": (phrase("Angular velocities: {0}."), listed), "alpha": (phrase("Angular accelerations: {0}."), listed),
+}  # fmt: skip
+
+
+# ---- what is given and to be found, in the words of a problem book --------------------------------------------------
+
+
+def data(scene: Scene) -> Iterator[Said]:
+    """The mechanism in its pose, what drives it and what loads it, a sentence each."""
+    yield said("Points, in {0}: {1}.", unit(scene.units.length),
+               ", ".join(f"{name} {_pair(at)}" for name, at in scene.points.items()))
+    yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
+                                     for link, names in scene.links.items()))
+    for kind in dict.fromkeys(type(slide) for slide in scene.slides):
+        yield kind.sentence(joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
+                                   for slide in scene.slides if type(slide) is kind))
+    yield from _motion(scene)
+    if scene.loads:
+        yield from _loads(scene, scene.loads)
+
+
+def _motion(scene: Scene) -> Iterator[Said]:
+    """The drives and the given motions of points."""
+    length = scene.units.length
+    for drive in scene.drives:
+        names, of = (("v", "a"), length) if drive.slides else (("omega", "alpha"), "1")
+        rates = map(_with_unit, names, drive.rates, (f"{of}/s", f"{of}/s²"))
+        does = phrase("{0:capital} slides along {1}: {2}." if drive.slides else "{0:capital} turns against {1}: {2}.")
+        yield does(*map(link_named, drive.links), joined(tuple(rates)))
+    for name, motion in scene.motions.items():
+        velocity = joined((f"v = {_pair(motion.velocity)}", unit(f"{length}/s")), " ")
+        acceleration = joined((f"a = {_pair(motion.acceleration)}", unit(f"{length}/s²")), " ")
+        yield said("Motion of {0}: {1}.", name, joined((velocity, acceleration)))
+
+
+def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
+    """Gravity, masses, forces, moments and friction."""
+    units = scene.units
+    if any(loads.gravity):
+        yield said("Gravity: {0}.", joined((f"g = {_pair(loads.gravity)}", unit("m/s²")), " "))
+    for link, mass in loads.masses.items():
+        inertia = [_with_unit("J", mass.inertia, f"{units.mass}·m²")] if mass.inertia else []
+        told = _with_unit("m", mass.mass, units.mass), *inertia, said("centre {0}", mass.centre)
+        yield said("Mass of {0}: {1}.", link_named(link), joined(told))
+    for force in loads.forces:
+        value = joined((f"F = {_pair(force.value)}", unit(units.force), said("at {0}", force.at)), " ")
+        yield said("Force on {0}: {1}.", link_named(force.on), value)
+    for moment in loads.moments:
+        value = _with_unit("M", moment.value, f"{units.force}·m")
+        yield said("Moment on {0}: {1}.", link_named(moment.on), value)
+    slides = {(slide.link, slide.along): slide for slide in scene.slides}
+    for friction in loads.frictions:
+        where = slide_named(slides[friction.slide]) if friction.slide else said("at {0}", friction.at)
+        radius = [] if friction.slide else [_with_unit("r", friction.radius, units.length)]
+        yield said("Friction {0}: {1}.", where, joined((f"mu = {_figure(friction.coefficient)}", *radius)))
+
+
+def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
+    """What a construction gives, as a task: `values` are its readings by kind and name."""
+    for kind, (asked, enumerated) in ASKED.items():
+        if values.get(kind):
+            yield asked(enumerated([*values[kind]]))
+    slides = {slide.name: slide_named(slide) for slide in scene.slides}
+    if values.get("slide velocity") or values.get("slide acceleration"):
+        moving = dict.fromkeys((*values.get("slide velocity", ()), *values.get("slide acceleration", ())))
+        yield said("Sliding velocities and accelerations: {0}.", joined(slides[name] for name in moving))
+    told = values.get(REACTION, ())
+    joints = [p for p in scene.joints if any(JointForce(p, link).name in told for link in scene.links_of[p])]
+    if joints or values.get(SLIDE_REACTION):
+        yield said("Reactions: {0}.", joined((*joints, *(slides[name] for name in values.get(SLIDE_REACTION, ())))))
+    if scene.loads and any(kind_of(kind).way for kind in values):
+        yield from map(_keeping, scene.loads.balances)
+
+
+def _keeping(balance: Balance) -> Said:
+    """The unknown that keeps the motion."""
+    if balance.at:
+        return said("The force on {0} at {1} that keeps this motion.", link_named(balance.link), balance.at)
+    return said("The moment on {0} that keeps this motion.", link_named(balance.link))
+
+
+def _with_unit(letter: str, value: Any, symbol: str) -> Said:
+    return joined((f"{letter} = {_figure(value)}", unit(symbol)), " ")
+
+
+def _pair(pair: Pair) -> str:
+    return f"({_figure(pair[0])}, {_figure(pair[1])})"
+
+
+def _figure(value: Any) -> str:
+    return digits(float(value), FIGURES)

@@ -15,9 +15,18 @@ from graphplan.phrases import arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.deviations import Deviations
 from graphplan.sheet.words.rows import Cell, TextRow
-from graphplan.sheet.words.tables import ROUNDING, Table, joined_tables, largest_size, narrow, rows, scalars, vectors
+from graphplan.sheet.words.tables import (
+    ROUNDING,
+    Deviations,
+    Table,
+    joined_tables,
+    largest_size,
+    narrow,
+    rows,
+    scalars,
+    vectors,
+)
 
 HEADING = 3.0
 RESULTS = "results"  # the layer of what is read when all is drawn

@@ -45,6 +45,8 @@ def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, co
     if printed is None:
         raise Refused(f"{path}", "a picture is read beside the sheet that was printed, and none is named",
                       "measured points or a CAD file")
+    if not find_spec("cv2"):
+        raise Refused(f"{path}", "pictures are read by OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     from graphplan.marking.scans.scan import read_scan
 
     return read_scan(path, printed(), frames, code)

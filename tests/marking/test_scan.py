@@ -21,9 +21,8 @@ from raster import Picture, Printed, photo, printed, scan  # noqa: E402
 import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
-from graphplan.marking.scans.page import PencilPage  # noqa: E402
 from graphplan.marking.scans.printed_ink import picture  # noqa: E402
-from graphplan.marking.scans.scan import SCALE, read_page, read_scan  # noqa: E402
+from graphplan.marking.scans.scan import SCALE, PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
 from graphplan.sheet.frames.corner_marks import cells, corner_marks, numbers, places, sheet_code  # noqa: E402

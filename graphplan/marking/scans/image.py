@@ -9,6 +9,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
 Grey = NDArray[np.uint8]
+Light = NDArray[np.float32]
+Spots = NDArray[np.float64]  # rows of x and y
 HEAVIEST, MOST, FEWEST = 96 * MB, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
 BLANK = 30  # shades of grey between paper and print, at least
 DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
@@ -76,8 +79,6 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
 
 def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     """The picture itself, upright as the camera was held."""
-    import cv2
-
     _bounded(path, size)
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
@@ -140,8 +141,6 @@ def deviation(off: NDArray[np.floating]) -> float:
 
 def smaller(image: Grey, pixels: float) -> Grey:
     """The picture with no more than so many pixels."""
-    import cv2
-
     shrink = (pixels / image.size) ** 0.5
     if shrink >= 1:
         return image

@@ -6,14 +6,15 @@ import math
 from dataclasses import dataclass
 from itertools import pairwise
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 from shapely import LinearRing, LineString
 
+from graphplan.marking.scans.image import Light
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import Pen, rgb
 
-Light = NDArray[np.float32]
 SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
 SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
 MARKS = "corner marks"
@@ -30,8 +31,6 @@ class Pieces:
 
 def picture(sheet: Sheet, scale: float) -> Light:
     """The sheet without its words, lightness 0..1, so many pixels per mm, seen from above: the top is the first row."""
-    import cv2
-
     fine = scale * SMOOTHING
     canvas = np.full((round(sheet.height * fine), round(sheet.width * fine)), 255, np.uint8)
     for item in sheet.items:
@@ -84,16 +83,12 @@ def _draw(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) ->
 
 def _stroke(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], closed: bool, height: float,
             scale: float) -> None:
-    import cv2
-
     if pen.width:
         cv2.polylines(canvas, [_pixels(spots, height, scale)], closed, _light(pen.colour),
                       max(1, round(pen.width * scale)), cv2.LINE_AA, PARTS)
 
 
 def _fill(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], height: float, scale: float) -> None:
-    import cv2
-
     if pen.fill != "none":
         cv2.fillPoly(canvas, [_pixels(spots, height, scale)], _light(pen.fill), cv2.LINE_AA, PARTS)
 

@@ -1,18 +1,33 @@
-"""A scan or a photo of a handout, read: the picture straightened, and the pencil on it as lines, rims and dots."""
+"""A scan or a photo of a handout, read: a page that tells what was drawn on it, and can be asked whether something is
+drawn near where it belongs.
+
+Points pricked or drawn are dark spots that fall off to every side, and are darker than lines that cross. Faint lines,
+of which there is too little to be found in the whole page, are found where they are expected.
+"""
 
 from __future__ import annotations
 
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from shapely import LineString, STRtree, points
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.traces import Frames, Submission
-
-if TYPE_CHECKING:
-    from graphplan.marking.scans.image import Grey
-    from graphplan.marking.scans.page import PencilPage
-    from graphplan.sheet.plates.display import Sheet
+from graphplan.marking.scans import strokes
+from graphplan.marking.scans.image import Grey, contrast, pictures, smaller
+from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
+from graphplan.marking.scans.printed_ink import picture
+from graphplan.marking.scans.straighten import straighten
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.sheet.plates.display import Sheet
 
 SCALE, PIXELS = 8.0, 4.0e7  # pixels per mm of a straightened page, unless they would be more than these
 SHOWS = frozenset({LINE, CIRCLE})  # dots are found too, but not every point of a drawing is a dot
@@ -33,13 +48,6 @@ def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = Non
 
 def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage:
     """The pencil on a printed page, which can be asked for what is expected on it. Fails as `read_scan`."""
-    try:
-        import cv2  # noqa: F401
-    except ImportError as error:
-        raise Refused(f"{path}", "pictures are read by OpenCV, which is not installed",
-                      "pip install 'graphplan[scan]'") from error
-    from graphplan.marking.scans.image import pictures
-
     refused: Refused | None = None
     for image in pictures(path):
         try:
@@ -51,16 +59,247 @@ def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage
 
 def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPage:
     """One picture of a page."""
-    from graphplan.marking.scans.image import contrast, smaller
-    from graphplan.marking.scans.page import PencilPage
-    from graphplan.marking.scans.pencil_pixels import ink
-    from graphplan.marking.scans.printed_ink import picture
-    from graphplan.marking.scans.ridges import ridges
-    from graphplan.marking.scans.straighten import straighten
-
     contrast(image, name)
     scale = min(SCALE, (PIXELS / (printed.width * printed.height)) ** 0.5)
     light = picture(printed, scale)
     straight, found = straighten(smaller(image, PIXELS), printed, light, scale, code, name)
-    pencil = ink(straight, printed, light, scale)
+    pencil = pencil_ink(straight, printed, light, scale)
     return PencilPage(pencil, ridges(pencil), found.error)
+
+
+WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
+OVAL, DARK = 0.25, 0.05  # how much less it falls off to one side than to another, and the least darkness of a dot
+MIDDLE = 0.45  # mm in which a dot's middle is weighed
+CROSSED = 0.5  # mm from a stroke: what is dark there may be its own darkness, or its crossing with another
+# How much darker than a line a dot is for sure, or may be, on no stroke, on one, or where more cross; and from where on
+# it may be as oval as it likes.
+SURE, MAYBE, BLACK = (0.8, 1.5, 1.95, 2.15, 2.5), (0.0, 1.25, 1.7, 1.9, 2.15), 2.0
+
+
+def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
+    """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
+    size = 2 * round(2 * WIDE * ink.scale) + 1
+    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > DARK)
+    row, column = np.nonzero(top)
+    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
+    middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    peaked = (middle + spread < 0) & (np.abs(middle + spread) > OVAL * np.abs(middle - spread))
+    peaked |= smooth[row, column] > BLACK * usual
+    return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
+
+
+def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
+           ) -> Iterator[Trace]:
+    """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
+    than along a line, and `least` how much it must be for how many strokes."""
+    lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
+    crossed = np.bincount(lines.query(at, "dwithin", CROSSED)[0], minlength=len(found))
+    for dot, count in zip(found, crossed, strict=True):
+        if darkness(dot.spots[0]) > least[min(count, len(least) - 1)]:
+            yield dot
+
+
+def _weighed(ink: Ink, row: int, column: int) -> Trace:
+    """A dot about a pixel; it is as unsure as a tenth of its own width."""
+    reach = round(MIDDLE * ink.scale)
+    rows = slice(max(0, row - reach), row + reach + 1)
+    columns = slice(max(0, column - reach), column + reach + 1)
+    patch = ink.dark[rows, columns].astype(float)
+    y, x = np.mgrid[rows, columns][:, : patch.shape[0], : patch.shape[1]]
+    weight = patch / max(patch.sum(), 1e-9)
+    at = ink.spots(np.array([[(weight * x).sum(), (weight * y).sum()]]))[0]
+    wide = math.sqrt((weight * ((x - column) ** 2 + (y - row) ** 2)).sum() / 2) / ink.scale
+    return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / 10)
+
+
+Values = NDArray[np.float64]
+ASKEW = 20.0  # degrees by which a crest's own direction is unsure
+CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far its crests are off it
+BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
+SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
+TURNED = 40.0  # degrees of a rim from which on it tells its own centre
+LEAST = 2.0  # mm of a rim
+PARTS = 40  # places along a line, at which its darkness is read off
+ABOUT, BESIDE = 0.35, 0.8  # mm about a dot, in which its darkest spot is, and no print, whose rest it might be
+HIDDEN = 0.6  # the share of a stroke that print may hide
+
+
+@dataclass(frozen=True)
+class PencilPage:
+    """The pencil on a page, its crests, and how unsure their places are, as a standard deviation in mm."""
+
+    ink: Ink
+    found: Ridges
+    error: float
+
+    @cached_property
+    def traces(self) -> tuple[Trace, ...]:
+        """Everything that is found without knowing what is expected."""
+        sure = marked(self._dots, self._drawn, self._darkness, SURE)
+        alone = (dot for dot in sure if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any())
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *alone))
+
+    def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
+        """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
+        it leaves hardly any."""
+        far = self._away[kind == POINT][self.ink.cells(np.array(spots))]
+        seen = far[far >= 0]
+        return float((seen < within).mean()) if len(seen) > (1 - HIDDEN) * len(far) else None
+
+    def near(self, one: Spot, two: Spot, within: float, angle: float = 4.0) -> Trace | None:
+        """The line with most crests, no further than `within` mm from the middle of an expected one, and turned by no
+        more than this angle, in degrees."""
+        ends = np.array([one, two], float)
+        long = math.dist(one, two)
+        way = (ends[1] - ends[0]) / long
+        normal, middle = np.array([-way[1], way[0]]), ends.mean(axis=0)
+        out = self.found.spots - middle
+        along, off = out @ way, out @ normal
+        steep = math.tan(math.radians(angle))
+        near = np.flatnonzero((np.abs(along) < long / 2 + BEYOND) & (np.abs(off) < within + np.abs(along) * steep)
+                              & (np.abs(self.found.normals @ normal) > math.cos(math.radians(ASKEW + angle))))
+        lying = _aligned(along[near], off[near], self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        turned = math.atan(slope)
+        aside = normal * math.cos(turned) - way * math.sin(turned)
+        crests = strokes.crest_row(self.found, middle + level * normal, aside, near[which])
+        stretch = _whole(crests, self.ink, long / 2)
+        return None if stretch is None else self._blurred(strokes.line(crests, stretch))
+
+    def rim(self, centre: Spot, radius: float, spots: Sequence[Spot], within: float) -> Trace | None:
+        """The rim with most crests, near spots of an expected one, no further than `within` mm from it."""
+        middle, at = np.array(centre), np.asarray(spots, float)
+        aim = math.atan2(*(at.mean(axis=0) - middle)[::-1])
+        out = self.found.spots - middle
+        far = np.maximum(np.hypot(out[:, 0], out[:, 1]), 1e-9)
+        along = strokes.turned(out, aim) * radius
+        reach = np.abs(strokes.turned(at - middle, aim)).max() * radius + BEYOND
+        square = np.abs((out * self.found.normals).sum(axis=1)) > math.cos(math.radians(ASKEW)) * far
+        near = np.flatnonzero((np.abs(far - radius) < within) & (np.abs(along) < reach) & square)
+        steep = within / max(reach, within)
+        lying = _aligned(along[near], far[near] - radius, self.found.strength[near], within, steep)
+        if lying is None:
+            return None
+        slope, level, which = lying
+        own = near[which]
+        if np.ptp(along[own]) > math.radians(TURNED) * radius:
+            rim = strokes.grown(self.found, near, own, self.ink)
+        else:
+            rim = _short(self, middle, radius, aim, along[own], far[own] - radius, slope, level)
+        return None if rim is None or rim.stretch.long < LEAST else self._blurred(rim.trace())
+
+    def dot(self, spot: Spot, within: float) -> Trace | None:
+        """The dot nearest to where one is expected."""
+        off = np.abs(self._spots - complex(*spot))
+        return self._faint[int(off.argmin())] if off.min(initial=math.inf) < within else None
+
+    @cached_property
+    def _away(self) -> list[NDArray[np.float32]]:
+        """How far every pixel is from the next strong crest, and from the next dot, in mm; less than nothing where
+        print hides it."""
+        found = []
+        for spots in (self.found.spots[self.found.strength > CLEAR], self._spots.view(float).reshape(-1, 2)):
+            bare = np.ones(self.ink.dark.shape, np.uint8)
+            bare[self.ink.cells(spots)] = 0
+            far = np.asarray(cv2.distanceTransform(bare, cv2.DIST_L2, 3), np.float32) / np.float32(self.ink.scale)
+            found.append(np.where(self.ink.hidden, np.float32(-1.0), far))
+        return found
+
+    @cached_property
+    def _drawn(self) -> list[Trace]:
+        """The lines and rims."""
+        return strokes.strokes(clear(self.found, self.ink), self.ink)
+
+    @cached_property
+    def _smooth(self) -> NDArray[np.float32]:
+        """The pencil blurred by half a dot."""
+        return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), WIDE * self.ink.scale), np.float32)
+
+    @cached_property
+    def _usual(self) -> float:
+        """How dark the blurred lines are."""
+        ends = [np.array(trace.spots) for trace in self._drawn if trace.kind == LINE]
+        spots = [one + (two - one) * part for one, two in ends for part in np.linspace(0.05, 0.95, PARTS)]
+        dark = float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
+        return max(dark, DARK)
+
+    def _darkness(self, spot: Spot) -> float:
+        """How much darker it is near a spot than along the lines."""
+        return float(self._about(self._smooth, spot, ABOUT).max()) / self._usual
+
+    def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
+        """The piece of a picture about a spot, so many mm to each side."""
+        (row,), (column,) = self.ink.cells(np.array([spot]))
+        far = math.ceil(reach * self.ink.scale)
+        return picture[max(0, row - far) : row + far + 1, max(0, column - far) : column + far + 1]
+
+    @cached_property
+    def _spots(self) -> NDArray[np.complex128]:
+        return np.array([complex(*dot.spots[0]) for dot in self._faint], np.complex128)
+
+    @cached_property
+    def _faint(self) -> list[Trace]:
+        """The dots that may be points."""
+        return [self._blurred(dot) for dot in marked(self._dots, self._drawn, self._darkness, MAYBE)]
+
+    @cached_property
+    def _dots(self) -> list[Trace]:
+        return dots(self.ink, self._smooth, self._usual)
+
+    def _blurred(self, trace: Trace) -> Trace:
+        """With what the page itself is unsure by."""
+        return replace(trace, blur=math.hypot(trace.blur, self.error))
+
+
+def _aligned(along: Values, off: Values, strength: Values, within: float,
+             steep: float) -> tuple[float, float, NDArray[np.intp]] | None:
+    """The slope and the level, at most so steep and so far off, that most crests share, and which do."""
+    if len(along) < strokes.FEW:
+        return None
+    reach = max(float(np.abs(along).max()), 1.0)
+    slopes = np.linspace(-steep, steep, 2 * math.ceil(steep * reach / CELL) + 1)
+    count = math.ceil(within / CELL)
+    cells = np.rint((off - np.outer(slopes, along)) / CELL).astype(int) + count
+    inside = (cells >= 0) & (cells <= 2 * count)
+    flat = (np.arange(len(slopes))[:, None] * (2 * count + 1) + cells)[inside]
+    weight = np.broadcast_to(np.minimum(strength, 12.0), cells.shape)[inside]
+    counted = np.bincount(flat, weight, len(slopes) * (2 * count + 1)).reshape(len(slopes), -1)
+    votes = np.asarray(counted, np.float64)
+    votes[:, 1:-1] += (votes[:, :-2] + votes[:, 2:]) / 2
+    best, cell = divmod(int(votes.argmax()), votes.shape[1])
+    slope, level = float(slopes[best]), (cell - count) * CELL
+    which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    for _ in range(2):
+        if len(which) < strokes.FEW or np.ptp(along[which]) < 1.0:
+            return None
+        slope, level = (float(value) for value in np.polyfit(along[which], off[which], 1))
+        which = np.flatnonzero(np.abs(off - slope * along - level) < NEAR)
+    return slope, level, which
+
+
+def _whole(crests: strokes.CrestRow, ink: Ink, half: float) -> strokes.Stretch | None:
+    """All the stretches of a row between the expected ends as one, where enough of it is seen."""
+    drawn = [stretch for stretch in crests.drawn(ink)
+             if stretch.seen >= SEEN and stretch.long >= 1.0 and stretch.start < half and stretch.end > -half]
+    if sum(stretch.long for stretch in drawn) < SHORTEST:
+        return None
+    return strokes.Stretch(drawn[0].start, drawn[-1].end, SEEN)
+
+
+def _short(page: PencilPage, centre: Values, radius: float, aim: float, along: Values, off: Values, slope: float,
+           level: float) -> strokes.Rim | None:
+    """A short arc: it is as far off the expected one, and as askew, as its crests are."""
+    turned = math.atan(slope)
+    side = np.array([math.cos(aim), math.sin(aim)])
+    across = np.array([-side[1], side[0]])
+    moved = centre + across * radius * math.sin(turned) + side * radius * (1 - math.cos(turned))
+
+    seen = strokes.stretches(along, lambda at: page.ink.crossed(strokes.on_rim(centre, radius + level, aim, at)))
+    drawn = [stretch for stretch in seen if stretch.seen >= SEEN]
+    if not drawn:
+        return None
+    stretch = max(drawn, key=lambda stretch: stretch.long)
+    rough = float(np.std(off - slope * along - level))
+    return strokes.Rim(moved, radius + level, aim, stretch, np.arange(len(along)), rough)

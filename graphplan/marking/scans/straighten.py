@@ -1,4 +1,5 @@
-"""A picture of a sheet made straight: laid on the printed one by its marks or its frame, then lens and paper taken out.
+"""A picture of a sheet made straight: found by its coded marks, or by its frame, the largest dark rectangle;
+laid on the printed one; then lens and paper taken out.
 
 What is printed is known, so each piece of it says how far off it is seen. Across every straight piece of print the
 lightness is read off in the picture and in the sheet as it should be; how far one must be shifted to fit the other is
@@ -6,19 +7,213 @@ one equation for the polynomial that bends the sheet. Pieces that a pencil has c
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LinearRing
 
 from graphplan.errors import Refused
-from graphplan.marking.scans.image import Grey, deviation
-from graphplan.marking.scans.printed_ink import Light, Pieces, pieces
-from graphplan.marking.scans.sheet_finder import by_frame, find
-from graphplan.marking.scans.warp import Spots, Warp, powers, terms
-from graphplan.sheet.frames.corner_marks import places
-from graphplan.sheet.plates.display import Sheet
+from graphplan.marking.scans.image import Grey, Light, Spots, deviation
+from graphplan.marking.scans.printed_ink import Pieces, pieces
+from graphplan.sheet.frames.corner_marks import numbers, places
+from graphplan.sheet.plates.display import Rect, Sheet
+
+GRID = 16  # pixels between the places where a warp is worked out; between them it is as good as straight
+
+
+@dataclass(frozen=True)
+class Warp:
+    """Takes spots of the sheet, in mm, to pixels: `bend` are the coefficients of a polynomial of this degree, by which
+    the spots are first moved on the sheet, in mm."""
+
+    plane: Spots
+    size: tuple[float, float]
+    degree: int = 0
+    bend: Spots = field(default_factory=lambda: np.zeros((1, 2)))
+
+    def __call__(self, spots: Spots) -> Spots:
+        return projected(self.plane, spots + self.moved(spots))
+
+    def moved(self, spots: Spots) -> Spots:
+        """By how much paper and lens move spots of the sheet, in mm."""
+        return terms(spots, self.size, self.degree) @ self.bend
+
+    def maps(self, scale: float) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+        """Columns and rows in the picture for every pixel of the sheet, at so many pixels per mm, the top first."""
+        wide, high = round(self.size[0] * scale), round(self.size[1] * scale)
+        columns, rows = np.meshgrid(np.arange(0, wide + GRID, GRID), np.arange(0, high + GRID, GRID))
+        spots = np.column_stack([(columns.ravel() + 0.5) / scale, self.size[1] - (rows.ravel() + 0.5) / scale])
+        seen = self(spots).reshape(*columns.shape, 2)
+        return _between(seen[..., 0], wide, high), _between(seen[..., 1], wide, high)
+
+    def fineness(self) -> float:
+        """Pixels per mm in the middle of the sheet."""
+        x, y = self.size[0] / 2, self.size[1] / 2
+        seen = self(np.array([(x - 5, y), (x + 5, y), (x, y - 5), (x, y + 5)]))
+        return float(min(np.hypot(*(seen[1] - seen[0])), np.hypot(*(seen[3] - seen[2]))) / 10)
+
+
+def projected(plane: Spots, spots: Spots) -> Spots:
+    """Spots through a projective map."""
+    seen = np.column_stack([spots, np.ones(len(spots))]) @ plane.T
+    return np.asarray(seen[:, :2] / seen[:, 2:])
+
+
+def enclosed(rim: Spots) -> float:
+    """The area within a rim, by Gauss's formula: positive in the sense of the clock where rows count down."""
+    ahead = np.roll(rim, -1, axis=0)
+    return float((rim[:, 0] * ahead[:, 1] - ahead[:, 0] * rim[:, 1]).sum() / 2)
+
+
+def terms(spots: Spots, size: tuple[float, float], degree: int) -> Spots:
+    """The terms of a polynomial at spots, by Chebyshev, from -1 to 1 over the sheet."""
+    across, up = (np.polynomial.chebyshev.chebvander(2 * spots[:, i] / size[i] - 1, degree) for i in range(2))
+    return np.column_stack([across[:, i] * up[:, j] for i, j in powers(degree)])
+
+
+def powers(degree: int) -> list[tuple[int, int]]:
+    """The powers of x and y in each term of a polynomial, up to this degree in all."""
+    return [(total - j, j) for total in range(degree + 1) for j in range(total + 1)]
+
+
+def _between(coarse: Spots, wide: int, high: int) -> NDArray[np.float32]:
+    """Values at every pixel from those at every `GRID`th."""
+    grow = np.array([[GRID, 0, 0], [0, GRID, 0]], float)
+    return np.asarray(cv2.warpAffine(coarse.astype(np.float32), grow, (wide, high), flags=cv2.INTER_LINEAR,
+                                     borderMode=cv2.BORDER_REPLICATE), np.float32)
+
+
+BITS = 8  # of the code in each mark
+ALIKE = 2.0  # how much larger one mark of a sheet may look than another
+SMALLEST = 48.0  # pixels of a mark's rim, below which its cells are not told apart
+
+
+def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
+    """The marks of the sheet with this code, or where none is asked for, those that a sheet has: by their corner, each
+    as its own four corners in pixels, upper left, upper right, lower right, lower left as it was printed.
+
+    Fails with `Refused` where the marks are those of another sheet.
+    """
+    seen = _detected(image)
+    if code is None:
+        small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
+        return {number >> BITS: rim for number, rim in small_first}
+    own = {number: corner for corner, number in enumerate(numbers(code))}
+    found = {own[number]: corners for number, corners in seen if number in own}
+    if not found and _of_one_sheet([(number >> BITS, corners) for number, corners in seen]):
+        raise Refused(name, "the marks in its corners are those of another task",
+                      "verify it against its own scene, plan and paper")
+    return found
+
+
+def _detected(image: Grey) -> list[tuple[int, Spots]]:
+    """Every mark in the picture with its number, its corners to a part of a pixel."""
+    settings = cv2.aruco.DetectorParameters()
+    settings.minMarkerPerimeterRate = SMALLEST / max(image.shape)
+    settings.adaptiveThreshWinSizeMin, settings.adaptiveThreshWinSizeMax = 15, 55
+    settings.adaptiveThreshWinSizeStep = 20
+    settings.perspectiveRemovePixelPerCell, settings.perspectiveRemoveIgnoredMarginPerCell = 8, 0.3  # blurred cells
+    settings.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    settings.relativeCornerRefinmentWinSize = 0.1
+    words = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_ARUCO_ORIGINAL)
+    corners, found, _ = cv2.aruco.ArucoDetector(words, settings).detectMarkers(image)
+    known = [] if found is None else found.ravel()
+    return [(int(number), np.asarray(rim, float).reshape(4, 2)) for number, rim in zip(known, corners, strict=True)]
+
+
+def _of_one_sheet(marks: list[tuple[int, Spots]]) -> bool:
+    """Whether the large ones among marks are those of several corners; print may look like a small mark by chance."""
+    sizes = [math.sqrt(abs(enclosed(rim))) for _, rim in marks]
+    return len({corner for (corner, _), size in zip(marks, sizes, strict=True) if size * ALIKE > max(sizes)}) > 1
+
+
+SIDE = 2400  # pixels of the picture's longer side, in which a frame is searched
+LEAST, MOST = 0.15, 4  # of the picture, that a frame covers; how many rectangles are tried
+HALF, OFF = 0.35, 0.02  # of a side: how much of it about its middle tells where it is, and how far off it may be
+SAME = 0.002  # of the picture, by which the two rims of one line are apart
+COARSE = 1.0  # pixels per mm at which print is compared
+
+
+def by_frame(image: Grey, sheet: Sheet, light: Light) -> list[Warp]:
+    """The planes in which the printed frame may be seen, the largest first, each turned so that the print fits."""
+    size = round(sheet.width * COARSE), round(sheet.height * COARSE)
+    small = cv2.resize(light, size, interpolation=cv2.INTER_AREA)
+    ideal = np.asarray(cv2.GaussianBlur(small, (0, 0), COARSE), np.float32)
+    found = []
+    for rim in _rectangles(image):
+        turned = [np.roll(rim, turn, axis=0) for turn in range(4)]
+        tried = [_plane(corners, seen, sheet) for corners in _outlines(sheet) for seen in turned]
+        found.append(max(tried, key=lambda warp: _alike(image, warp, ideal)))
+    return found
+
+
+def _outlines(sheet: Sheet) -> list[Spots]:
+    """The frame's corners, and those of all straight print, which may go beyond it."""
+    ink = pieces(sheet)
+    half = ink.along * ink.halves[:, None]
+    ends = np.concatenate([ink.middles - half, ink.middles + half])
+    (left, bottom), (right, top) = ends.min(axis=0), ends.max(axis=0)
+    return [np.array(sheet.frame.corners), np.array(Rect(left, bottom, right, top).corners)]
+
+
+def _rectangles(image: Grey) -> Iterator[Spots]:
+    """The largest four-sided rims in the picture, in pixels, in the sense in which a frame's corners go round."""
+    shrink = min(1.0, SIDE / max(image.shape))
+    small = cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+    dark = cv2.adaptiveThreshold(small, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 41, 12)
+    rims, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
+    large = sorted((rim for rim in rims if cv2.contourArea(rim) > LEAST * small.size), key=cv2.contourArea)
+    known: list[Spots] = []
+    for rim in large[::-1]:
+        hull = cv2.convexHull(rim)
+        four = cv2.approxPolyDP(hull, 0.02 * cv2.arcLength(rim, True), True).reshape(-1, 2).astype(float)
+        corners = _sharp(hull.reshape(-1, 2).astype(float), four) if len(four) == 4 else None
+        if corners is None or any(np.abs(corners - other).max() < SAME * SIDE for other in known):
+            continue
+        known.append(corners)
+        yield (corners + 0.5) / shrink - 0.5
+        if len(known) == MOST:
+            return
+
+
+def _sharp(hull: Spots, four: Spots) -> Spots | None:
+    """The corners of a rectangle, in the sense in which a frame's go round, from the middles of its sides: whatever
+    its corners themselves have lost."""
+    around = four if enclosed(four) < 0 else four[::-1]
+    around = np.roll(around, -int(around.sum(axis=1).argmin()), axis=0)
+    rim = np.array(LinearRing(hull).segmentize(1.0).coords)
+    sides = [_side(rim, one, two) for one, two in zip(around, np.roll(around, -1, axis=0), strict=True)]
+    if any(side is None for side in sides):
+        return None
+    lines = np.array(sides)
+    return np.array([np.linalg.solve([one[:2], two[:2]], [one[2], two[2]])
+                     for one, two in zip(np.roll(lines, 1, axis=0), lines, strict=True)])
+
+
+def _side(rim: Spots, one: Spots, two: Spots) -> tuple[float, float, float] | None:
+    """The line along the middle of a side: its unit normal, and how far it is from the origin."""
+    long = np.hypot(*(two - one))
+    ahead = (two - one) / long
+    along, off = (rim - one) @ ahead / long, (rim - one) @ np.array([-ahead[1], ahead[0]])
+    middle = rim[(np.abs(along - 0.5) < HALF) & (np.abs(off) < OFF * long)]
+    if len(middle) < 2:
+        return None
+    at = middle.mean(axis=0)
+    normal = np.linalg.eigh((middle - at).T @ (middle - at))[1][:, 0]
+    return float(normal[0]), float(normal[1]), float(normal @ at)
+
+
+def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
+    """The correlation of a picture, straightened, with the print."""
+    columns, rows = warp.maps(COARSE)
+    seen = cv2.GaussianBlur(cv2.remap(image, columns, rows, cv2.INTER_LINEAR), (0, 0), COARSE).astype(np.float32)
+    seen -= cv2.GaussianBlur(seen, (0, 0), 20 * COARSE)
+    return float(np.corrcoef(seen.ravel(), ideal.ravel())[0, 1])
+
 
 STEP, NEAR = 0.125, 1.0  # mm across a piece: how closely it is read off, and how far to each side of its middle
 ALONG, ROWS = 9, 32000  # places along a piece; rows of pixels that are read in one go
@@ -42,28 +237,20 @@ class Registered:
 def registered(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> Registered:
     """The warp by which a picture shows a sheet; `light` is the sheet as printed, at `scale` pixels per mm."""
     warp, error, share = start, NEAR, 0.0
-    ideal = _profiles(light, lambda spots: _upright(spots, start.size[1], scale), pieces, NEAR)
+    ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
+                      pieces, NEAR)
     seen = ideal.std(axis=1) > VISIBLE
     pieces = Pieces(pieces.middles[seen], pieces.along[seen], pieces.halves[seen])
     ideal = ideal[seen]
     for reach, degree in ROUNDS if len(ideal) >= FEW else ROUNDS[:1]:
-        profiles = _profiles(image, warp, pieces, NEAR + reach)
-        shift, match = _shifts(ideal, profiles)
-        good = match > FITS
-        warp, error, near = _fitted(warp, pieces, shift, good, degree, reach / 4)
+        shift, match = _shifts(ideal, _profiles(image, warp, pieces, NEAR + reach))
+        warp, error, near = _fitted(warp, pieces, shift, match > FITS, degree, reach / 4)
         share = float(near.sum() / max(1, len(ideal)))
     return Registered(warp, error, share)
 
 
-def _upright(spots: Spots, height: float, scale: float) -> Spots:
-    """Where spots are in the straight picture of a sheet."""
-    return np.column_stack([spots[:, 0], height - spots[:, 1]]) * scale - 0.5
-
-
 def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
     """The lightness across each piece, averaged along it; so near by, a warp is as good as straight."""
-    import cv2
-
     count = round(reach / STEP)
     side = np.column_stack([-pieces.along[:, 1], pieces.along[:, 0]])
     ends = pieces.along * (0.8 * pieces.halves)[:, None]
@@ -126,10 +313,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
 
     Fails with `Refused` where the sheet is not found, is another one, is cut off, or too coarse.
     """
-    import cv2
-
-    found = find(image, code, name)
-    result = _laid(image, sheet, light, scale, found)
+    result = _laid(image, sheet, light, scale, find(image, code, name))
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task are found in it",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
@@ -163,13 +347,15 @@ def _starts(image: Grey, sheet: Sheet, light: Light, found: dict[int, Spots]) ->
 
 def _by_marks(found: dict[int, Spots], sheet: Sheet) -> Warp:
     """The plane through the corners of the marks."""
-    import cv2
-
     rects = places(sheet.width, sheet.height, sheet.frame)
     printed = [spot for corner in found for spot in rects[corner].corners[::-1]]
     seen = np.concatenate([found[corner] for corner in found])
-    plane, _ = cv2.findHomography(np.array(printed), seen)
-    return Warp(np.asarray(plane, float), (sheet.width, sheet.height))
+    return _plane(np.array(printed), seen, sheet)
+
+
+def _plane(printed: Spots, seen: Spots, sheet: Sheet) -> Warp:
+    """The plane in which spots of the sheet are seen."""
+    return Warp(np.asarray(cv2.findHomography(printed, seen)[0], float), (sheet.width, sheet.height))
 
 
 def _whole(warp: Warp, image: Grey, sheet: Sheet, name: str) -> None:

@@ -14,9 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.kernel.kinds import CIRCLE, LINE
-from graphplan.marking.scans.pencil_pixels import Ink
-from graphplan.marking.scans.ridges import Ridges
-from graphplan.marking.scans.warp import Spots
+from graphplan.marking.scans.image import Spots
+from graphplan.marking.scans.pencil_pixels import Ink, Ridges
 from graphplan.marking.traces import Trace
 
 BIN, GAP = 0.25, 2.0  # mm: how closely a line is looked at, and the widest gap in it

@@ -20,8 +20,7 @@ from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact
 from graphplan.mechanism.placements import placed_by
-from graphplan.solver.bounded import PI, Unproven, bounded, heading
-from graphplan.solver.bounds import Proven
+from graphplan.solver.bounds import PI, Proven, Unproven, bounded, heading
 
 
 @dataclass(frozen=True)

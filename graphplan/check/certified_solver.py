@@ -29,7 +29,7 @@ def independent_facts(equations: Equations) -> list[int]:
         return list(range(equations.width))
     from graphplan.solver.floating import independent
 
-    return independent(equations)
+    return independent(equations.rows, equations.width, equations.reach)
 
 
 def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],

@@ -15,7 +15,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.time_scale import extent
-from graphplan.solver.bounded import UP, Bounded
+from graphplan.solver.bounds import UP, Bounded
 
 NOTHING = 2.0**-64  # of the largest of a kind
 DIGITS = 1e-9  # of a number: what its bound may be at most

@@ -23,9 +23,8 @@ from graphplan.methods.results import balances
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, held
 from graphplan.solver.friction import Frictional, delivered, efficiency, leaning, with_friction
-from graphplan.solver.loads import acting, asked, resultants
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, repeating, without
+from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants, without
 from graphplan.solver.statics import read as read_forces
 
 # ---- the solver between bounds --------------------------------------------------------------------------------------

@@ -26,7 +26,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION, kind_of
 from graphplan.solver import poses, solve
-from graphplan.solver.bounded import Unproven
+from graphplan.solver.bounds import Unproven
 
 BLOCK = 4096  # poses whose systems are solved at once
 EPSILON = 2.0**-52

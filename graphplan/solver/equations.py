@@ -3,24 +3,29 @@
 Three unknowns a link: the velocity (x, y) of its base, a point of it, and its angular velocity. Coordinates enter as
 differences only, so the rows do not depend on where the origin is. Velocities and accelerations share the rows and
 differ in the right-hand side. Transposed, with the forces that hold the pairs as unknowns, they are the equilibrium
-of every link. What the rows state comes from the scene's pairs, whichever they are. Nothing is solved here, and nothing
-tests a number: the same rows can be filled with arrays of poses.
+of every link. What the rows state comes from the scene's pairs, whichever they are. Nothing here tests a number: the
+same rows can be filled with arrays of poses. One scene's are made ready in floats or in fractions.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from graphplan.errors import Refused, by_name
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.pairs.pair import Along, Rate, Side, Statement
 from graphplan.mechanism.plane import dot, less, times
+from graphplan.solver.elimination import Elimination, transpose
+
+if TYPE_CHECKING:
+    from graphplan.solver.floating import Floating
 
 Row = dict[int, Number]
 
@@ -120,6 +125,41 @@ class Equations:
         """The solved unknowns link by link, the resting frame among them."""
         moving = {link: Rate(*values[k : k + 3]) for link, k in self.columns.items()}
         return moving | {FRAME: Rate(zero, zero, zero)}
+
+    def ready(self, exact: bool, forces: bool = False) -> Floating | Elimination:
+        """The system made ready for any right-hand sides: three columns a link, one row a fact.
+
+        For the forces that hold the facts: one column a fact, the equilibrium conditions of each link as rows.
+        """
+        if exact:
+            require_fractions(self.scene, chain(*(row.values() for row in self.rows), *self.prescribed))
+            return (Elimination(transpose(self.rows, self.width), len(self.facts)) if forces
+                    else Elimination(self.rows, self.width))
+        from graphplan.solver.floating import Floating  # numpy is imported there: fractions do without it
+
+        return Floating(self.rows, self.width, self.reach, forces)
+
+
+@dataclass(frozen=True)
+class Solution:
+    """What these equations tell."""
+
+    equations: Equations = field(repr=False, compare=False)
+
+    @cached_property
+    def condition(self) -> float:
+        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
+        from graphplan.solver.floating import Floating
+
+        return Floating(self.equations.rows, self.equations.width, self.equations.reach).condition
+
+
+def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
+    """Fails with `Refused` where the scene is irrational, or a number in use is rounded."""
+    if scene.irrational or any(isinstance(number, float) for number in used):
+        known = sorted(scene.irrational, key=by_name)
+        why = "; ".join(known) or "a coordinate, a drive, a given motion or a load is not a fraction"
+        raise Refused("exact numbers", why, "ask for floats, without --exact")
 
 
 def moved(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:

@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.mechanism.model import Number
-from graphplan.solver.equations import Equations
 
 Array = NDArray[np.float64]
+Sparse = Sequence[Mapping[int, Number]]
 
 # Coordinates and their differences carry a rounding of about 2^-52 each, which moves every singular value by up to
 # n 2^-52 sigma_max, and the decomposition as much again; with a margin, anything below 8 times that may be zero.
@@ -26,10 +26,14 @@ SWEEPS = 4
 
 
 class Floating:
-    """A system decomposed once, to be solved for any right-hand side: an equilibrated matrix and its factors."""
+    """A system decomposed once, to be solved for any right-hand side: an equilibrated matrix and its factors.
 
-    def __init__(self, matrix: Array, rows: Array, columns: Array):
-        self._matrix, self._rows, self._columns = matrix, rows, columns
+    For forces it is the transposed one, whose rows' factors are columns'.
+    """
+
+    def __init__(self, sparse: Sparse, width: int, reach: float, forces: bool = False):
+        matrix, rows, columns = equilibrated(sparse, width, reach)
+        self._matrix, self._rows, self._columns = (matrix.T, columns, rows) if forces else (matrix, rows, columns)
         self._left, self._sigma, self._right = np.linalg.svd(self._matrix)
         self._tolerance = max(self._matrix.shape, default=0) * ROUNDING
         self._rank = int(np.sum(self._sigma > self._tolerance * self._sigma.max(initial=0.0)))
@@ -74,18 +78,11 @@ class Floating:
         return frozenset(int(i) for i in np.flatnonzero(self._contradiction(self._sides(right))))
 
 
-def prepared(equations: Equations, forces: bool = False) -> Floating:
-    """The equations of a scene, decomposed; for forces the transposed ones, whose rows' factors are columns'."""
-    matrix, rows, columns = equilibrated(dense(equations.rows, equations.width), equations.reach)
-    return Floating(matrix.T, columns, rows) if forces else Floating(matrix, rows, columns)
-
-
-def independent(equations: Equations) -> list[int]:
-    """As many facts as there are unknowns, none following from others: those that come first."""
-    matrix = equilibrated(dense(equations.rows, equations.width), equations.reach)[0]
+def independent(sparse: Sparse, width: int, reach: float) -> list[int]:
+    """As many rows as there are unknowns, none following from others: those that come first."""
     kept: list[int] = []
-    known = np.zeros((0, equations.width))
-    for i, row in enumerate(matrix):
+    known = np.zeros((0, width))
+    for i, row in enumerate(equilibrated(sparse, width, reach)[0]):
         rest = row - known.T @ (known @ row)
         rest -= known.T @ (known @ rest)  # once more, for orthogonality to the last digit
         if np.linalg.norm(rest) > STANDS_STILL * np.linalg.norm(row):
@@ -94,21 +91,16 @@ def independent(equations: Equations) -> list[int]:
     return kept
 
 
-def dense(rows: Sequence[Mapping[int, Number]], width: int) -> Array:
-    """The rows as a matrix of floats."""
-    matrix = np.zeros((len(rows), width))
-    for i, row in enumerate(rows):
-        for j, value in row.items():
-            matrix[i, j] = float(value)
-    return matrix
-
-
-def equilibrated(matrix: Array, reach: float) -> tuple[Array, Array, Array]:
-    """The matrix with rows and columns near unit length, and the factors of its rows and of its columns.
+def equilibrated(sparse: Sparse, width: int, reach: float) -> tuple[Array, Array, Array]:
+    """The rows as a matrix with rows and columns near unit length, and the factors of its rows and of its columns.
 
     Turnings are first measured as reach * omega, so that the result does not depend on the unit of length.
     """
-    rows, columns = np.ones(matrix.shape[0]), np.tile([1.0, 1.0, 1.0 / reach], matrix.shape[1] // 3)
+    matrix = np.zeros((len(sparse), width))
+    for i, row in enumerate(sparse):
+        for j, value in row.items():
+            matrix[i, j] = float(value)
+    rows, columns = np.ones(len(sparse)), np.tile([1.0, 1.0, 1.0 / reach], width // 3)
     for _ in range(SWEEPS):
         rows /= lengths(matrix * rows[:, None] * columns, 1)
         columns /= lengths(matrix * rows[:, None] * columns, 0)

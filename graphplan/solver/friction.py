@@ -21,9 +21,8 @@ from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, plus, times, turned
 from graphplan.mechanism.units import metre
 from graphplan.solver.equations import Equations
-from graphplan.solver.loads import asked
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, equilibrium, reactions
+from graphplan.solver.statics import Reactions, asked, equilibrium, reactions
 
 GROWING = tuple(Fraction(share, 4) for share in (1, 2, 3, 4))
 ROUNDS = 20
@@ -70,7 +69,7 @@ def settled(last: Reactions, against: Rubbing, exact: bool) -> Reactions:
     close = STANDS * last.condition
     for _ in range(ROUNDS):
         now = further(last, against, exact)
-        if stands(now, last, close):
+        if max(map(math.dist, forces(now), forces(last)), default=0.0) <= close * largest(now):
             return now
         last = now
     raise locked(last.equations.scene)
@@ -123,22 +122,19 @@ def leaning(last: Reactions, arm: Callable[[Revolute, str, Pair], Number],
         yield from balance.states(scene)
 
 
+def forces(found: Reactions) -> list[Pair]:
+    """The forces in all joints and slides."""
+    return [*found.joints.values(), *(force for force, _ in found.slides.values())]
+
+
 def largest(found: Reactions) -> float:
     """The largest of the forces, and of the moments at the mechanism's reach: what is nothing beside it is nothing."""
     arm = found.equations.reach / metre(found.equations.scene.units)
-    forces = [*found.joints.values(), *(force for force, _ in found.slides.values())]
+    pushes = forces(found)
     moments = [moment for _, moment in found.slides.values()]
     for balance in found.balances:
-        (forces if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
-    return max((*(math.hypot(*force) for force in forces), *(abs(float(m)) / arm for m in moments)), default=0.0)
-
-
-def stands(now: Reactions, last: Reactions, close: float) -> bool:
-    """Whether a round has left the forces as they were, as close as asked beside the largest."""
-    forces = [*now.joints.values(), *(force for force, _ in now.slides.values())]
-    before = [*last.joints.values(), *(force for force, _ in last.slides.values())]
-    change = max((math.dist(a, b) for a, b in zip(forces, before, strict=True)), default=0.0)
-    return change <= close * largest(now)
+        (pushes if isinstance(balance, tuple) else moments).append(balance)  # type: ignore[arg-type]
+    return max((*(math.hypot(*force) for force in pushes), *(abs(float(m)) / arm for m in moments)), default=0.0)
 
 
 def locked(scene: Scene) -> SingularPose:
@@ -149,28 +145,17 @@ def locked(scene: Scene) -> SingularPose:
 
 
 def finished(plain: Reactions, last: Reactions, against: Rubbing) -> Frictional:
-    """The last round's forces with what friction is in them."""
-    scene = plain.equations.scene
-    couples = {name: circle * math.hypot(*last.joints[name]) if circle else circle
-               for name, circle in against.journals.items()}
-    drags = {s.name: drag(s, last.slides[s.name][0], against) for s in scene.slides}
-    return Frictional(
-        joints=last.joints,
-        slides={name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()},
-        balances=last.balances,
-        rates=last.rates,
-        equations=last.equations,
-        couples={name: couple / metre(scene.units) for name, couple in couples.items()},
-        drags=drags,
-        efficiency=efficiency(delivered(plain), delivered(last)),
-    )
-
-
-def drag(slide: Slide, normal: Pair, against: Rubbing) -> Pair:
-    """The friction of a slide, along its guide."""
-    across = turned(slide.direction)
-    size = dot(across, normal) / dot(across, across)
-    return times(against.guides[slide.name] * max(size, -size), slide.direction)
+    """The last round's forces with what friction is in them: a slide's is along its guide."""
+    unit, couples, drags = metre(plain.equations.scene.units), dict[tuple[str, str], Number](), dict[str, Pair]()
+    for name, circle in against.journals.items():
+        couples[name] = circle * math.hypot(*last.joints[name]) / unit if circle else circle
+    for slide in plain.equations.scene.slides:
+        across = turned(slide.direction)
+        size = dot(across, last.slides[slide.name][0]) / dot(across, across)
+        drags[slide.name] = times(against.guides[slide.name] * max(size, -size), slide.direction)
+    slides = {name: (plus(force, drags[name]), moment) for name, (force, moment) in last.slides.items()}
+    return Frictional(last.equations, last.joints, slides, last.balances, last.rates, couples, drags,
+                      efficiency(delivered(plain), delivered(last)))
 
 
 # --- which way friction acts: against the turning in each journal and the slip in each slide -----------------------
@@ -193,43 +178,24 @@ class Rubbing:
 
 
 def rubbing(scene: Scene, rates: Rates) -> Rubbing:
-    """The frictions of the scene, with the senses of these rates; nothing where a pair does not move."""
-    return Rubbing(
-        {(joint.at, k): -circle(scene, joint.at) * turning(joint, k, rates)
-         for joint in scene.revolutes for k in joint.links[1:]},
-        {slide.name: -coefficient(scene, slide) * slipping(slide, rates) for slide in scene.slides},
-    )
+    """The frictions of the scene, with the senses of these rates; nothing where a pair does not move.
 
-
-def circle(scene: Scene, point: str) -> Number:
-    """The radius of the friction circle of a joint."""
-    return sum((f.radius * f.coefficient for f in asked(scene).frictions if f.at == point), Fraction(0))
-
-
-def coefficient(scene: Scene, slide: Slide) -> Number:
-    """The coefficient of friction of a slide."""
-    found = (f.coefficient for f in asked(scene).frictions if f.slide == slide.links)
-    return sum(found, Fraction(0))
-
-
-def turning(joint: Revolute, link: str, rates: Rates) -> int:
-    """The sense in which a link turns on the one that carries the pin: 1, -1, or 0 where it does not."""
-    omega = {**rates.omega, FRAME: 0}
-    return sense(float(omega[link] - omega[joint.links[0]]) * rates.equations.reach, rates)
-
-
-def slipping(slide: Slide, rates: Rates) -> int:
-    """The sense in which a link slides along its guide's direction."""
-    length = math.hypot(*slide.direction)
-    return sense(float(dot(rates.slide_velocity[slide.name], slide.direction)) / length, rates)
-
-
-def sense(speed: float, rates: Rates) -> int:
-    """The sign of a speed, in length/s; 0 where rounding could make it of what moves fastest."""
+    What rounding could make of what moves fastest does not move.
+    """
+    frictions, reach, omega = asked(scene).frictions, rates.equations.reach, {**rates.omega, FRAME: 0}
     points = (abs(float(x)) for v in (rates.velocity, rates.slide_velocity) for pair in v.values() for x in pair)
-    turnings = (abs(float(omega)) * rates.equations.reach for omega in rates.omega.values())
-    fastest = max(*points, *turnings, 0.0)
-    return sign(speed, ROUNDING * rates.condition * fastest)
+    still = ROUNDING * rates.condition * max(*points, *(abs(float(turn)) * reach for turn in omega.values()))
+    circles = {f.at: f.radius * f.coefficient for f in frictions}
+    coefficients = {f.slide: f.coefficient for f in frictions}
+    journals, guides = dict[tuple[str, str], Number](), dict[str, Number]()
+    for joint in scene.revolutes:
+        for link in joint.links[1:]:
+            speed = float(omega[link] - omega[joint.links[0]]) * reach
+            journals[joint.at, link] = -circles.get(joint.at, Fraction(0)) * sign(speed, still)
+    for slide in scene.slides:
+        speed = float(dot(rates.slide_velocity[slide.name], slide.direction)) / math.hypot(*slide.direction)
+        guides[slide.name] = -coefficients.get(slide.links, Fraction(0)) * sign(speed, still)
+    return Rubbing(journals, guides)
 
 
 def sign(value: float, least: float) -> int:

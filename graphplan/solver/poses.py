@@ -16,7 +16,6 @@ from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, Row, held, moved
-from graphplan.solver.loads import acting, resultants
 
 _ROUNDING = 2.0**-44
 """Below this part of the largest a singular value counts as zero."""
@@ -96,7 +95,7 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
     """The reactions and balances of a scene with loads in n poses, from its rates there, as arrays as those are."""
     equations = held(scene)
-    right = [-value for value in resultants(equations, acting(scene, motion))]
+    right = [-value for value in statics.resultants(equations, statics.acting(scene, motion))]
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
     values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes)
     return statics.read(equations, statics.without(values, statics.repeating(equations)), motion)

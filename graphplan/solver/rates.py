@@ -3,20 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import partial
+from typing import TYPE_CHECKING
 
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Rate, centripetal, slip, surplus
 from graphplan.mechanism.plane import dot, less, times
-from graphplan.solver.equations import Equations, moved
-from graphplan.solver.linear import Linear, condition, for_rates
+from graphplan.solver.elimination import Elimination
+from graphplan.solver.equations import Equations, Solution, moved
+
+if TYPE_CHECKING:
+    from graphplan.solver.floating import Floating
 
 
 @dataclass(frozen=True)
-class Rates:
+class Rates(Solution):
     """What moves how in one pose: true vectors in scene units, rad and s; floats, or fractions where asked for.
 
     `velocity` and `acceleration`: (x, y) of every point of a link. `omega` and `alpha`: of every moving link.
@@ -29,12 +33,6 @@ class Rates:
     alpha: dict[str, Number]
     slide_velocity: dict[str, Pair]
     slide_acceleration: dict[str, Pair]
-    equations: Equations = field(repr=False, compare=False)
-
-    @cached_property
-    def condition(self) -> float:
-        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
-        return condition(self.equations)
 
 
 def solve(scene: Scene, exact: bool = False) -> Rates:
@@ -44,8 +42,7 @@ def solve(scene: Scene, exact: bool = False) -> Rates:
     links, where the motion is not determined or is impossible.
     """
     equations = moved(scene)
-    linear = for_rates(equations, exact)
-    return motion(equations, partial(solved, equations, linear), Fraction(0) if exact else 0.0)
+    return motion(equations, partial(solved, equations, equations.ready(exact)), Fraction(0) if exact else 0.0)
 
 
 def motion(equations: Equations, solve: Callable[[Sequence[Number]], Sequence[Number]], zero: Number) -> Rates:
@@ -55,7 +52,7 @@ def motion(equations: Equations, solve: Callable[[Sequence[Number]], Sequence[Nu
     return read(equations, first, second)
 
 
-def solved(equations: Equations, linear: Linear, right: Sequence[Number]) -> Sequence[Number]:
+def solved(equations: Equations, linear: Floating | Elimination, right: Sequence[Number]) -> Sequence[Number]:
     """The unknowns for one right-hand side; fails with `SingularPose` unless there is exactly one solution."""
     free, values = linear.free, linear.solve(right)
     if values is not None and not free:
@@ -93,13 +90,13 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
     carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
     slides = equations.scene.slides
     return Rates(
+        equations,
         velocity={p: first[link].at(equations.arm(link, p)) for p, link in carriers.items()},
         acceleration={p: acceleration(equations, link, p, first, second) for p, link in carriers.items()},
         omega={link: first[link].turn for link in equations.columns},
         alpha={link: second[link].turn for link in equations.columns},
         slide_velocity={s.name: along(s, slip(*equations.sides(s, first))) for s in slides},
         slide_acceleration={s.name: along(s, sliding(equations, s, first, second)) for s in slides},
-        equations=equations,
     )
 
 

@@ -1,28 +1,29 @@
 """The reactions and the balances of a scene from one linear system: the equilibrium of every moving link.
 
+Besides each other, given forces and moments, weights and inertia forces act on the links.
 The rows of the rates state what a pair forbids; a pair's forces are what holds those facts. So the same rows, with the
 balances in the place of the drives, are the system for the forces when they are transposed.
 """
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Sequence
-from dataclasses import dataclass, field
-from functools import cached_property
+from collections.abc import Container, Iterable, Iterator, Sequence
+from dataclasses import dataclass
 from typing import Any
 
-from graphplan.errors import SingularPose
-from graphplan.mechanism.model import Balance, Number, Pair, Scene, Slide
-from graphplan.mechanism.plane import times, turned
-from graphplan.mechanism.units import metre
-from graphplan.solver.equations import Equations, bound, held
-from graphplan.solver.linear import condition, for_forces, for_rates, require_fractions
-from graphplan.solver.loads import acting, asked, resultants
+from graphplan.errors import Refused, SingularPose
+from graphplan.mechanism.model import FRAME, Force, Loads, Mass, Moment, Number, Pair, Scene
+from graphplan.mechanism.pairs.pair import Along, Rate
+from graphplan.mechanism.plane import less, times, turned
+from graphplan.mechanism.units import inertia, metre, weight
+from graphplan.solver.equations import Equations, Solution, bound, held, require_fractions
 from graphplan.solver.rates import Rates, bound_by, moved_by, solve
+
+Load = Force | Moment
 
 
 @dataclass(frozen=True)
-class Reactions:
+class Reactions(Solution):
     """What the links do to each other in one pose, in the scene's force and force * m; floats or fractions.
 
     `joints`: by point and link, the force on that link from the one that carries the pin, which the scene names first.
@@ -35,12 +36,6 @@ class Reactions:
     slides: dict[str, tuple[Pair, Number]]
     balances: tuple[Pair | Number, ...]
     rates: Rates
-    equations: Equations = field(repr=False, compare=False)
-
-    @cached_property
-    def condition(self) -> float:
-        """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
-        return condition(self.equations)
 
 
 def reactions(scene: Scene, exact: bool = False) -> Reactions:
@@ -57,7 +52,7 @@ def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
     right = [-value for value in resultants(equations, acting(equations.scene, rates))]
     if exact:
         require_fractions(equations.scene, right)
-    linear = for_forces(equations, exact)
+    linear = equations.ready(exact, forces=True)
     values, free = linear.solve(right), linear.free
     if values is None or (free and not equations.scene.redundant) or free & balanced(equations):
         raise not_held(equations, exact)
@@ -82,9 +77,9 @@ def balanced(equations: Equations) -> frozenset[int]:
 
 def not_held(equations: Equations, exact: bool) -> SingularPose:
     """The error that says which links the balances do not hold."""
-    play = for_rates(equations, exact).free
+    play = equations.ready(exact).free
     if not play:
-        twice = bound_by(equations, for_forces(equations, exact).free)
+        twice = bound_by(equations, equations.ready(exact, forces=True).free)
         return SingularPose("statically indeterminate: more holds these links than their equilibrium can tell", twice)
     one = len(balanced(equations)) == 1
     balance, does = ("the balance", "it does") if one else ("the balances", "they do")
@@ -98,25 +93,56 @@ def read(equations: Equations, values: Sequence[Number | None], rates: Rates) ->
     A pair with an unknown that equilibrium cannot tell, None, is left out.
     """
     scene, unknown = equations.scene, iter(values)
+    unit, slides, balances = metre(scene.units), dict[str, tuple[Pair, Number]](), list[Pair | Number]()
     joints = {(joint.at, k): (next(unknown), next(unknown)) for joint in scene.revolutes for k in joint.links[1:]}
-    slides = [(s, {fact.way: next(unknown) for fact in s.states(scene)}) for s in scene.slides]
-    balances = zip(asked(scene).balances, unknown, strict=True)
-    return Reactions(
-        joints={name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None},
-        slides={s.name: sliding(scene, s, found) for s, found in slides
-                if all(value is not None for value in found.values())},
-        balances=tuple(balancing(scene, balance, value) for balance, value in balances if value is not None),
-        rates=rates,
-        equations=equations,
-    )
+    for slide in scene.slides:
+        found: dict[str, Any] = {fact.way: next(unknown) for fact in slide.states(scene)}
+        if all(value is not None for value in found.values()):
+            across = found["across"]
+            slides[slide.name] = times(across, turned(slide.direction)), found.get("turn", 0 * across) / unit
+    for balance, value in zip(asked(scene).balances, unknown, strict=True):
+        if value is not None:
+            balances.append(value / unit if balance.direction is None else times(value, balance.direction))
+    whole = {name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None}
+    return Reactions(equations, whole, slides, tuple(balances), rates)
 
 
-def sliding(scene: Scene, slide: Slide, found: dict[str, Any]) -> tuple[Pair, Number]:
-    """A slide's force, across its guide, and its moment."""
-    across = found["across"]
-    return times(across, turned(slide.direction)), found.get("turn", 0 * across) / metre(scene.units)
+# --- what acts on the links besides each other -----------------------------------------------------------------------
 
 
-def balancing(scene: Scene, balance: Balance, value: Number) -> Pair | Number:
-    """A balance's moment, or its force along its direction."""
-    return value / metre(scene.units) if balance.direction is None else times(value, balance.direction)
+def asked(scene: Scene) -> Loads:
+    """The loads of the scene; fails with `Refused` where it has none."""
+    if scene.loads is None:
+        raise Refused("reactions", "the scene has no loads", "give it [[forces]], [[moments]] or [masses]")
+    return scene.loads
+
+
+def acting(scene: Scene, rates: Rates) -> tuple[Load, ...]:
+    """Every load on a link, in the scene's units of force and force * m."""
+    loads = asked(scene)
+    own = (load for link, mass in loads.masses.items() for load in carried(scene, link, mass, rates))
+    return (*loads.forces, *loads.moments, *own)
+
+
+def carried(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]:
+    """By d'Alembert: weight and inertia force m g - m a_S at the centre of mass S, and the couple -I alpha."""
+    weigh = times(weight(scene.units), asked(scene).gravity)
+    resist = times(inertia(scene.units), rates.acceleration[mass.centre])
+    yield Force(link, mass.centre, times(mass.mass, less(weigh, resist)))
+    yield Moment(link, -weight(scene.units) * mass.inertia * rates.alpha[link])
+
+
+def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
+    """Of each moving link: its forces (x, y) added up and, in force * length, the moments about its base."""
+    sums: list[Number] = [0] * equations.width
+    for load in loads:
+        k = equations.columns[load.on]
+        sums[k : k + 3] = [a + b for a, b in zip(sums[k : k + 3], weights(equations, load), strict=True)]
+    return sums
+
+
+def weights(equations: Equations, load: Load) -> Rate:
+    """A load's force (x, y) and, in force * length, its moment about its link's base: what each rate gives of power."""
+    if isinstance(load, Moment):
+        return Rate(0, 0, load.value * metre(equations.scene.units))
+    return Along(load.on, FRAME, load.at, load.value, "held").weights(equations.arm(load.on, load.at))

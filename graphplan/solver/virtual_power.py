@@ -13,11 +13,9 @@ from graphplan.mechanism.model import Balance, Force, Moment, Number, Pair, Scen
 from graphplan.mechanism.pairs.pair import Rate
 from graphplan.mechanism.plane import times
 from graphplan.solver.elimination import Elimination
-from graphplan.solver.equations import bound, held
-from graphplan.solver.linear import for_rates, require_fractions
-from graphplan.solver.loads import Load, acting, asked, weights
+from graphplan.solver.equations import bound, held, require_fractions
 from graphplan.solver.rates import Rates, solve, solved
-from graphplan.solver.statics import not_held
+from graphplan.solver.statics import Load, acting, asked, not_held, weights
 
 
 def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
@@ -32,7 +30,7 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
     if exact:
         require_fractions(scene, right)
     rows, values = held(scene), system.solve(right)
-    if values is None or system.free or for_rates(rows, exact).free:
+    if values is None or system.free or rows.ready(exact).free:
         raise not_held(rows, exact)
     found: Iterable[Number] = values if exact else map(float, values)
     return tuple(times(v, one.value) if isinstance(one, Force) else v for v, one in zip(found, units, strict=True))
@@ -41,7 +39,7 @@ def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
 def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
     """For each drive the velocities of every link while this drive alone moves, at a unit rate."""
     equations, zero = rates.equations, Fraction(0) if exact else 0.0
-    linear, first = for_rates(equations, exact), bound(equations.scene)
+    linear, first = equations.ready(exact), bound(equations.scene)
     for drive in range(first, first + len(equations.scene.drives)):
         right = [Fraction(i == drive) for i in range(len(equations.facts))]
         yield equations.rates(solved(equations, linear, right), zero)

@@ -15,7 +15,7 @@ from by_hand import Written, force, hold, loads, mass, mechanism, moment, slide,
 
 from graphplan.mechanism.model import Force, Moment, Number, Pair, Scene, Slide, Units
 from graphplan.solver import power, reactions, solve
-from graphplan.solver.loads import acting
+from graphplan.solver.statics import acting
 
 METRES = Units(length="m")
 G = 9.81  # the book's kgf in newtons

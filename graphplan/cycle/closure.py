@@ -12,7 +12,6 @@ two branches meet.
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import NamedTuple
 
 import numpy as np
 
@@ -27,18 +26,6 @@ _SHRINKING = 1 / 4
 
 SETTLED = 2.0**-13
 """A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
-
-
-class Correction(NamedTuple):
-    """Newton's correction of n poses, shape (n, freedoms), and the derivatives that it rests on."""
-
-    step: Array
-    jacobian: Array
-
-    @property
-    def size(self) -> Array:
-        """The largest part of each pose's correction, in radians and reaches; shape (n,)."""
-        return np.abs(self.step).max(axis=1)
 
 
 class Closure:
@@ -102,14 +89,15 @@ class Closure:
         slope[:, self.to_cells] += gap.imag
         return left.take(self.rows, axis=1), slope.reshape(n, k, k + 3)[:, :, :k]
 
-    def correction(self, pose: Array, travel: Array) -> Correction:
-        """Newton's correction of these poses, to be taken from them; nan where a derivative is singular."""
+    def correction(self, pose: Array, travel: Array) -> tuple[Array, Array]:
+        """Newton's correction to be taken from n poses, in radians and reaches, shape (n, freedoms), and the
+        derivatives that it rests on; nan where these are singular."""
         left, jacobian = self.equations(pose, travel)
-        return Correction(_solved(jacobian, left), jacobian)
+        return _solved(jacobian, left), jacobian
 
-    def corrected(self, pose: Array, correction: Correction) -> Array:
+    def corrected(self, pose: Array, correction: Array) -> Array:
         """The poses less their corrections."""
-        shift, angle = self._parted(correction.step)
+        shift, angle = self._parted(correction)
         pose = pose.copy()
         pose[:, 0, self.columns] -= shift
         pose[:, 1, self.columns] *= np.exp(-1j * angle)
@@ -159,12 +147,12 @@ def settle(closure: Closure, predicted: Array, travel: Array, step: Array) -> tu
     pose, trusted = predicted, np.ones(len(travel), dtype=bool)
     allowed, settled = _NEAR * step, np.zeros(len(travel), dtype=bool)
     while True:
-        correction = closure.correction(pose, travel)
-        size = correction.size
+        correction, jacobian = closure.correction(pose, travel)
+        size = np.abs(correction).max(axis=1)
         trusted = trusted & (size <= allowed)
         pose = np.where(trusted[:, None, None], closure.corrected(pose, correction), predicted)
         if np.all(settled | ~trusted):
-            return pose, correction.jacobian, trusted
+            return pose, jacobian, trusted
         settled = size <= SETTLED * step
         allowed = np.where(settled, _NEAR * step, _SHRINKING * size)
 

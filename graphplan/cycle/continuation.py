@@ -71,7 +71,7 @@ class Knots:
     senses: Array
     sizes: Array
 
-    def __getitem__(self, some: slice) -> Knots:
+    def __getitem__(self, some: slice | Array) -> Knots:
         """Some of them."""
         return Knots(self.travel[some], self.pose[some], self.rate[some], self.senses[some], self.sizes[some])
 
@@ -111,10 +111,9 @@ class Path:
 
     def predicted(self, travel: Array) -> tuple[Array, Array]:
         """The poses at these travels by interpolation, and the length of the step between the knots beside each."""
-        at, pose, rate = self.knots.travel, self.knots.pose, self.knots.rate
-        i = np.clip(np.searchsorted(at, travel), 1, len(at) - 1)
-        ends = (at[i - 1], pose[i - 1], rate[i - 1]), (at[i], pose[i], rate[i])
-        return cubic(*ends, travel), distance(pose[i - 1], pose[i])
+        i = np.clip(np.searchsorted(self.knots.travel, travel), 1, len(self.knots.travel) - 1)
+        before, after = self.knots[i - 1], self.knots[i]
+        return hermite(before, after, travel), distance(before.pose, after.pose)
 
     def nearest(self, travel: Array) -> Array:
         """The poses of the knots nearest to these travels."""
@@ -183,10 +182,10 @@ class Continuation:
         knots = [start]
         for at in _divided(travel[-1], 2 * self.longest)[:, None]:
             predicted = _predicted(knots, at)
-            correction = self.closure.correction(predicted, at)
-            if not correction.size[0] <= _SKETCHED * distance(predicted, knots[-1].pose)[0]:
+            correction, jacobian = self.closure.correction(predicted, at)
+            if not np.abs(correction).max() <= _SKETCHED * distance(predicted, knots[-1].pose)[0]:
                 break
-            knots.append(self._knots(at, self.closure.corrected(predicted, correction), correction.jacobian))
+            knots.append(self._knots(at, self.closure.corrected(predicted, correction), jacobian))
         if len(knots) == 1:
             return start.pose[:0]
         travel = travel[np.abs(travel) <= np.abs(knots[-1].travel)]
@@ -274,16 +273,10 @@ def _first(fine: Array) -> int:
 
 def hermite(one: Knots, two: Knots, travel: Array) -> Array:
     """The poses at these travels on the cubics through two knots each, between them or beyond."""
-    return cubic((one.travel, one.pose, one.rate), (two.travel, two.pose, two.rate), travel)
-
-
-def cubic(one: tuple[Array, Array, Array], two: tuple[Array, Array, Array], travel: Array) -> Array:
-    """The poses at these travels on the cubics through two knots (travel, pose, rate): between them or beyond."""
-    (at, pose, rate), (until, goal, arriving) = one, two
-    step = np.broadcast_to(until - at, travel.shape)[:, None, None]
-    x = ((travel - at) / (until - at))[:, None, None]
-    return _normal((1 - x) ** 2 * ((1 + 2 * x) * pose + x * step * rate)
-                   + x**2 * ((3 - 2 * x) * goal - (1 - x) * step * arriving))
+    step = np.broadcast_to(two.travel - one.travel, travel.shape)[:, None, None]
+    x = ((travel - one.travel) / (two.travel - one.travel))[:, None, None]
+    return _normal((1 - x) ** 2 * ((1 + 2 * x) * one.pose + x * step * one.rate)
+                   + x**2 * ((3 - 2 * x) * two.pose - (1 - x) * step * two.rate))
 
 
 def _normal(pose: Array) -> Array:

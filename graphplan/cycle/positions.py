@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from typing import NamedTuple, Protocol
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,6 +24,9 @@ from graphplan.kernel.tape.record import Symbols
 from graphplan.mechanism.model import FRAME, Slide
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
+
+Placer: TypeAlias = "_Driven | _Constructed | _Taped | _Closed"
+"""Places one part of every pose in a block; `needs` are the links placed before whose base and turn it reads."""
 
 
 class Failure(NamedTuple):
@@ -68,19 +71,6 @@ class Placed:
         for link, (base, turn) in links.items():
             if link in self.base:
                 yield from ((self.base[link], base), (self.turn[link], turn))
-
-
-class Placer(Protocol):
-    """Places one part of every pose in a block."""
-
-    @property
-    def needs(self) -> tuple[str, ...]:
-        """The links placed before whose base and turn it reads."""
-        ...
-
-    def place(self, placed: Placed) -> None:
-        """Fill the arrays of this part."""
-        ...
 
 
 class Placing:

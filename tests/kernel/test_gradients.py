@@ -22,10 +22,8 @@ FIGURES = 8
 ROUNDING = 1e-9  # beside the largest derivative: what floats lose where a figure's lines cross flat
 
 
-class Digits:
+class Digits(Domain):
     """Decimals of very many digits."""
-
-    name = "digits"
 
     def lift(self, value: Any) -> Decimal:
         fraction = Fraction(value)
@@ -43,9 +41,6 @@ class Digits:
 
     def sign(self, value: Decimal, scale: Decimal) -> int:
         return 0 if abs(value) <= STEP * scale else 1 if value > 0 else -1
-
-    def whole(self, value: Any) -> Any:
-        return value
 
 
 def last(program: Program, domain: Domain, points: Sequence[Any]) -> Any:

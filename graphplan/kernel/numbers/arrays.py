@@ -6,13 +6,12 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import ZERO
 
 
-class Arrays:
+class Arrays(Domain):
     """n poses in double precision. `faults` collects, for each failure, its code, reason and the mask of poses."""
-
-    name = "array"
 
     def __init__(self) -> None:
         self.faults: list[tuple[str, str, Any]] = []

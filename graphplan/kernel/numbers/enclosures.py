@@ -15,6 +15,7 @@ from typing import Any
 from flint import arb, arb_mat, ctx, fmpq
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.numbers import Domain
 
 
 class Undecided(Exception):
@@ -174,11 +175,9 @@ def _exactly(point: arb) -> Fraction:
     return Fraction(whole << exponent) if exponent > 0 else Fraction(whole, 1 << -exponent)
 
 
-class Enclosures:
+class Enclosures(Domain):
     """One pose between proven bounds. What is zero or negative as far as the bits tell raises; `undecided` says which
     failure more bits may take back."""
-
-    name = "enclosure"
 
     def __init__(self) -> None:
         self.undecided = False
@@ -204,6 +203,3 @@ class Enclosures:
     def _undrawable(self, undecided: bool, code: str, why: str) -> Undrawable:
         self.undecided = undecided
         return Undrawable(code, why)
-
-    def whole(self, value: Any) -> Any:
-        return value

@@ -3,21 +3,16 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.numbers import Domain
 
 # A difference of two products is noise when it is within a few roundings of them.
 ZERO = 2.0**-50
 
 
-class Floats:
+class Floats(Domain):
     """One pose in double precision; what cannot be drawn raises."""
-
-    name = "float"
-
-    def lift(self, value: Any) -> float:
-        return float(value)
 
     def sqrt(self, value: float, code: str, why: str) -> float:
         if value < 0:
@@ -31,6 +26,3 @@ class Floats:
 
     def sign(self, value: float, scale: float) -> float:
         return 0.0 if abs(value) <= ZERO * scale else math.copysign(1.0, value)
-
-    def whole(self, value: Any) -> Any:
-        return value

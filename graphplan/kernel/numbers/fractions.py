@@ -7,12 +7,11 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.numbers import Domain
 
 
-class Fractions:
+class Fractions(Domain):
     """One pose, exactly; an irrational root raises `not-rational`."""
-
-    name = "fraction"
 
     def lift(self, value: Any) -> Fraction:
         if isinstance(value, float):
@@ -34,6 +33,3 @@ class Fractions:
 
     def sign(self, value: Fraction, scale: Fraction) -> int:
         return (value > 0) - (value < 0)
-
-    def whole(self, value: Any) -> Any:
-        return value

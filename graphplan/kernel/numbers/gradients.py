@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 
 
@@ -55,13 +56,11 @@ class Gradient:
     __radd__, __rmul__ = __add__, __mul__
 
 
-class Gradients:
+class Gradients(Domain):
     """One pose in double precision with `count` errors, each zero and known by its place; what cannot be drawn raises.
 
     The size of a root that is nothing has no derivative: it counts as steady, which tells too little there.
     """
-
-    name = "gradient"
 
     def __init__(self, count: int):
         self.count = count
@@ -77,9 +76,6 @@ class Gradients:
         """The derivatives of a number by all errors."""
         return number.partials if isinstance(number, Gradient) else np.zeros(self.count)
 
-    def lift(self, value: Any) -> float:
-        return float(value)
-
     def sqrt(self, value: Any, code: str, why: str) -> Any:
         root = self._floats.sqrt(_steady(value), code, why)
         if not isinstance(value, Gradient):
@@ -92,9 +88,6 @@ class Gradients:
 
     def sign(self, value: Any, scale: Any) -> float:
         return self._floats.sign(_steady(value), _steady(scale))
-
-    def whole(self, value: Any) -> Any:
-        return value
 
 
 def _steady(number: Any) -> float:

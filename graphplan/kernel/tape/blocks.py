@@ -13,12 +13,13 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import ZERO
-from graphplan.kernel.tape.record import Entry, Question, Tape, operands
-from graphplan.kernel.tape.source import compiled, spoken, statements
+from graphplan.kernel.tape.record import LEAVES, Question, Tape, operands
+from graphplan.kernel.tape.source import StatementWriter, compiled, spoken
 
 BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
          "sqrt": "sqrt", "sign": "sign"}
+BOUNDED = ("+", "-", "*", "neg", "abs")  # what is no larger than its operands' sizes make it
 HEAD = ("from numpy import absolute, add, divide, minimum, multiply, negative, sqrt, subtract",
         "from graphplan.kernel.tape.blocks import largest, least, sign")
 
@@ -79,9 +80,9 @@ def least(numbers: Any) -> float:
     return -high if high <= 0.0 else float(np.minimum.reduce(np.absolute(numbers)))
 
 
-def sign(value: Any, scale: Any) -> Any:
-    """1, -1, or 0 where a value is nothing beside its scale."""
-    return np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
+def sign(value: Any, scale: Any, told: Any) -> None:
+    """Tell 1, -1, or 0 where a value is nothing beside its scale."""
+    told[:] = np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
 
 
 def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., bool]:
@@ -92,7 +93,7 @@ def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[
         raise Refused("compiled", "numba is not installed", "pip install 'graphplan[numba]', or leave it out") from None
     reads = [f"v{place} = I[{k}][k]" for k, place in enumerate(inputs)]
     tells = [f"O[{k}][k] = {spoken(tape, place)}" for k, place in enumerate(outputs)]
-    body = "\n        ".join([*reads, *statements(tape, outputs, "return False"), *tells])
+    body = "\n        ".join([*reads, *StatementWriter(tape, outputs, "return False").lines, *tells])
     size = "I[0].size" if inputs else "O[0].size"
     text = f"def block(I, O, R):\n    for k in range({size}):\n        {body}\n    return True"
     made = njit(error_model="numpy")(compiled(text, "block"))
@@ -108,7 +109,7 @@ class BlockWriter:
     """
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
-        self.tape = tape
+        self.tape, self.inputs, self.outputs = tape, len(inputs), len(outputs)
         self.names = {place: f"i{k}" for k, place in enumerate(inputs)}
         self.told: dict[int, int] = {}
         for k, place in enumerate(outputs):
@@ -123,19 +124,15 @@ class BlockWriter:
 
     def text(self) -> str:
         """What makes the function `block(inputs, outputs, registers)`: whether every question was answered."""
-        unpack = [f"{', '.join(names)}, = {array}" for array, names in (
-            ("I", [name for name in self.names.values() if name[0] == "i"]),
-            ("O", [f"o{k}" for k in range(self._count())]),
-            ("R", [f"r{k}" for k in range(self.registers)])) if names]
+        counts = {"i": self.inputs, "o": self.outputs, "r": self.registers}
+        unpack = [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {letter.upper()}"
+                  for letter, count in counts.items() if count]
         copies = [f"o{k}[:] = {self._name(place)}" for k, place in self.copies]
         body = [*unpack, *self.lines, *copies, "return True"]
         return "\n".join([*HEAD, "\n    ".join(["def block(I, O, R):", *body])])
 
-    def _count(self) -> int:
-        return max([*self.told.values(), *(k for k, _ in self.copies)], default=-1) + 1
-
     def _leaf(self, place: int) -> bool:
-        return self.tape.entries[place][0] in ("in", "constant")
+        return self.tape.entries[place][0] in LEAVES
 
     def _write(self, needed: Sequence[int]) -> None:
         """Each number, then the questions that can be asked with it, then its operands are let go if done with."""
@@ -165,15 +162,12 @@ class BlockWriter:
 
     def _make(self, place: int, ending: Sequence[int]) -> None:
         op, *args = self.tape.entries[place]
-        called = [self._name(a) for a in args]
+        called = ", ".join(map(self._name, args))
         for done in ending:  # its own place may take the result
             self._release(done)
         target = f"o{self.told[place]}" if place in self.told else self._taken()
         self.names[place] = target
-        if op == "sign":
-            self.lines.append(f"{target}[:] = sign({called[0]}, {called[1]})")
-        else:
-            self.lines.append(f"{CALLS[op]}({', '.join(called)}, {target})")
+        self.lines.append(f"{CALLS[op]}({called}, {target})")
 
     def _taken(self) -> str:
         if self.free:
@@ -205,22 +199,18 @@ class BlockWriter:
         if place is None or self.tape.is_constant(place):
             return
         entry = self.tape.entries[place]
-        if place in self.marks or not self._bounded(entry):
+        if place in self.marks or entry[0] not in BOUNDED:
             yield place
         else:
             for a in operands(entry):
                 yield from self._leaves(a)
-
-    def _bounded(self, entry: Entry) -> bool:
-        """Whether an operation's size is bounded by the sizes of its operands."""
-        return entry[0] in ("+", "-", "*", "neg", "abs")
 
     def _bound(self, place: int) -> str:
         """An expression for the largest size that a number has in the block."""
         entry = self.tape.entries[place]
         if entry[0] == "constant":
             return repr(abs(entry[1]))
-        if place in self.marks or not self._bounded(entry):
+        if place in self.marks or entry[0] not in BOUNDED:
             return self._size(place)
         parts = [self._bound(a) for a in operands(entry)]
         return parts[0] if len(parts) == 1 else f"({parts[0]} {'*' if entry[0] == '*' else '+'} {parts[1]})"

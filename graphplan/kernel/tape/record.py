@@ -11,6 +11,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from typing import Any
 
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 
 Entry = tuple[Any, ...]  # ("in", name), ("constant", value), or an operation and the places of its operands
@@ -181,10 +182,8 @@ class Symbol:
         raise TypeError("a rule may not branch on a number: ask the domain")
 
 
-class Symbols:
+class Symbols(Domain):
     """The domain of symbols. What is told by constants alone is reckoned in floats at once, and fails at once."""
-
-    name = "symbol"
 
     def __init__(self) -> None:
         self.tape = Tape()
@@ -204,6 +203,3 @@ class Symbols:
         if isinstance(value, Symbol) or isinstance(scale, Symbol):
             return self.tape.sign(self.tape.place(value), self.tape.place(scale))
         return FLOATS.sign(value, scale)
-
-    def whole(self, value: Any) -> Any:
-        return value

@@ -21,20 +21,17 @@ WRITTEN = {"+": "({} + {})", "-": "({} - {})", "*": "({} * {})", "/": "({} / {})
 TWICE = "sign"  # names its operands twice: they must be names
 
 
-def statements(tape: Tape, outputs: Sequence[int], hand_back: str) -> Iterator[str]:
-    """The statements that make each needed number; `hand_back` is what is done where a question fails.
-
-    Inputs are names i0, i1, ... in the order of the tape's inputs; outputs are afterwards told by :func:`spoken`.
-    """
-    yield from StatementWriter(tape, outputs, hand_back).lines
-
-
 def spoken(tape: Tape, place: int) -> str:
     """How a finished number is called: by its name, or as the constant that it is."""
     return repr(tape.entries[place][1]) if tape.is_constant(place) else f"v{place}"
 
 
 class StatementWriter:
+    """`lines`: the statements that make each needed number; `hand_back` is what is done where a question fails.
+
+    Inputs and outputs are told by :func:`spoken`.
+    """
+
     def __init__(self, tape: Tape, outputs: Sequence[int], hand_back: str):
         self.tape, self.hand_back = tape, hand_back
         roots = [*outputs, *(place for q in tape.questions for place in _places(q))]
@@ -87,7 +84,7 @@ def function(tape: Tape, inputs: Sequence[int], told: Any) -> Callable[..., Any]
     ZeroDivisionError or OverflowError where the rules would.
     """
     head = f"def replay({', '.join(f'v{place}' for place in inputs)}):"
-    body = [*statements(tape, list(places(told)), "return None"), f"return {_shaped(tape, told)}"]
+    body = [*StatementWriter(tape, list(places(told)), "return None").lines, f"return {_shaped(tape, told)}"]
     return compiled("\n    ".join([head, *body]), "replay")
 
 

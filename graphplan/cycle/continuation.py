@@ -126,10 +126,8 @@ class Continuation:
     def __init__(self, linkage: Linkage, lower: float, upper: float, drawn: Drawn, progress: Progress | None = None):
         self.linkage, self.closure, self.drawn = linkage, Closure(linkage, linkage.parts), drawn
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
-        self.longest = _LONGEST * min(
-            (upper - lower if drive.slides else TURN) / abs(pace)
-            for drive, pace in zip(linkage.scene.drives, linkage.paces, strict=True) if pace
-        )
+        self.longest = _LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
+                                      in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
         self.finest = _FINEST * self.longest
         if self.longest:
             unit, name = travel_unit(linkage.scene)

@@ -94,9 +94,8 @@ def _differentiated(board: Board, P: Mark, Q: Mark, at: Mark, rate: Axes, name: 
     return Ray(P, Q, cut, board.meet(upright, level, name=name))
 
 
-def integrate(
-    board: Board, ordinates: Sequence[Mark], start: Mark, divisions: Sequence[Mark], rate: Axes, names: Sequence[str],
-) -> list[Ray[Mark]]:
+def integrate(board: Board, ordinates: Sequence[Mark], start: Mark, divisions: Sequence[Mark], rate: Axes,
+              names: Sequence[str]) -> list[Ray[Mark]]:
     """The diagram of which the rate is known: a string of chords from `start`, each parallel to its strip's ray.
 
     Reads the rate's ordinates at the middle of n strips, the first point, marks at the n + 1 abscissas that bound the
@@ -200,13 +199,10 @@ def _given(board: Board, curve: Curve, scales: DiagramScales, places: Places, st
             return [board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
 
     s, v, a = curve.letters.values()
-    return _Given(
-        numbers,
-        bool(np.ptp(np.diff(times)) <= ROUNDING * (curve.time[-1] - curve.time[0])),
-        marked("s", _numbered(s, numbers), times, curve.s[stretch]),
-        marked("v", [f"{v}_{numbers[0]}"], times[:1], curve.v[stretch[:1]])[0],
-        marked("a", _strips(a, numbers), middles, curve.at("a", middles)),
-    )
+    even = bool(np.ptp(np.diff(times)) <= ROUNDING * (curve.time[-1] - curve.time[0]))
+    return _Given(numbers, even, marked("s", _numbered(s, numbers), times, curve.s[stretch]),
+                  marked("v", _numbered(v, numbers[:1]), times[:1], curve.v[stretch[:1]])[0],
+                  marked("a", _strips(a, numbers), middles, curve.at("a", middles)))
 
 
 def _found(board: Board, given: _Given, rates: _Rates) -> dict[Found, list[Ray[Mark]]]:

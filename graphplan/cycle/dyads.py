@@ -7,7 +7,7 @@ change at a limit.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
@@ -226,9 +226,7 @@ def _rpp(s: _Sketch) -> tuple[Figure, Figure, str]:
     return one, carrier.beside(X, a), "the two guides are parallel"
 
 
-_RULES: dict[str, Callable[[_Sketch], tuple[Figure, Figure, str]]] = {
-    "RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp,
-}
+_RULES = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}
 
 
 def _way(along: complex, vector: complex) -> str:

@@ -4,7 +4,5 @@ from graphplan.kernel import accelerations, elementary, images, moments, primiti
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Primitive
 from graphplan.kernel.program import Board, Mark, Program, Step
 
-__all__ = [
-    "CIRCLE", "FAILURES", "LINE", "OPENING", "POINT", "TABLE",
-    "Board", "Mark", "Primitive", "Program", "Step", "accelerations", "elementary", "images", "moments", "primitives",
-]
+__all__ = ["CIRCLE", "FAILURES", "LINE", "OPENING", "POINT", "TABLE", "Board", "Mark", "Primitive", "Program", "Step",
+           "accelerations", "elementary", "images", "moments", "primitives"]

@@ -182,7 +182,8 @@ class Expander:
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
-        if any(self._crosses_plans(step) for step in steps):
+        # Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
+        if not self.keep <= STRICT and any(self._crosses_plans(step) for step in steps):
             return None
         on_sheet = all(self.windows.get(step.panel, EVERYWHERE).holds(self.values[step.index])
                        for step in steps if step.op.gives == POINT)
@@ -191,14 +192,8 @@ class Expander:
         return Rating(form, len(steps), on_sheet, min(crossings, default=1.0), undrawn)
 
     def _crosses_plans(self, step: Step) -> bool:
-        """Whether a step joins points of two plans, which stand apart, each at its own scale.
-
-        Compasses and straightedge alone cannot carry a direction over but in one plane: there the plans lie as one.
-        """
-        if not step.op.spans or self.keep <= STRICT:
-            return False
-        return len({self.board.steps[arg].panel for arg in step.args}) > 1
-
+        """Whether a step joins points of two plans, which stand apart, each at its own scale."""
+        return step.op.spans and len({self.board.steps[arg].panel for arg in step.args}) > 1
 
     def _explain(self, op: Primitive, before: int, ranked: list[Rating], why: str, out: Mark) -> None:
         """Tell at the first step of a form which it is and why; at its last what it is good for."""

@@ -21,9 +21,8 @@ from graphplan.phrases import Said, joined, said, sentence
 
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
-SCALE, STRAIGHTEDGE, SET_SQUARES, COMPASSES, DIVIDERS, PENCIL = (
-    "scale", "straightedge", "set squares", "compasses", "dividers", "pencil",
-)
+SCALE, STRAIGHTEDGE, SET_SQUARES = "scale", "straightedge", "set squares"
+COMPASSES, DIVIDERS, PENCIL = "compasses", "dividers", "pencil"
 
 Claim = tuple[Any, ...]
 Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose
@@ -191,12 +190,10 @@ FAILURES: dict[str, tuple[Said, str]] = {
     "circles-miss": (said("two circles do not meet"), "check the lengths"),
     "circles-concentric": (said("two circles have the same centre"), "check the centres"),
     "line-misses-circle": (said("the line passes the circle by"), "check the lengths"),
-    "locus-undetermined": (
-        said("the link's pole lies in the point, so its loci say nothing of it"), "another pose: this one is singular",
-    ),
-    "couple-alone": (
-        said("a force is nothing, so that it cannot take up a couple"), "leave the couple beside it (--inertia couple)",
-    ),
+    "locus-undetermined": (said("the link's pole lies in the point, so its loci say nothing of it"),
+                           "another pose: this one is singular"),
+    "couple-alone": (said("a force is nothing, so that it cannot take up a couple"),
+                     "leave the couple beside it (--inertia couple)"),
     "trials-agree": (said("both trial figures miss by the same amount"), "another pose: this one is singular"),
     "not-rational": (said("a root is irrational"), "leave out --exact"),
 }

@@ -309,47 +309,34 @@ def _needed(steps: Sequence[Step], wanted: Iterable[int]) -> set[int]:
 
 def pruned(program: Program) -> Program:
     """The same program without the steps that no wanted mark needs."""
-    needed = _needed(program.steps, program.wanted)
-    place: dict[int, int] = {}
-    steps: list[Step] = []
-    for step in program.steps:
-        if step.index in needed:
-            place[step.index] = len(steps)
-            steps.append(replace(step, index=len(steps), args=tuple(place[arg] for arg in step.args)))
+    return _renumbered(program, sorted(_needed(program.steps, program.wanted)))
+
+
+def _renumbered(program: Program, order: Sequence[int]) -> Program:
+    """These steps of a program, in this order."""
+    place = {index: position for position, index in enumerate(order)}
+    steps = [replace(s, index=place[s.index], args=tuple(place[arg] for arg in s.args))
+             for s in map(program.steps.__getitem__, order)]
     return Program(tuple(steps), tuple(place[index] for index in program.wanted))
 
 
 def gathered(program: Program) -> tuple[Program, list[int]]:
     """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
-    order: list[int] = []
-    left = list(range(len(program)))
-    done = [False] * len(program)
+    drawn: dict[int, None] = {}
+    left = program.steps
     while left:
-        panel = program.steps[left[0]].panel
-        later = []
-        for index in left:
-            step = program.steps[index]
-            if step.panel == panel and all(done[arg] for arg in step.args):
-                done[index] = True
-                order.append(index)
-            else:
-                later.append(index)
-        left = later
-    place = {index: position for position, index in enumerate(order)}
-    old = [program.steps[index] for index in order]
-    steps = [replace(s, index=place[s.index], args=tuple(place[arg] for arg in s.args)) for s in old]
-    return Program(tuple(steps), tuple(place[index] for index in program.wanted)), order
+        for step in left:
+            if step.panel == left[0].panel and all(arg in drawn for arg in step.args):
+                drawn[step.index] = None
+        left = tuple(step for step in left if step.index not in drawn)
+    return _renumbered(program, list(drawn)), list(drawn)
 
 
 # ---- numbers: one walk over the steps, whatever the number domain ----------------------------------------------------
 
 
-def evaluate(
-    program: Program,
-    domain: Domain,
-    given: Mapping[Any, Mapping[str, Any]] | None = None,
-    after: Callable[[Step], None] | None = None,
-) -> list[Any]:
+def evaluate(program: Program, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
+             after: Callable[[Step], None] | None = None) -> list[Any]:
     """The value of every step, in order.
 
     Reads a program, a number domain and, by name or index of a step, other parameters than were recorded (where a

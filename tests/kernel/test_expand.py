@@ -66,7 +66,7 @@ def test_preferred_form_is_drawn() -> None:
     """A form that is asked for by name is drawn wherever it can be."""
     sheet = {"": Window((4.0, 4.0), 20.0)}
     assert form(expanded(link(0.5), windows=sheet, prefer="auxiliary point")) == "auxiliary point"
-    assert form(expanded(link(4.0), windows=sheet, prefer="two trial")).startswith("two trial figures")
+    assert form(expanded(link(4.0), windows=sheet, prefer="two trial figures")).startswith("two trial figures")
     assert "trial" in form(expanded(link(0.0), windows=sheet, prefer="auxiliary point"))
 
 

@@ -13,9 +13,8 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact

@@ -17,8 +17,7 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from graphplan.cycle.closure import SETTLED, Closure, distance, given, settle
-from graphplan.cycle.linkage import Array, Linkage
+from graphplan.cycle.linkage import SETTLED, Array, Closure, Linkage, distance, given, settle
 from graphplan.cycle.travel import TURN, afford, travel_unit
 
 Progress = Callable[[float], None]

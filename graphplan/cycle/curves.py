@@ -5,10 +5,9 @@ Its three diagrams share an abscissa; their scales are round values, which imply
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import islice, pairwise
+from itertools import pairwise
 
 import numpy as np
 import numpy.typing as npt
@@ -180,9 +179,9 @@ def diagram_scales(curve: Curve, places: Places) -> DiagramScales:
     them: the pole is then as near as it may be, and the largest ordinates are off the paper.
     """
     datum = float(curve.s[curve.known][0])
-    mu_t = Fraction(str(round_up(float(curve.time[-1] - curve.time[0]) / LENGTH)))
+    mu_t = _round_scale(float(curve.time[-1] - curve.time[0]) / LENGTH)
     spans = sizes(curve, places[curve.known[places]])
-    mu, poles = {"s": Fraction(str(round_up(spans["s"] / HEIGHT)))}, dict[str, Fraction]()
+    mu, poles = {"s": _round_scale(spans["s"] / HEIGHT)}, dict[str, Fraction]()
     for quantity, rate in pairwise(QUANTITIES):
         slope = mu[quantity] / mu_t
         least = min(max(spans[rate] / HEIGHT, float(slope) / FARTHEST), float(slope) / NEAREST)
@@ -208,12 +207,11 @@ def sizes(curve: Curve, places: Places) -> dict[str, float]:
 
 def _rate_scale(least: float, slope: Fraction) -> Fraction:
     """The first of three round scales whose pole stands on a half of a millimetre, else the first."""
-    candidates = list(islice(_round_scales(least), 3))
+    candidates = [_round_scale(least)]
+    while len(candidates) < 3:
+        candidates.append(_round_scale(float(candidates[-1]) * 1.01))
     return next((mu for mu in candidates if (2 * slope / mu).denominator == 1), candidates[0])
 
 
-def _round_scales(least: float) -> Iterator[Fraction]:
-    while True:
-        scale = round_up(least)
-        yield Fraction(str(scale))
-        least = scale * 1.01
+def _round_scale(least: float) -> Fraction:
+    return Fraction(str(round_up(least)))

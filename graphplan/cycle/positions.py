@@ -13,10 +13,9 @@ from typing import NamedTuple, TypeAlias
 
 import numpy as np
 
-from graphplan.cycle.closure import Closure, settle
 from graphplan.cycle.continuation import Path
 from graphplan.cycle.dyads import Attitude, Dyad, Vector, dyad
-from graphplan.cycle.linkage import Array, Linkage, direction
+from graphplan.cycle.linkage import Array, Closure, Linkage, direction, settle
 from graphplan.errors import ConstructionError
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.tape.blocks import BLOCK, Blocks
@@ -82,7 +81,7 @@ class Placing:
                       for part in linkage.parts]
 
     def poses(self, travel: Array) -> Array | None:
-        """The poses at these travels as :mod:`closure` has them, nan where one cannot be drawn; none if a part is not.
+        """The poses at these travels as :mod:`linkage` has them, nan where one cannot be drawn; none if a part is not.
         """
         placers = [placer for placer in self.drawn if placer]
         if len(placers) < len(self.drawn):

@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
 
 AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
@@ -256,7 +257,7 @@ class FormBoard(Verbs):
         on = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"]
         on += [step.index for step in board.steps if step.op.gives == POINT and l.step.index in step.args
                and any(claim[0] == "on" and step.args[claim[1]] == l.step.index for claim in step.op.claims)]
-        return sorted((board.marks[index] for index in on), key=lambda P: _along(self._expander.value(P), b, -a))
+        return sorted((board.marks[index] for index in on), key=lambda P: dot(self._expander.value(P), (b, -a)))
 
     def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
         """The point furthest from P, of some or of those on its plan, else of all."""
@@ -266,13 +267,9 @@ class FormBoard(Verbs):
         return None if self.one(P, far) else far
 
 
-def _along(point: tuple[float, float], x: float, y: float) -> float:
-    return point[0] * x + point[1] * y
-
-
 def _runs_against(one: Any, two: Any) -> bool:
     """Whether two lines run opposite ways."""
-    return bool(_along(one[:2], *two[:2]) < 0)
+    return bool(dot(one, two) < 0)
 
 
 def crossing(step: Step, values: Sequence[Any]) -> float:

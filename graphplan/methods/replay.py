@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.source import function, places
+from graphplan.kernel.tape.record import Symbols, function, places
 from graphplan.methods.recorded import Recorded
 
 if TYPE_CHECKING:

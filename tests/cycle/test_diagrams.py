@@ -19,9 +19,9 @@ from graphplan.cycle.diagram_program import Found, axes, by_chords, by_tangents,
 from graphplan.cycle.diagrams import Diagram, diagram
 from graphplan.errors import Refused
 from graphplan.kernel import Board, Mark
+from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.program import evaluate, freeze
 from graphplan.output import plots
 

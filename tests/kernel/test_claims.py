@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 
 from graphplan.kernel import Board
 from graphplan.kernel.claims import broken, unmet
+from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.program import freeze
 
 RANDOMS = st.randoms(use_true_random=False)

@@ -10,9 +10,9 @@ import pytest
 from figures import NAMES, corners, drawn, figure, size
 
 from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.program import evaluate
 
 BITS = 160

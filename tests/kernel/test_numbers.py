@@ -12,9 +12,9 @@ from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, qua
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel import TABLE, Program
+from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.kernel.program import evaluate
 
 PLACES = pytest.mark.parametrize("place", [quarters, corners, extremes], ids=lambda place: str(place.__name__))

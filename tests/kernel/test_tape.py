@@ -14,8 +14,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate, freeze
 from graphplan.kernel.tape import blocks
 from graphplan.kernel.tape.blocks import Blocks
-from graphplan.kernel.tape.record import Symbols
-from graphplan.kernel.tape.source import function
+from graphplan.kernel.tape.record import Symbols, function
 
 PLACES = pytest.mark.parametrize("place", [quarters, corners, extremes], ids=lambda place: str(place.__name__))
 

@@ -12,8 +12,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.cycle.closure import Closure, given
-from graphplan.cycle.linkage import Linkage, direction
+from graphplan.cycle.linkage import Closure, Linkage, direction, given
 from graphplan.cycle.travel import paces
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.pairs import KINDS

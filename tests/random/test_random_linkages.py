@@ -13,7 +13,7 @@ import pytest
 from linkages import scenes
 
 from graphplan.errors import SingularPose
-from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.solver import Rates, solve

@@ -15,7 +15,7 @@ from loads import loaded_scenes, rubbing
 
 from graphplan.check.trusted import report
 from graphplan.errors import SingularPose
-from graphplan.kernel.numbers.fractions import Fractions
+from graphplan.kernel.numbers import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 from graphplan.methods.construct import construct

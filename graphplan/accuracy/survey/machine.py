@@ -21,10 +21,9 @@ from graphplan.accuracy.survey.binary import binary, placed, truth
 from graphplan.accuracy.survey.stability import error_of
 from graphplan.accuracy.survey.timing import ratios
 from graphplan.errors import GraphplanError, Refused
-from graphplan.kernel.numbers import Domain
+from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.numbers.fractions import Fractions
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction

@@ -13,8 +13,7 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import ZERO
-from graphplan.kernel.tape.record import LEAVES, Question, Tape, operands
-from graphplan.kernel.tape.source import StatementWriter, compiled, spoken
+from graphplan.kernel.tape.record import LEAVES, Question, StatementWriter, Tape, compiled, operands, spoken
 
 BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",

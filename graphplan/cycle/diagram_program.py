@@ -144,27 +144,73 @@ class Found(NamedTuple):
 Traces = dict[Found, list[list[Ray[Spot]]]]
 
 
-@dataclass(frozen=True)
-class _Given:
-    """What a stretch of positions gives: their numbers, the points of the displacement diagram, the first point of the
-    velocity diagram, and the ordinates of the acceleration diagram at the middle of the strips. Only where the strips
-    are `even` is a chord over two of them parallel to the tangent between."""
+class _Stretch:
+    """A stretch of positions on the board, what the plans give being marked in the three diagrams.
 
-    numbers: list[int]
-    even: bool
-    points: list[Mark]
-    start: Mark
-    middles: list[Mark]
+    That are the points of the displacement diagram, the first point of the velocity diagram, and the ordinates of the
+    acceleration diagram at the middle of the strips. Positions are numbered by the divisions. Only where the strips are
+    `even` is a chord over two of them parallel to the tangent between; `closed` where they close a period.
+    """
 
+    def __init__(self, board: Board, curve: Curve, scales: DiagramScales, places: Places, stretch: Places):
+        self.board, self.curve, self.scales = board, curve, scales
+        self.numbers, times = [list(places).index(place) for place in stretch], curve.time[stretch]
+        self.even = bool(np.ptp(np.diff(times)) <= ROUNDING * (curve.time[-1] - curve.time[0]))
+        self.closed = curve.closed and bool(curve.known.all())
+        middles = (times[1:] + times[:-1]) / 2
+        self.points = self._marked("s", self._at("s", self.numbers), times, curve.s[stretch])
+        (self.start,) = self._marked("v", self._at("v", self.numbers[:1]), times[:1], curve.v[stretch[:1]])
+        self.middles = self._marked("a", self._between("a"), middles, curve.at("a", middles))
 
-@dataclass(frozen=True)
-class _Rates:
-    """The axes of the velocity and acceleration diagrams, the letters of all three, and whether they close a period."""
+    def _marked(self, quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
+        spots = zip(names, self.scales.x(times), self.scales.y(quantity, values), strict=True)
+        with self.board.on(panel=PANELS[quantity]):
+            return [self.board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
 
-    v: Axes
-    a: Axes
-    letters: tuple[str, ...]
-    closed: bool
+    def _at(self, quantity: str, numbers: Sequence[int]) -> list[str]:
+        """Names for what stands at divisions."""
+        return [f"{self.curve.letters[quantity]}_{k}" for k in numbers]
+
+    def _between(self, quantity: str) -> list[str]:
+        """Names for what stands in the middle of strips: v_3_4 between the divisions 3 and 4."""
+        return [f"{self.curve.letters[quantity]}_{j}_{k}" for j, k in pairwise(self.numbers)]
+
+    def found(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The rates by chords and by tangents, and the integrals, in the order in which they are drawn."""
+        figure = self._by_chords(v, a)
+        figure |= self._by_tangents(v, a) if self.even else {}
+        figure |= self._integrated(v, a)
+        return {found: rays for found, rays in figure.items() if rays}
+
+    def _by_chords(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity in the middle of the strips, and from its chords the acceleration at the divisions between."""
+        velocities = by_chords(self.board, self.points, v, self._between("v"))
+        middles, inner = [ray.ordinate for ray in velocities], self.numbers[1:-1]
+        if self.closed:
+            first, last = feet(self.board, (self.points[0], self.points[-1]), v)
+            middles, inner = around(self.board, middles, (first, last), shared=0), self.numbers
+        return {Found("v", CHORDS): velocities,
+                Found("a", CHORDS): by_chords(self.board, middles, a, self._at("a", inner))}
+
+    def _by_tangents(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity at the divisions, and from its tangents the acceleration there."""
+        at = self.numbers if self.closed else self.numbers[1:-1]
+        velocities = by_tangents(self.board, self._periodic(self.points), v, self._at("v", at))
+        tops = self._periodic([ray.ordinate for ray in velocities])
+        accelerations = by_tangents(self.board, tops, a, self._at("a", at if self.closed else at[1:-1]))
+        return {Found("v", TANGENTS): velocities, Found("a", TANGENTS): accelerations}
+
+    def _integrated(self, v: Axes, a: Axes) -> dict[Found, list[Ray[Mark]]]:
+        """The velocity from the plans' acceleration in the middle of the strips, and the displacement from that."""
+        points, ends = self.points, self.numbers[1:]
+        velocities = integrate(self.board, self.middles, self.start, points, a, self._at("v", ends))
+        means = [self.board.midpoint(ray.start, ray.end, why="the mean ordinate of the strip") for ray in velocities]
+        displacements = integrate(self.board, means, points[0], points, v, self._at("s", ends))
+        return {Found("v", INTEGRATED): velocities, Found("s", INTEGRATED): displacements}
+
+    def _periodic(self, points: list[Mark]) -> list[Mark]:
+        """The points, with one more at either end where they close a period."""
+        return around(self.board, points, (points[0], points[-1]), shared=1) if self.closed else points
 
 
 def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Program, Traces]:
@@ -172,13 +218,11 @@ def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Pr
 
     Reads the positions, by place, at which the abscissa is divided.
     """
-    board, stretches = Board(), curve.stretches(places)
-    given = [_given(board, curve, scales, places, stretch) for stretch in stretches]
+    board = Board()
+    stretches = [_Stretch(board, curve, scales, places, stretch) for stretch in curve.stretches(places)]
     v, a = (axes(board, PANELS[rate], curve.letters[rate], scales.poles[rate]) for rate in QUANTITIES[1:])
-    rates = _Rates(v, a, tuple(curve.letters.values()), curve.closed and bool(curve.known.all()))
-    figures = [_found(board, one, rates) for one in given]
-    wanted = [mark for figure in figures for rays in figure.values() for ray in rays for mark in ray]
-    program = freeze(board, wanted)
+    figures = [stretch.found(v, a) for stretch in stretches]
+    program = freeze(board, [mark for figure in figures for rays in figure.values() for ray in rays for mark in ray])
     values = evaluate(program, Floats())
     spots = iter([values[index] for index in program.wanted])
     traces: Traces = {}
@@ -186,73 +230,3 @@ def constructed(curve: Curve, scales: DiagramScales, places: Places) -> tuple[Pr
         for found, rays in figure.items():
             traces.setdefault(found, []).append([Ray(*(next(spots) for _ in ray)) for ray in rays])
     return program, traces
-
-
-def _given(board: Board, curve: Curve, scales: DiagramScales, places: Places, stretch: Places) -> _Given:
-    """The points that the plans give, marked in the three diagrams; positions are numbered by the divisions."""
-    numbers, times = [list(places).index(place) for place in stretch], curve.time[stretch]
-    middles = (times[1:] + times[:-1]) / 2
-
-    def marked(quantity: str, names: Sequence[str], times: Reals, values: Reals) -> list[Mark]:
-        spots = zip(names, scales.x(times), scales.y(quantity, values), strict=True)
-        with board.on(panel=PANELS[quantity]):
-            return [board.given(x=float(x), y=float(y), name=name) for name, x, y in spots]
-
-    s, v, a = curve.letters.values()
-    even = bool(np.ptp(np.diff(times)) <= ROUNDING * (curve.time[-1] - curve.time[0]))
-    return _Given(numbers, even, marked("s", _numbered(s, numbers), times, curve.s[stretch]),
-                  marked("v", _numbered(v, numbers[:1]), times[:1], curve.v[stretch[:1]])[0],
-                  marked("a", _strips(a, numbers), middles, curve.at("a", middles)))
-
-
-def _found(board: Board, given: _Given, rates: _Rates) -> dict[Found, list[Ray[Mark]]]:
-    """The rates by chords and by tangents, and the integrals, in the order in which they are drawn."""
-    figure = _rates_by_chords(board, given, rates)
-    figure |= _rates_by_tangents(board, given, rates) if given.even else {}
-    figure |= _integrated(board, given, rates)
-    return {found: rays for found, rays in figure.items() if rays}
-
-
-def _rates_by_chords(board: Board, given: _Given, rates: _Rates) -> dict[Found, list[Ray[Mark]]]:
-    """The velocity in the middle of the strips, and from its chords the acceleration at the divisions between."""
-    numbers, points, (_, v, a) = given.numbers, given.points, rates.letters
-    velocities = by_chords(board, points, rates.v, _strips(v, numbers))
-    middles = [ray.ordinate for ray in velocities]
-    if rates.closed:
-        first, last = feet(board, (points[0], points[-1]), rates.v)
-        middles = around(board, middles, (first, last), shared=0)
-    inner = numbers if rates.closed else numbers[1:-1]
-    return {Found("v", CHORDS): velocities, Found("a", CHORDS): by_chords(board, middles, rates.a, _numbered(a, inner))}
-
-
-def _rates_by_tangents(board: Board, given: _Given, rates: _Rates) -> dict[Found, list[Ray[Mark]]]:
-    """The velocity at the divisions, and from its tangents the acceleration there."""
-    closed, (_, v, a) = rates.closed, rates.letters
-    at = given.numbers if closed else given.numbers[1:-1]
-    velocities = by_tangents(board, _periodic(board, given.points, closed), rates.v, _numbered(v, at))
-    tops = _periodic(board, [ray.ordinate for ray in velocities], closed)
-    accelerations = by_tangents(board, tops, rates.a, _numbered(a, at if closed else at[1:-1]))
-    return {Found("v", TANGENTS): velocities, Found("a", TANGENTS): accelerations}
-
-
-def _integrated(board: Board, given: _Given, rates: _Rates) -> dict[Found, list[Ray[Mark]]]:
-    """The velocity from the plans' acceleration in the middle of the strips, and the displacement from that."""
-    points, ends, (s, v, _) = given.points, given.numbers[1:], rates.letters
-    velocities = integrate(board, given.middles, given.start, points, rates.a, _numbered(v, ends))
-    means = [board.midpoint(ray.start, ray.end, why="the mean ordinate of the strip") for ray in velocities]
-    displacements = integrate(board, means, points[0], points, rates.v, _numbered(s, ends))
-    return {Found("v", INTEGRATED): velocities, Found("s", INTEGRATED): displacements}
-
-
-def _periodic(board: Board, points: list[Mark], closed: bool) -> list[Mark]:
-    """The points, with one more at either end where they close a period."""
-    return around(board, points, (points[0], points[-1]), shared=1) if closed else points
-
-
-def _strips(letter: str, numbers: Sequence[int]) -> list[str]:
-    """Names for what stands in the middle of strips: v_3_4 between the divisions 3 and 4."""
-    return [f"{letter}_{j}_{k}" for j, k in pairwise(numbers)]
-
-
-def _numbered(letter: str, numbers: Sequence[int]) -> list[str]:
-    return [f"{letter}_{k}" for k in numbers]

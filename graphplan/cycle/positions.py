@@ -162,12 +162,11 @@ def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
     """A link driven alone: turned about a joint with what is placed, or shifted along a slide on it."""
     link = part[0]
     pairs, drives = linkage.pairs(link, linkage.carriers(part)), linkage.drives(part)
-    if len(part) != 1 or len(drives) != 1 or len(pairs) != 1:
-        return None
-    ((drive, pace),), (pair,) = drives, pairs
-    if isinstance(pair, Slide if drive.slides else Revolute):
-        (other,) = {*drive.links} - {link}
-        return _Driven(linkage, link, pair, other, pace if drive.link == link else -pace)
+    if [len(part), len(drives), len(pairs)] == [1, 1, 1]:
+        ((drive, pace),), (pair,) = drives, pairs
+        if isinstance(pair, Slide if drive.slides else Revolute):
+            (other,) = {*drive.links} - {link}
+            return _Driven(linkage, link, pair, other, pace if drive.link == link else -pace)
     return None
 
 

@@ -30,14 +30,9 @@ class Blocks:
     """
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int], machine: bool = False):
-        self._registers = 0
-        self._block: Callable[..., bool]
-        if machine:
-            self._block = loop(tape, inputs, outputs)
-        else:
-            writer = BlockWriter(tape, inputs, outputs)
-            self._block = compiled(writer.text(), "block")
-            self._registers = writer.registers
+        writer = None if machine else BlockWriter(tape, inputs, outputs)
+        self._registers = writer.registers if writer else 0
+        self._block = compiled(writer.text(), "block") if writer else loop(tape, inputs, outputs)
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> list[slice]:
         """Fill the outputs for n poses; the blocks that a question left open, whose outputs say nothing.

@@ -148,6 +148,16 @@ def operands(entry: Entry) -> tuple[int, ...]:
     return () if entry[0] in LEAVES else entry[1:]
 
 
+def _recorded(operation: Callable[[Tape, int, int], Symbol], swapped: bool = False) -> Callable[[Symbol, Any], Symbol]:
+    """Arithmetic of a symbol with another number; `swapped`, that number comes first."""
+
+    def record(symbol: Symbol, other: Any) -> Symbol:
+        one, two = symbol.place, symbol.tape.place(other)
+        return operation(symbol.tape, two, one) if swapped else operation(symbol.tape, one, two)
+
+    return record
+
+
 class Symbol:
     """A number that is not known yet; arithmetic with it is recorded."""
 
@@ -156,27 +166,10 @@ class Symbol:
     def __init__(self, tape: Tape, place: int):
         self.tape, self.place = tape, place
 
-    def __add__(self, other: Any) -> Symbol:
-        return self.tape.add(self.place, self.tape.place(other))
-
-    __radd__ = __add__
-
-    def __sub__(self, other: Any) -> Symbol:
-        return self.tape.sub(self.place, self.tape.place(other))
-
-    def __rsub__(self, other: Any) -> Symbol:
-        return self.tape.sub(self.tape.place(other), self.place)
-
-    def __mul__(self, other: Any) -> Symbol:
-        return self.tape.mul(self.place, self.tape.place(other))
-
-    __rmul__ = __mul__
-
-    def __truediv__(self, other: Any) -> Symbol:
-        return self.tape.div(self.place, self.tape.place(other))
-
-    def __rtruediv__(self, other: Any) -> Symbol:
-        return self.tape.div(self.tape.place(other), self.place)
+    __add__ = __radd__ = _recorded(Tape.add)
+    __sub__, __rsub__ = _recorded(Tape.sub), _recorded(Tape.sub, swapped=True)
+    __mul__ = __rmul__ = _recorded(Tape.mul)
+    __truediv__, __rtruediv__ = _recorded(Tape.div), _recorded(Tape.div, swapped=True)
 
     def __neg__(self) -> Symbol:
         return self.tape.neg(self.place)
@@ -251,10 +244,8 @@ class StatementWriter:
     def _enter(self, place: int) -> None:
         op, *args = self.tape.entries[place]
         self.depth[place] = 0
-        if op == "constant":
+        if op in LEAVES:
             self.text[place] = spoken(self.tape, place)
-        elif op == "in":
-            self.text[place] = f"v{place}"
         else:
             expression = WRITTEN[op].format(*(self.text[a] for a in args))
             depth = 1 + max(self.depth[a] for a in args)

@@ -19,11 +19,12 @@ from graphplan.marking.judge.findings import (
     OFF,
     called,
     counted,
+    figures,
     named,
     opinion,
     quantity,
+    written,
 )
-from graphplan.marking.judge.remarks import figures, written
 from graphplan.marking.judge.score import GROUPS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg

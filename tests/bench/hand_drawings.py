@@ -169,7 +169,7 @@ def misread(found: Judgement, drawn: Drawn) -> Iterator[float]:
         if trace is None or value is None or step.op.name in ("given", "begin", "pick"):
             continue
         frame = found.frames[plan_of_step[verdict.step]]
-        spots = [frame.back(complex(*spot)) for spot in trace.spots]
+        spots = np.array([frame.back(complex(*spot)) for spot in trace.spots])
         yield apart_by(trace.kind, [float(part) for part in value], spots) * abs(frame.unit)
 
 

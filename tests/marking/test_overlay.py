@@ -9,9 +9,8 @@ import pytest
 from judged import TOLERANCE, TURNED, judgement
 
 from graphplan.kernel.kinds import CIRCLE, POINT
-from graphplan.marking.judge.overlay import overlay
+from graphplan.marking.judge.overlay import ALLOWED, LAYER, PENS, RED, SIZES, SPARE, WANTED, StudentStrokes, overlay
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.student_strokes import ALLOWED, LAYER, PENS, RED, SIZES, SPARE, WANTED, StudentStrokes
 from graphplan.marking.judge.verdict import RIGHT, WRONG, Judgement, NumberVerdict
 from graphplan.marking.traces import Number
 from graphplan.phrases import said
@@ -82,7 +81,7 @@ def test_the_first_wrong_step_alone_is_called_out(name: str) -> None:
     boxes = [item for item in shown if isinstance(item, Polygon) and item.pen.colour == RED]
     first = found.first
     assert first is not None
-    drawn, panel = found.drawing.drawn, found.composition.views[StudentStrokes(found).home(first)].rect
+    drawn, panel = found.drawing.drawn, found.composition.plates.steps[first.step].view.rect
     assert len(boxes) == 1
     assert all(map(panel.holds, boxes[0].spots))
     assert f"Step {drawn.number(first.step)}: parallel to AB instead of BC, 2 mm off," in words(shown)

@@ -5,23 +5,21 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
 
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import Constructing, forms
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
-from graphplan.marking.judge.fits import Fit
-from graphplan.marking.judge.image_search import ImageSearch, wobbly
+from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
 from graphplan.marking.judge.labels import labelled, sure
-from graphplan.marking.judge.matching import Match, Matching, Rules
-from graphplan.marking.judge.numbers import judged
+from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
-from graphplan.marking.judge.student_sheet import StudentSheet
-from graphplan.marking.judge.unlabelled import Unlabelled
+from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
-from graphplan.marking.judge.verdicts import verdicts
-from graphplan.marking.traces import PlanFrame, Submission
+from graphplan.marking.judge.verdicts import judged, verdicts
+from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
@@ -50,13 +48,12 @@ class Judge:
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
         self.drawing, self.composition, self.submission, self.pencil = drawing, composition, submission, pencil
         plan_of_step = StudentSheet(drawing, {}, pencil).plan_of_step
-        self.image: ImageSearch | None = None
+        self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         self.traces = [wobbly(trace) for trace in submission.traces] if submission.page else list(submission.traces)
         self.labels = labelled(drawing.drawn, plan_of_step, submission.traces)
         taken = {place for place in self.labels.values() if sure(submission.traces[place])}
         self.unlabelled = [place for place, trace in enumerate(submission.traces) if place not in taken and not (
             submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
-        self.rules = Rules(ALARM / len(drawing.drawn), submission.shows)
 
     def judgement(self) -> Judgement:
         """The verdicts of the frames that fit best, the wrong ones explained."""
@@ -136,11 +133,10 @@ class Judge:
     def _start(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
         sheet = StudentSheet(self.drawing, fits, self.pencil)
-        unlabelled = Unlabelled(sheet, self.traces, self.unlabelled, len(self.submission.traces))
-        if self.submission.page and not self.image:
-            # the frames of a picture are known: one board serves all
-            self.image = ImageSearch(sheet, self.submission.page, self.composition.arrangement.panels)
-        return Matching(sheet, self.rules, self.traces, self.labels, unlabelled, self.image)
+        what = sheet, self.submission, self.traces, self.unlabelled
+        evidence = ImageSearch(*what, self.composition.arrangement.panels, self.sought) if self.submission.page \
+            else Evidence(*what)
+        return Matching(evidence, self.labels, ALARM / len(self.drawing.drawn))
 
 
 def _on(matching: Matching, panel: str) -> Iterator[Match]:

@@ -19,24 +19,11 @@ import numpy as np
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT, Movement
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.image_search import ImageSearch, KnownMarks
+from graphplan.marking.judge.evidence import Evidence, KnownMarks
 from graphplan.marking.judge.labels import sure
 from graphplan.marking.judge.mistakes import Mistake
-from graphplan.marking.judge.student_sheet import (
-    ASSUMED,
-    FAINT,
-    FILED,
-    GONE,
-    SHARED,
-    THERE,
-    Residual,
-    StudentSheet,
-    plain,
-    weighed,
-)
-from graphplan.marking.judge.unlabelled import Unlabelled
+from graphplan.marking.judge.student_sheet import ASSUMED, GONE, SHARED, Residual, StudentSheet, plain, weighed
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
-from graphplan.marking.traces import Trace
 
 NEAREST = 6  # how many loose traces are tried as what a step should make
 REACH = 25.0  # standard deviations of a point within which a picture is searched
@@ -44,14 +31,6 @@ FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
 UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
 ASTRAY = 60.0  # mm: no mark is sought further off
-
-
-@dataclass(frozen=True)
-class Rules:
-    """By what is judged: how seldom a faultless mark may be called wrong, and what the drawing could show."""
-
-    chance: float
-    shows: frozenset[str]
 
 
 @dataclass(frozen=True)
@@ -71,10 +50,10 @@ class Match:
 class Matching:
     """The drawing as far as it has been gone through."""
 
-    def __init__(self, sheet: StudentSheet, rules: Rules, traces: list[Trace], labels: Mapping[int, int],
-                 unlabelled: Unlabelled, image: ImageSearch | None = None):
-        self.sheet, self.rules, self.traces, self.labels, self.unlabelled = sheet, rules, traces, labels, unlabelled
-        self.image = image  # what is found by seeking it is added to the traces
+    def __init__(self, evidence: Evidence, labels: Mapping[int, int], chance: float):
+        self.evidence, self.labels = evidence, labels
+        self.chance = chance  # how seldom a faultless mark may be called wrong
+        self.traces = evidence.traces  # what is found by seeking it is added to them
         self.own: list[Any] = []
         self.mended: list[Any] = []
         self.matches: list[Match] = []
@@ -89,10 +68,14 @@ class Matching:
     def fork(self, other: Matching | None = None) -> Matching:
         """Another one that goes on from here, in the frames of the other, which differ only in plans to come."""
         fork, other = copy(self), other or self
-        fork.sheet, fork.unlabelled, fork.image, fork._now = other.sheet, other.unlabelled, other.image, None
+        fork.evidence, fork._now = other.evidence, None
         fork.own, fork.mended, fork.matches = [*self.own], [*self.mended], [*self.matches]
         fork.used, fork.over, fork.dead = {*self.used}, {*self.over}, {*self.dead}
         return fork
+
+    @property
+    def sheet(self) -> StudentSheet:
+        return self.evidence.sheet
 
     @property
     def steps(self) -> Sequence[Step]:
@@ -124,7 +107,7 @@ class Matching:
                for mine, its in ((self.own, other.own), (self.mended, other.mended))):
             return False
         if match.place is not None and (
-                match.weight == SHARED or not self.used.isdisjoint({match.place, *self.unlabelled.twins(match.place)})):
+                match.weight == SHARED or not self.used.isdisjoint({match.place, *self.evidence.twins(match.place)})):
             return False
         self.dead |= other.dead & {step.index}
         self._go_on(match, other.own[step.index], other.mended[step.index])
@@ -138,7 +121,7 @@ class Matching:
         lettered = self.labels.get(step.index)
         if lettered is not None and (sure(self.traces[lettered]) or self._fits(step, lettered)):
             return lettered
-        if step.op.movement is Movement.BEGUN and self.image:
+        if step.op.movement is Movement.BEGUN and self.evidence.picture:
             return None  # it is printed
         for expected, drawn in self._asked(step):
             best = self._drawn(step, expected, drawn)
@@ -149,11 +132,11 @@ class Matching:
     def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
         best = self._fitting(step, expected, drawn)
-        if not self.image or step.op.gives == OPENING:
+        if not self.evidence.picture or step.op.gives == OPENING:
             return best
         if best is None:
-            best = self._seeking(step, expected, drawn, self.image)
-        if best is None or self.image.share(step, expected, self._way(drawn)) is not None:
+            best = self._seeking(step, expected, drawn)
+        if best is None or self.evidence.share(step, expected, self._way(drawn)) is not None:
             return best
         off = self.residual(step, expected, best, drawn)  # where most is printed already, pieces tell little
         if step.op.gives != LINE and off.square < len(off.off) + 1:
@@ -163,16 +146,16 @@ class Matching:
 
     def _fits(self, step: Step, place: int) -> bool:
         """Whether a trace is as a step should have made it."""
-        return any(self.residual(step, expected, place, drawn).fits(self.rules.chance)
+        return any(self.residual(step, expected, place, drawn).fits(self.chance)
                    for expected, drawn in self._asked(step))
 
-    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any], image: ImageSearch) -> int | None:
+    def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What a picture shows about an expected value, if it fits it."""
-        if step.op.movement is Movement.GIVEN or step.op.gives == OPENING:
+        if step.op.movement is Movement.GIVEN:
             return None
-        trace = image.trace(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
+        trace = self.evidence.trace(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
         if trace is None or not self.sheet.residual(
-                step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.rules.chance):
+                step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.chance):
             return None
         if trace not in self.traces:
             self.traces.append(trace)
@@ -184,16 +167,16 @@ class Matching:
 
     def _fitting(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The loose trace that fits an expected value best, if any does."""
-        places, off = self.unlabelled.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
+        places, off = self.evidence.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
         best: tuple[bool, bool, float, int] | None = None
         for k in np.argsort(off)[:NEAREST] if len(places) else ():
             if not off[k] < ASTRAY:
                 break
             residual = self.residual(step, expected, places[k], drawn)
-            if residual.fits(self.rules.chance):  # rather one that is free yet, and that reaches its marks
+            if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
                 found = places[k] in self.used, not self._reaches(step, places[k]), residual.square, places[k]
                 best = min(best, found) if best else found
-            elif off[k] > FARTHER * residual.tolerance(self.rules.chance):
+            elif off[k] > FARTHER * residual.tolerance(self.chance):
                 break
         return best[3] if best else None
 
@@ -201,9 +184,9 @@ class Matching:
         """Whether a line was drawn as far as to the points that it goes through."""
         if step.op.gives != LINE:
             return True
-        sheet, frame = self.sheet, self.sheet.fits[self.sheet.plan_of_step[step.index]].frame
+        frame = self.sheet.frame(step)
         start, end = (frame.back(complex(*spot)) for spot in self.traces[place].spots[:2])
-        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / sheet.mm(sheet.plan_of_step[step.index])
+        way, spare = (end - start) / (abs(end - start) or 1.0), ASIDE / abs(frame.unit)
         on = [step.args[claim[1]] for claim in step.op.claims if claim[0] == "on"]
         along = [((complex(*plain(self.own[arg])[:2]) - start) * way.conjugate()).real for arg in on]
         return all(-spare <= far <= abs(end - start) + spare for far in along)
@@ -227,11 +210,11 @@ class Matching:
         asked = list(self._asked(step)) or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)]
         own, mended = asked[0][0], asked[-1][0]
         if place is None:
-            shown = step.op.gives in self.rules.shows and not step.op.free
+            shown = step.op.gives in self.evidence.shows and not step.op.free
             return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
         spots = self.sheet.spots(step.index, self.traces[place])
         found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]
-        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.rules.chance) for residual in found]
+        fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in found]
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen = self.sheet.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
@@ -266,17 +249,15 @@ class Matching:
     def _weighed(self, place: int, residual: Residual | None, seen: Any) -> float:
         """What a trace speaks for this way; one that is wrong is as far off as it is."""
         kind = self.traces[place].kind
-        if not self.used.isdisjoint({place, *self.unlabelled.twins(place)}):
+        if not self.used.isdisjoint({place, *self.evidence.twins(place)}):
             return SHARED
-        if not self.image:
-            return weighed(FILED[kind], GONE[kind], residual)
-        share = self.image.share(self.next, seen, self._way(self.own)) if kind != POINT else None
-        most = (THERE if place < self.unlabelled.seen else FAINT)[kind]
-        return weighed(most, GONE[kind], residual, 1.0 if share is None else share)
+        part = self.evidence.picture and kind != POINT
+        share = self.evidence.share(self.next, seen, self._way(self.own)) if part else None
+        return weighed(self.evidence.weight(place), GONE[kind], residual, 1.0 if share is None else share)
 
     def _clearly(self, residual: Residual) -> bool:
         """Whether a trace is so far off that it is a mistake: what is hardly off is hardly read."""
-        return residual.size > CLEARLY * residual.tolerance(self.rules.chance)
+        return residual.size > CLEARLY * residual.tolerance(self.chance)
 
     def _missed(self, expected: Any) -> float:
         """What it speaks against this way that nothing is found."""
@@ -285,13 +266,12 @@ class Matching:
         if not asked or asked[0][1] is not self.own or not self.dead.isdisjoint(step.args):
             self.dead.add(step.index)
             return 0.0
-        if step.op.gives == OPENING or (step.op.free and (self.image or step.op.movement is Movement.GIVEN)):
+        printed = self.evidence.picture or step.op.movement is Movement.GIVEN
+        if step.op.gives == OPENING or (step.op.free and printed):
             return 0.0
-        if self.image:
-            if self.image.beyond(step, expected):
-                self.dead.add(step.index)
-            return 0.0 if self.image.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
-        return GONE[step.op.gives] if step.op.gives in self.rules.shows else 0.0
+        if self.evidence.beyond(step, expected):
+            self.dead.add(step.index)
+        return 0.0 if self.evidence.share(step, expected, self._way(self.own)) is None else GONE[step.op.gives]
 
     def _go_on(self, match: Match, own: Any, mended: Any) -> Matching:
         self.matches.append(match)
@@ -299,6 +279,6 @@ class Matching:
         self.mended.append(mended)
         self.erred = self.erred or match.state == WRONG
         if match.place is not None:
-            self.used |= {match.place} | self.unlabelled.twins(match.place)
+            self.used |= {match.place} | self.evidence.twins(match.place)
         self.weight, self._now = self.weight + match.weight, None
         return self

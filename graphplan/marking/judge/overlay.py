@@ -1,38 +1,62 @@
 """The overlay: a student's drawing over the true one on the sheet of the construction, and what there is to say of it.
 
+Every plan of the student's sheet is laid on the same plan of ours. Verdicts are told apart by colour, by width and
+dashes, and points by their shape too, so that no eye for colours is needed (colours after M. Okabe and K. Ito).
 What is wrong first stands in a box, where it covers least of its plan, with a leader to its mark.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
-from dataclasses import replace
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 import shapely
 from shapely import Geometry, LineString, Point, STRtree
 
-from graphplan.marking.judge.findings import called, complaint, opinion
-from graphplan.marking.judge.remarks import VERDICT, LegendRow, Remarks
+from graphplan.kernel.elementary import foot
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.marking.files.curves import circle
+from graphplan.marking.judge.findings import VERDICT, LegendRow, Remarks, called, complaint, opinion
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.student_strokes import RED, SIZES, StudentStrokes, sample
-from graphplan.marking.judge.verdict import WRONG, Judgement, Verdict
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Judgement, Verdict
+from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
 from graphplan.sheet.layout.paper import packed
 from graphplan.sheet.lettering.label_candidates import SMALL, Array, Wish
 from graphplan.sheet.lettering.labels import placed
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, Runs, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, sentence_runs, width, wrap
+from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
+from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.pens import LETTERS, PAPER, Pen
+from graphplan.sheet.plates.symbols import off, unit
+from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.rows import LEADING, Placed, lettered
 from graphplan.sheet.words.texts import RESULTS
 
+LAYER = "student"
+BLUE, GREEN, RED, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8a5a7a", "#333333"
+PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED)}
+SPARE = Pen(0.3, PLUM, (0.3, 0.8))
+ALLOWED = Pen(0.13, DARK)
+WANTED = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
+SIZES: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3}  # half of a mark, in mm
+REACH = 12.0  # mm of a line past the mark that it should have been, each way
+CORNERS = 36  # of an ellipse
+WHOLE = 0.99  # of a diameter: spots farther apart are opposite each other
 FAINT, LETTERED, TINTED = "#a6a6a6", "#7a7a7a", "#efefef"
 THIN = 0.18  # mm: the widest stroke of the true drawing
 BESIDE = ("paper", BORDER, "text")  # the layers of what is not on a plan
 LIFT = 1.2  # mm from the base line of the legend's words up to its samples
 CALLED = Pen(0.35, RED)
+WIDEST, PAD, PITCH = 62.0, 1.5, 2.0  # mm: of the lettering; about it in its box; between the places that are tried
+CLEAR, FAR = 6.0, 0.25  # mm between the box and its mark; the price of every further one
+RING = 2.4  # mm about the mark
 
 
 def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
@@ -44,8 +68,9 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     around = [item for item in solution.items if item.layer in BESIDE and not within(item, apart)]
     empty = [item for item in around if not within(item, arrangement.panels.values())]
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
-    over += StudentStrokes(judgement).items()
-    over += [item for panel in composition.views for item in _told(judgement, panel, over)]
+    student = StudentStrokes(judgement)
+    over += student.items()
+    over += [item for panel in composition.views for item in _told(student, panel, over)]
     words = Remarks(composition.plans).lines(arrangement.columns[0].width, judgement, score)
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
     sheets = []
@@ -65,27 +90,22 @@ def faint(item: Item) -> Item:
     return replace(item, pen=Pen(min(pen.width, THIN), FAINT, pen.dash, fill))
 
 
-def _told(judgement: Judgement, panel: str, items: Sequence[Item]) -> Iterator[Item]:
+def _told(student: StudentStrokes, panel: str, items: Sequence[Item]) -> Iterator[Item]:
     """On one plan: the first wrong step called out, the others by their numbers."""
-    student, first, drawn = StudentStrokes(judgement), judgement.first, judgement.drawing.drawn
-    rect = judgement.composition.views[panel].rect
-    wrong = [verdict for verdict in judgement.judged if verdict.state == WRONG and verdict.trace is not None
-             and student.home(verdict) == panel and panel in judgement.frames]
-    here = list(items)
-    if first in wrong:
-        assert first is not None
+    judgement, here, others = student.judgement, list(items), list[StudentMark]()
+    drawn, rect = judgement.drawing.drawn, judgement.composition.views[panel].rect
+    wrong = [mark for mark in student.marks if mark.verdict.state == WRONG and mark.wanted.panel == panel]
+    for mark in wrong:
+        if mark.verdict is not judgement.first:
+            others.append(mark)
+            continue
         names = tuple(step.name for step in drawn.steps if step.name)
-        sentence = judgement.composition.plans.tongue(complaint(judgement, first))
-        here += (boxed := [*callout(sentence, names, student.at(first), here, rect, CALLED)])
+        sentence = judgement.composition.plans.tongue(complaint(judgement, mark.verdict))
+        here += (boxed := [*callout(sentence, names, mark.at, here, rect, CALLED)])
         yield from boxed
-    wishes = [_numbered(judgement, verdict, student) for verdict in wrong if verdict is not first]
-    yield from placed(wishes, here, [student.at(verdict) for verdict in wrong], rect)
-
-
-def _numbered(judgement: Judgement, verdict: Verdict, student: StudentStrokes) -> Wish:
-    """A wrong mark's number, or of what is given its letter."""
-    runs = (Run(called(judgement.drawing.drawn, verdict.step).short),)
-    return Wish(runs, (student.at(verdict),), SIZES[WRONG], SMALL, Pen(0.0, RED, fill=RED), bold=True)
+    wishes = [Wish((Run(called(drawn, mark.verdict.step).short),), (mark.at,), SIZES[WRONG], SMALL,
+                   Pen(0.0, RED, fill=RED), bold=True) for mark in others]
+    yield from placed(wishes, here, [mark.at for mark in wrong], rect)
 
 
 def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
@@ -94,12 +114,6 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
         yield from lettered([(row, x, y)])
         if isinstance(row, LegendRow):
             yield from sample(row.state, (x + row.cells[0].x / 2 - 0.5, y + LIFT - 0.3))
-
-
-LAYER = "student"
-WIDEST, PAD, PITCH = 62.0, 1.5, 2.0  # mm: of the lettering; about it in its box; between the places that are tried
-CLEAR, FAR = 6.0, 0.25  # mm between the box and its mark; the price of every further one
-RING = 2.4  # mm about the mark
 
 
 def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
@@ -111,24 +125,12 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     high = SIZE * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
     box = _box(wide, high, spot, items, rect)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
+    leader = off(spot, unit(spot, nearest), RING)
     yield Circle(pen.filled("none"), LAYER, None, spot, RING)
-    yield Polyline(pen, LAYER, None, (_towards(spot, nearest), nearest))
+    yield Polyline(pen, LAYER, None, (leader, nearest))
     yield Polygon(pen.filled(PAPER), LAYER, None, box.corners)
-    yield from _lettered(lines, box)
-
-
-def _lettered(lines: Sequence[Runs], box: Rect) -> Iterator[Text]:
-    """The lines of the sentence, from the top of the box."""
     for i, runs in enumerate(lines):
-        y = box.top - PAD - SIZE * (CAPS + LEADING * i)
-        yield Text(LETTERS, LAYER, None, (box.left + PAD, y), runs, SIZE)
-
-
-def _towards(spot: Spot, other: Spot) -> Spot:
-    """Where the leader leaves the ring about its mark."""
-    way = complex(other[0] - spot[0], other[1] - spot[1])
-    start = complex(*spot) + RING * way / (abs(way) or 1.0)
-    return start.real, start.imag
+        yield Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - SIZE * (CAPS + LEADING * i)), runs, SIZE)
 
 
 def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect) -> Rect:
@@ -165,3 +167,159 @@ def _outline(item: Item) -> Geometry:
         case Text(box=rect):
             return shapely.box(rect.left, rect.bottom, rect.right, rect.top)
     return LineString()
+
+
+@dataclass(frozen=True, eq=False)
+class StudentMark:
+    """A student's mark of a step on our sheet, as large as it is `grown` there: its spots, and the step as it should be
+    after the student's own earlier marks."""
+
+    verdict: Verdict
+    trace: Trace
+    spots: tuple[Spot, ...]
+    wanted: DrawnStep
+    grown: float
+
+    @property
+    def at(self) -> Spot:
+        """Where on paper a verdict is to be told: at the mark, or the middle of its stroke within the panel."""
+        spots, rect = self.spots, self.wanted.view.rect
+        inside = clip.segment(rect, spots[0], spots[-1]) if self.trace.kind == LINE else None
+        if inside:
+            return clip.between(spots[0], spots[-1], sum(inside) / 2)
+        x, y = spots[len(spots) // 2]
+        return min(max(x, rect.left), rect.right), min(max(y, rect.bottom), rect.top)
+
+    def items(self) -> Iterator[Item]:
+        """What was drawn, over where it should be if it is wrong."""
+        if self.verdict.state == WRONG and all(map(math.isfinite, self.wanted.value)):
+            yield self._wanted()
+        yield from _drawn(self.trace, self.spots, self.verdict.state, self.verdict.step)
+
+    def _wanted(self) -> Item:
+        """Where a wrong mark should be."""
+        step, wanted, here = self.verdict.step, self.wanted, self.at
+        if wanted.kind == POINT:
+            return Polyline(WANTED, LAYER, step, (here, wanted.at))
+        if wanted.kind == LINE:
+            at, long = foot(Floats(), wanted.line, here), max(REACH, math.dist(*self.spots[:2]) / 2)
+            return Polyline(WANTED, LAYER, step, (off(at, wanted.along, -long), off(at, wanted.along, long)))
+        middle = _angle(wanted.at, here)
+        wide = math.degrees(REACH / wanted.radius) if wanted.radius > REACH / math.pi else 180.0
+        return Arc(WANTED, LAYER, step, wanted.at, wanted.radius, middle - wide, middle + wide)
+
+    def tolerance(self) -> Iterator[Item]:
+        """The ellipse about where a point should be; it is as much larger as our sheet is than the student's.
+
+        A mark that goes on rightly from where a wrong one should have been has none of its own.
+        """
+        ellipse, grown = self.verdict.ellipse, self.grown
+        far = math.dist(self.wanted.at, self.spots[0]) if ellipse else math.inf
+        if not ellipse or not math.isfinite(far) or (self.verdict.state != WRONG and far > grown * ellipse.major):
+            return
+        angle = math.radians(ellipse.angle)
+        way = math.cos(angle), math.sin(angle)
+        around = [math.tau * i / CORNERS for i in range(CORNERS)]
+        spots = [off(self.wanted.at, way, grown * ellipse.major * math.cos(t), grown * ellipse.minor * math.sin(t))
+                 for t in around]
+        yield Polygon(ALLOWED, LAYER, self.verdict.step, tuple(spots))
+
+
+@dataclass(frozen=True)
+class StudentStrokes:
+    """A judged drawing, as it is laid over its construction."""
+
+    judgement: Judgement
+
+    @cached_property
+    def marks(self) -> list[StudentMark]:
+        """The student's marks of the steps that can be seen."""
+        frames, found = self.judgement.frames, []
+        for verdict, step in zip(self.judgement.verdicts, self.judgement.composition.plates.steps, strict=True):
+            if verdict.trace and step.panel in frames:
+                found.append(StudentMark(
+                    verdict, verdict.trace, self.spots(verdict.trace, step.panel), replace(step, value=verdict.own),
+                    step.view.scale / abs(frames[step.panel].unit)))
+        return found
+
+    def items(self) -> Iterator[Item]:
+        """What is spare, then the marks, wrong ones over the others, then tolerances, cut off at the panel's edge."""
+        for trace in self.judgement.spare:
+            if panel := self._under(trace):
+                spare = _drawn(trace, self.spots(trace, panel), None)
+                yield from _clipped(spare, self.judgement.composition.views[panel])
+        for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
+            yield from _clipped(mark.items(), mark.wanted.view)
+        for mark in self.marks:
+            yield from _clipped(mark.tolerance(), mark.wanted.view)
+
+    def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
+        """A trace on paper, where its plan is known to lie."""
+        frame, window = self.judgement.frames[panel], self.judgement.composition.views[panel]
+        found = (frame.back(complex(*spot)) for spot in trace.spots)
+        return tuple(window((z.real, z.imag)) for z in found)
+
+    def _under(self, trace: Trace) -> str | None:
+        """The plan that a trace lies on: the one it is said to lie on, else the first whose panel holds it."""
+        if trace.panel in self.judgement.frames:
+            return trace.panel
+        views = self.judgement.composition.views
+        return next((panel for panel in self.judgement.frames
+                     if any(map(views[panel].rect.holds, self.spots(trace, panel)))), None)
+
+
+def _clipped(items: Iterable[Item], view: View) -> Iterator[Item]:
+    """What of some items lies on a panel; what is left whole is there if its centre is."""
+    for item in items:
+        if not isinstance(item, Circle) or view.rect.holds(item.centre):
+            yield from clip.clipped(item, view.rect)
+
+
+def sample(state: str | None, spot: Spot) -> Iterator[Item]:
+    """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
+    x, y = spot
+    yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
+    yield from _point(spot, state, None)
+
+
+def _drawn(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | None = None) -> Iterator[Item]:
+    """A trace as it was drawn: a point by its shape, a stroke from end to end, an arc as far as it goes."""
+    if trace.kind == POINT:
+        yield from _point(spots[0], state, step)
+    elif trace.kind == CIRCLE:
+        yield _arc(spots, PENS.get(state, SPARE), step)
+    else:
+        yield Polyline(PENS.get(state, SPARE), LAYER, step, tuple(spots[:2]))
+
+
+def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
+    """A ring, a square if it is right after a mistake, a cross if it is wrong."""
+    (x, y), pen, size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
+    firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
+    corners = Rect(x - size, y - size, x + size, y + size).corners
+    if state == WRONG:
+        yield from (Polyline(firm.filled("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
+    elif state == FOLLOWS:
+        yield Polygon(firm, LAYER, step, corners)
+    else:
+        yield Circle(firm, LAYER, step, spot, size)
+
+
+def _arc(spots: Sequence[Spot], pen: Pen, step: int | None) -> Item:
+    """The arc through the first, the middle and the last spot; a whole circle where the four are a quarter apart."""
+    first, middle, last = spots[0], spots[len(spots) // 2], spots[-1]
+    found = circle(first, middle, last)
+    if found is None:
+        return Polyline(pen, LAYER, step, tuple(spots))
+    centre, radius = found
+    across = [math.dist(spots[i], spots[i + 2]) for i in (0, 1)] if len(spots) == 4 else [0.0]
+    if min(across) > WHOLE * 2 * radius:
+        return Arc(pen, LAYER, step, centre, radius, 0.0, 360.0)
+    start, between, end = (_angle(centre, spot) for spot in (first, middle, last))
+    if (between - start) % 360.0 > (end - start) % 360.0:
+        start, end = end, start
+    return Arc(pen, LAYER, step, centre, radius, start, start + (end - start) % 360.0)
+
+
+def _angle(centre: Spot, spot: Spot) -> float:
+    return math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0]))

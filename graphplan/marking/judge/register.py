@@ -6,6 +6,7 @@ scaled as on the task's sheet, unless so many of its steps would then be wrong t
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
@@ -17,15 +18,16 @@ import numpy as np
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
-from graphplan.marking.judge.fits import SIGMAS, Fit, Pair, best
 from graphplan.marking.judge.matching import Matching
-from graphplan.marking.judge.student_sheet import plain
+from graphplan.marking.judge.student_sheet import Fit, plain
 from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.plans import Plans
 
+Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
+SIGMAS = 4.0  # how many standard deviations a mark may lie off a frame that holds it
 SAME_WAY = 0.02  # two frames have one direction if they differ by no more than this sine
 RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many loose spots a mechanism is sought in
 VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one origin; how many heaps are looked at
@@ -240,3 +242,33 @@ def _agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[complex, f
         if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < RIVALS:
             told.append(unit)
             yield unit, sigma
+
+
+def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
+    """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
+
+    Every two marks propose one; of those that hold equally many the one that misses them least is taken, and fitted
+    to all that it holds. The marks that a frame was laid through shake it, the more the further off a mark is.
+    """
+    most, least, held = 1, math.inf, list[Pair]()
+    for one, two in combinations(pairs, 2):
+        if one[0] != two[0] and one[1] != two[1]:
+            unit = (two[1] - one[1]) / (two[0] - one[0])
+            off = [abs(sheet - one[1] - unit * (plan - one[0])) for plan, sheet in pairs]
+            kept = [place for place, far in enumerate(off) if far <= SIGMAS * 2.0 * sigma]
+            missed = sum(off[place] ** 2 for place in kept)
+            if len(kept) > most or (len(kept) == most > 1 and missed < least):
+                most, least, held = len(kept), missed, [pairs[place] for place in kept]
+    return fitted(held, sigma) if held else None
+
+
+def fitted(pairs: Sequence[Pair], sigma: float) -> Fit | None:
+    """The frame of least squares."""
+    here = sum(plan for plan, _ in pairs) / len(pairs)
+    there = sum(sheet for _, sheet in pairs) / len(pairs)
+    spread = sum(abs(plan - here) ** 2 for plan, _ in pairs)
+    unit = sum((plan - here).conjugate() * (sheet - there) for plan, sheet in pairs) / spread if spread else 0j
+    if not unit or not cmath.isfinite(unit):
+        return None
+    turn = sigma / abs(unit) / math.sqrt(spread)
+    return Fit(PlanFrame(there - unit * here, unit), turn, sigma / math.sqrt(len(pairs)), here)

@@ -8,16 +8,19 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.program import Step
+from graphplan.marking.judge.evidence import KnownMarks
 from graphplan.marking.judge.matching import ASTRAY, UNMARKED, Match, Matching
-from graphplan.marking.judge.mistakes import Mistake, mistakes
-from graphplan.marking.judge.quick_score import ROUGH, QuickScore
-from graphplan.marking.judge.student_sheet import FILED, THERE, apart, plain
+from graphplan.marking.judge.mistakes import Mistake, mistakes, value_of
+from graphplan.marking.judge.student_sheet import GONE, apart, plain, weighed
 from graphplan.marking.judge.verdict import WRONG
 
 TRIED = 16  # how many whole ways are gone through, to try the most promising mistakes
@@ -27,6 +30,10 @@ SPREAD = 16.0  # how much more may be won than was promised
 ODDS, AGAIN = 1.0, 6.0  # what has to speak for a mistake, three to one, and for a further one
 DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
 RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
+ROUGH = 0.6  # what is seen at a glance weighs as much less
+DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
+HOPELESS = -4.0  # the weight of what follows from a slip below which it is given up
+Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
 
 
@@ -44,7 +51,7 @@ class Search:
     """A drawing, as far as before its first step, in which mistakes are looked for."""
 
     def __init__(self, start: Matching):
-        self.start, self._most = start, THERE if start.image else FILED
+        self.start = start
         self.gone = 0  # how many steps were gone through
 
     def found(self, most: int) -> Found:
@@ -106,7 +113,7 @@ class Search:
     def _hope(self, match: Match, touched: set[int]) -> float:
         """What a step may speak for a way at most."""
         settled = match.step.index not in touched and match.place is not None
-        return match.weight if settled else max(match.weight, self._most.get(match.step.op.gives, 0.0))
+        return match.weight if settled else max(match.weight, self.start.evidence.most.get(match.step.op.gives, 0.0))
 
     def _guesses(self, matching: Matching, found: Found) -> Iterator[Guess]:
         """All that may have been mistaken, with what a glance says for it."""
@@ -126,8 +133,8 @@ class Search:
         """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
         step, home = match.step, matching.sheet.plan_of_step[match.step.index]
         assert match.place is not None
-        for place in matching.unlabelled.beside(match.place, home, plain(matching.own[step.index])):
-            if matching.residual(step, match.expected, place, matching.own).fits(matching.rules.chance):
+        for place in matching.evidence.beside(match.place, home, plain(matching.own[step.index])):
+            if matching.residual(step, match.expected, place, matching.own).fits(matching.chance):
                 yield Guess(step.index, place, ODDS - DOUBT, FIRST)
         if step.op.gives == POINT:
             yield Guess(step.index, UNMARKED, ODDS - DOUBT, FIRST)
@@ -160,15 +167,15 @@ def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float
     """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
     lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
     sheet, kind = matching.sheet, step.op.gives
-    mm = sheet.mm(sheet.plan_of_step[step.index])
+    mm = abs(sheet.frame(step).unit)
     on = [plain(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
-    for place in matching.unlabelled.of(kind) if kind in (POINT, LINE) else ():
+    for place in matching.evidence.of(kind) if kind in (POINT, LINE) else ():
         if place in matching.used or matching.traces[place].panel not in ("", sheet.plan_of_step[step.index]):
             continue
         spots = sheet.spots(step.index, matching.traces[place])
         value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
         off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
-        far = apart(POINT, value, [complex(*plain(matching.own[step.index]))]) * mm if kind == POINT else 0.0
+        far = apart(POINT, value, np.array([complex(*plain(matching.own[step.index]))])) * mm if kind == POINT else 0.0
         if off < KEPT * max(sheet.pencil.point, sheet.pencil.edge) and far < ASTRAY:
             yield place, value
 
@@ -176,4 +183,98 @@ def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float
 def _off(kind: str, value: Sequence[float], thing: Sequence[float]) -> float:
     """How far a point and a line, one of which is a step's, are from each other."""
     line, point = (value, thing) if kind == LINE else (thing, value)
-    return apart(LINE, line, [complex(*point[:2])])
+    return float(apart(LINE, line, np.array([complex(*point[:2])])))
+
+
+class QuickScore:
+    """A way through a drawing, and what it would win by another mistake."""
+
+    def __init__(self, matching: Matching, mistakes: Mapping[int, Mistake]):
+        self.matching, self.mistakes = matching, mistakes
+        self.own = [plain(value) for value in matching.own]
+
+    def by(self, mistake: Mistake) -> float:
+        """What is won if a slip was made; less than everything where it could not be."""
+        wrong = value_of(mistake.step, self.own, mistake)
+        return -math.inf if wrong is None else self.gain(mistake.step, wrong)
+
+    def gain(self, slipped: Step, wrong: Value) -> float:
+        """What is won if a step made this; less than everything where it is not there, or nothing follows from it."""
+        matching, at = self.matching, slipped.index
+        values, moved, dead = list(self.own), set[int](), set[int]()
+        gain = seen = 0.0
+        for arg in _strokes(matching, at):
+            weight, _ = self._seen(matching.steps[arg], self.own[arg], KnownMarks(self.own[:arg], {at: wrong}))
+            gain, seen = gain + weight - ROUGH * matching.matches[arg].weight, seen + weight
+        for step in matching.steps[at:]:
+            if dead.isdisjoint(step.args) and (step.index == at or not moved.isdisjoint(step.args)):
+                made = wrong if step.index == at else value_of(step, values, self.mistakes.get(step.index))
+                if made is None:
+                    dead.add(step.index)
+                    continue
+                if not self._differs(step, made):
+                    continue
+                moved.add(step.index)
+                weight, values[step.index] = self._seen(step, made, KnownMarks(values[:step.index], self.mistakes))
+                gain, seen = gain + weight - matching.matches[step.index].weight, seen + weight
+                if matching.evidence.beyond(step, made):
+                    dead.add(step.index)
+                if seen < HOPELESS or (step.index == at and not self._possible(step, weight)):
+                    return -math.inf
+            elif not dead.isdisjoint(step.args):
+                dead.add(step.index)
+        return gain - sum(matching.matches[index].weight for index in dead)
+
+    def _possible(self, step: Step, weight: float) -> bool:
+        """Whether a step may be drawn so, by what is seen of it: lines are seen, and nobody draws those printed."""
+        evidence, known = self.matching.evidence, KnownMarks(self.own, self.mistakes)
+        printed = evidence.picture and evidence.share(step, self.own[step.index], known) is None
+        return step.op.gives != LINE or weight > (0.0 if printed else -1.0)
+
+    def _differs(self, step: Step, made: Value) -> bool:
+        """Whether a value is another to the eye than what the step was taken for."""
+        own, home = self.own[step.index], self.matching.sheet.plan_of_step[step.index]
+        if step.op.gives == LINE:
+            off = max(abs(_aside(own, z) - _aside(made, z)) for z in self._about[home])
+        elif step.op.gives == OPENING:
+            return True
+        else:
+            off = math.dist(own[:2], made[:2]) + abs(math.sqrt(max(own[2], 0)) - math.sqrt(max(made[2], 0))
+                                                     if step.op.gives == CIRCLE else 0.0)
+        return off * self.matching.sheet.mm(home) > OTHER
+
+    @cached_property
+    def _about(self) -> dict[str, list[complex]]:
+        """The corners of what is drawn on each plan."""
+        found: dict[str, list[complex]] = {}
+        for step, home, value in zip(self.matching.steps, self.matching.sheet.plan_of_step, self.own, strict=True):
+            if step.op.gives == POINT:
+                found.setdefault(home, []).append(complex(*value))
+        return {home: [complex(pick(z.real for z in spots), also(z.imag for z in spots))
+                       for pick in (min, max) for also in (min, max)] for home, spots in found.items()}
+
+    def _seen(self, step: Step, value: Value, known: KnownMarks) -> tuple[float, Value]:
+        """What speaks for a value, and the value as it is seen to be drawn: a point may have drifted."""
+        kind, evidence = step.op.gives, self.matching.evidence
+        share = None if kind == OPENING else evidence.share(step, value, known)
+        if share is None:
+            return 0.0, value
+        if kind != POINT:
+            return ROUGH * weighed(evidence.most[kind], GONE[kind], None, share), value
+        trace = evidence.trace(step, value, known, DRIFT)
+        if trace is None:
+            return ROUGH * GONE[kind], value
+        spot = self.matching.sheet.frame(step).back(complex(*trace.spots[0]))
+        return ROUGH * evidence.most[kind], (spot.real, spot.imag)
+
+
+def _strokes(matching: Matching, index: int) -> list[int]:
+    """The lines and arcs on which the mark of a step lies: they are drawn as far as where it is thought to be."""
+    step = matching.steps[index]
+    return [arg for arg in step.args if step.op.gives == POINT and matching.steps[arg].op.gives in (LINE, CIRCLE)]
+
+
+def _aside(line: Sequence[float], z: complex) -> float:
+    """How far a point lies off a line, to its left."""
+    a, b, c = line
+    return (a * z.real + b * z.imag + c) / math.hypot(a, b)

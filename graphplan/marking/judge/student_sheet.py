@@ -24,8 +24,7 @@ from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.fits import Fit
-from graphplan.marking.traces import Trace
+from graphplan.marking.traces import PlanFrame, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.plates.plans import Plans
 
@@ -96,6 +95,18 @@ class PointResidual(Residual):
 
 
 @dataclass(frozen=True)
+class Fit:
+    """A frame with its standard deviations: `turn` of its scale and direction, as a part of one, about `centre` on
+    the plan; `shift` of its place, in mm. `tied` names the plan whose scale and direction it shares."""
+
+    frame: PlanFrame
+    turn: float = 0.0
+    shift: float = 0.0
+    centre: complex = 0j
+    tied: str = ""
+
+
+@dataclass(frozen=True)
 class StudentSheet:
     """A construction on a student's sheet: `fits` say where its plans lie there."""
 
@@ -117,6 +128,10 @@ class StudentSheet:
     def hand(self) -> Hand:
         """The hand that draws it at the scales of the sheet."""
         return hand_at(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)
+
+    def frame(self, step: Step) -> PlanFrame:
+        """Where the plan of a step lies."""
+        return self.fits[self.plan_of_step[step.index]].frame
 
     def mm(self, panel: str) -> float:
         """The mm of a plan unit."""
@@ -186,7 +201,7 @@ class StudentSheet:
             parts = [_off_line(domain, expected, spot) for spot in spots]
         else:
             parts = [_off_circle(domain, expected, spot) for spot in spots]
-        scale = self.mm(self.plan_of_step[step.index])
+        scale = abs(self.frame(step).unit)
         partials = np.array([domain.partials(part) for part in parts]) * scale
         off = np.array([_plain(part) for part in parts]) * scale
         return (PointResidual if kind == POINT else Residual)(off, partials @ partials.T)
@@ -209,14 +224,13 @@ def sampled(trace: Trace) -> tuple[tuple[float, float], ...]:
     return trace.spots[:2] if trace.kind == LINE else trace.spots[:1]
 
 
-def apart(kind: str, value: Sequence[float], spots: Sequence[complex]) -> float:
-    """How far some spots are from a thing at most, on its plan."""
-    if kind == POINT:
-        return abs(spots[0] - complex(value[0], value[1]))
+def apart(kind: str, value: Sequence[float], spots: Any) -> Any:
+    """How far some spots, an array, are from a thing at most, on its plan; of rows of spots row by row."""
     if kind == LINE:
         a, b, c = value
-        return max(abs(a * z.real + b * z.imag + c) for z in spots) / (math.hypot(a, b) or math.inf)
-    return max(abs(abs(z - complex(value[0], value[1])) - math.sqrt(max(value[2], 0.0))) for z in spots)
+        return np.max(np.abs(a * spots.real + b * spots.imag + c), axis=-1) / (math.hypot(a, b) or math.inf)
+    off, radius = np.abs(spots - complex(*value[:2])), math.sqrt(max(value[2], 0.0)) if kind == CIRCLE else 0.0
+    return np.max(np.abs(off - radius), axis=-1)
 
 
 def plain(value: Sequence[Any]) -> tuple[float, ...]:

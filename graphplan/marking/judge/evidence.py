@@ -1,0 +1,210 @@
+"""What is there of a step: the unlabelled traces of a sheet, and in a picture also faint lines, short arcs and dots,
+found only by seeking them; which traces are near to something expected, and which are one stroke."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+from shapely import LineString
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.kernel.program import Step
+from graphplan.marking.judge.mistakes import Mistake, value_of
+from graphplan.marking.judge.student_sheet import FAINT, FILED, THERE, StudentSheet, apart, plain, sampled
+from graphplan.marking.traces import Spot, Submission, Trace
+from graphplan.sheet.plates import clip
+from graphplan.sheet.plates.display import Rect
+
+TWIN, BESIDE = 0.5, 1.0  # mm: a stroke that is found twice lies so near to itself; two may be taken for each other
+PARTS, NEAR = 20, 1.0  # at so many spots, so near, a stroke is looked for
+ALONE, WIDEST = 10.0, 3.0  # mm: a line about its only mark; and no search is wider
+WOBBLE = 0.06  # mm: the standard deviation of a pencil line from the edge that it is drawn along
+STRUCK = 4.0  # mm of an arc to both sides of its mark
+Value = tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class KnownMarks:
+    """How far a drawing has been gone through: the values of its steps, and the slips still to come, or what they
+    make."""
+
+    values: Sequence[Any]
+    mistakes: Mapping[int, Mistake | Value]
+
+
+def wobbly(trace: Trace) -> Trace:
+    """A trace of a picture, as sure as a line is straight that a hand draws."""
+    return replace(trace, blur=math.hypot(trace.blur, WOBBLE))
+
+
+class Evidence:
+    """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan."""
+
+    picture, most = False, FILED  # whether print may hide a mark; what one weighs
+
+    def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int]):
+        self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
+        self._places = {kind: [i for i in places if traces[i].kind == kind] for kind in (POINT, LINE, CIRCLE)}
+        self._cached, self._twins = dict[tuple[str, str], Any](), dict[int, set[int]]()
+
+    def weight(self, place: int) -> float:
+        """What a trace weighs at most: less where it was found only by seeking it."""
+        return (self.most if place < self._read else FAINT)[self.traces[place].kind]
+
+    def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        """What is there about an expected value, no further off than so many mm."""
+        places, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
+        return self.traces[places[off.argmin()]] if off.min(initial=math.inf) < within else None
+
+    def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
+        """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
+        _, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(value))
+        return float(off.min(initial=math.inf) < NEAR) if step.op.gives in self.shows else None
+
+    def beyond(self, step: Step, value: Any) -> bool:
+        """Whether a point would be off its panel, so that nothing can be drawn from it."""
+        return False
+
+    def of(self, kind: str) -> list[int]:
+        """The unlabelled traces of a kind."""
+        return self._places.get(kind, [])
+
+    def twins(self, place: int) -> set[int]:
+        """The unlabelled traces that are the same stroke as a trace that was found by seeking it."""
+        trace = self.traces[place]
+        if place < self._read or trace.kind == POINT:
+            return set()
+        if place not in self._twins:
+            self._twins[place] = {other for other in self._places[trace.kind] if _same(trace, self.traces[other])}
+        return self._twins[place]
+
+    def beside(self, place: int, panel: str, value: Sequence[float]) -> list[int]:
+        """The other traces that are so near to what one is that it could be they."""
+        places, off = self.near(self.traces[place].kind, panel, value)
+        return [other for other, far in zip(places, off, strict=True) if far < BESIDE and other != place]
+
+    def near(self, kind: str, panel: str, value: Sequence[float]) -> tuple[list[int], Any]:
+        """The traces of a kind that may lie on a plan, and how far each is from a value in mm at most."""
+        places = self.of(kind)
+        return places, apart(kind, value, self._on(kind, panel)) * self.sheet.mm(panel) if places else np.zeros(0)
+
+    def _on(self, kind: str, panel: str) -> Any:
+        """The spots of all traces of a kind in the units of a plan; nowhere where they are said to be on another."""
+        if (kind, panel) not in self._cached:
+            frame = self.sheet.fits[panel].frame
+            rows = [[frame.back(complex(*spot)) if self.traces[i].panel in ("", panel) else complex(math.inf)
+                     for spot in sampled(self.traces[i])] for i in self._places[kind]]
+            self._cached[kind, panel] = np.array(rows)
+        return self._cached[kind, panel]
+
+
+class ImageSearch(Evidence):
+    """The traces of a picture, which is searched for more; `found` is what was: the same thing is sought once."""
+
+    picture, most = True, THERE
+
+    def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int],
+                 panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):
+        super().__init__(sheet, submission, traces, places)
+        assert submission.page
+        self.page, self.panels, self._found = submission.page, panels, found
+
+    def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        value, reach = plain(expected), min(within, WIDEST)
+        spots = self._held(step, self._spots(step, value, own))
+        key = (step.index, *value, *(round(part) for spot in spots for part in spot))
+        if key not in self._found:
+            found = self._sought(step, value, spots, reach) if spots else None
+            self._found[key] = wobbly(found) if found else None
+        return self._found[key]
+
+    def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
+        """At nothing off its panel; None where print hides most, or where it is too small to see."""
+        spots = self._spots(step, plain(value), own, STRUCK / 2)
+        held = self._held(step, spots)
+        return self.page.share(step.op.gives, held, NEAR) if held else 0.0 if spots else None
+
+    def beyond(self, step: Step, value: Any) -> bool:
+        return step.op.gives == POINT and not self._panel(step).holds(self._onto(step, complex(*plain(value)[:2])))
+
+    def _spots(self, step: Step, value: Value, own: KnownMarks, struck: float = STRUCK) -> list[Spot]:
+        """Spots on the sheet of what a step makes, there where it would be drawn."""
+        if step.op.gives == LINE:
+            ends = self._stretch(step, value, own)
+            return [clip.between(*ends, k / PARTS) for k in range(PARTS + 1)]
+        if step.op.gives == POINT:
+            return [self._onto(step, complex(*value[:2]))]
+        return self._arc(step, value, self._marks(step, value, own), struck)
+
+    def _held(self, step: Step, spots: Sequence[Spot]) -> list[Spot]:
+        """Those of some spots that are on the step's panel."""
+        return list(filter(self._panel(step).holds, spots))
+
+    def _panel(self, step: Step) -> Rect:
+        return self.panels[self.sheet.plan_of_step[step.index]]
+
+    def _onto(self, step: Step, z: complex) -> Spot:
+        spot = self.sheet.frame(step).onto(z)
+        return spot.real, spot.imag
+
+    def _arc(self, step: Step, value: Value, marks: Sequence[complex], struck: float) -> list[Spot]:
+        """Spots of an arc about its marks; none of one that is too small, or has no marks."""
+        mm = abs(self.sheet.frame(step).unit)
+        centre, radius = complex(value[0], value[1]), math.sqrt(max(value[2], 0.0))
+        if radius * mm < STRUCK:
+            return []
+        turn = 2 * struck / mm / radius / PARTS
+        return [self._onto(step, centre + cmath.rect(radius, cmath.phase(z - centre) + k * turn)) for z in marks
+                for k in range(-PARTS // 2, PARTS // 2 + 1)]
+
+    def _stretch(self, step: Step, line: Value, own: KnownMarks) -> tuple[Spot, Spot]:
+        """Where a line would be drawn, as far as it is on its panel: between the outermost of its marks, or about its
+        only one."""
+        a, b, c = line
+        mm = abs(self.sheet.frame(step).unit)
+        way, foot = complex(b, -a) / math.hypot(a, b), -complex(a, b) * c / (a * a + b * b)
+        along = [((z - foot) * way.conjugate()).real for z in self._marks(step, line, own)] or [0.0]
+        spare = ALONE / mm if max(along) - min(along) < ALONE / mm else 0.0
+        start, end = (self._onto(step, foot + way * far) for far in (min(along) - spare, max(along) + spare))
+        inside = clip.segment(self._panel(step), start, end) or (0.0, 1.0)
+        return clip.between(start, end, inside[0]), clip.between(start, end, inside[1])
+
+    def _sought(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
+        if step.op.gives == LINE:
+            return self.page.near(spots[0], spots[-1], within)
+        if step.op.gives == POINT:
+            return self.page.dot(spots[0], within)
+        radius = math.sqrt(value[2]) * abs(self.sheet.frame(step).unit)
+        return self.page.rim(self._onto(step, complex(*value[:2])), radius, spots, within)
+
+    def _marks(self, step: Step, value: Value, own: KnownMarks) -> list[complex]:
+        """Where the marks on a line or an arc are: those that are drawn, and where those to come would follow."""
+        known: dict[int, Value | None] = {step.index: value}
+        found = [self._value(index, known, own) for index in self.sheet.marks_on.get(step.index, ())]
+        return [complex(*spot[:2]) for spot in found if spot and np.all(np.isfinite(spot))]
+
+    def _value(self, index: int, known: dict[int, Value | None], own: KnownMarks) -> Value | None:
+        """What a step makes, or a mistake at it, of those that are known; None where it cannot be drawn."""
+        if index not in known:
+            mistake, step = own.mistakes.get(index), self.sheet.drawing.drawn.steps[index]
+            if index < len(own.values):
+                known[index] = plain(own.values[index])
+            elif isinstance(mistake, tuple):  # what it makes
+                known[index] = mistake
+            else:
+                args = (*mistake.step.args, *(mistake.mirror or ())) if mistake else step.args
+                read = {arg: self._value(arg, known, own) for arg in args}
+                known[index] = None if None in read.values() else value_of(
+                    mistake.step if mistake else step, read, mistake)
+        return known[index]
+
+
+def _same(one: Trace, other: Trace) -> bool:
+    """Whether a line, or a rim, lies upon another of its kind, and beside no more than half of it."""
+    whole = LineString(other.spots)
+    return bool(whole.intersection(LineString(one.spots).buffer(TWIN)).length > whole.length / 2)

@@ -76,7 +76,7 @@ def _called(word: str) -> Sequence[str]:
         return (word,)
     if word.startswith("-"):
         return SUBCOMMANDS
-    from graphplan.mechanism.faults import perhaps
+    from graphplan.mechanism.items import perhaps
 
     raise Refused(f"graphplan {word}", "there is no such command", perhaps(word, SUBCOMMANDS, "command"))
 

@@ -6,15 +6,14 @@ determine twice or not at all.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import replace
 from fractions import Fraction
-from itertools import combinations, islice, pairwise
+from itertools import combinations, islice
 
 from graphplan.errors import by_name
 from graphplan.mechanism.bracing import Bracing, bracing
-from graphplan.mechanism.faults import Faults
-from graphplan.mechanism.items import quoted
+from graphplan.mechanism.items import Faults, quoted
 from graphplan.mechanism.model import FRAME, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
@@ -52,33 +51,21 @@ def _coincide(a: Pair, b: Pair) -> bool:
 
 def check_connections(scene: Scene, faults: Faults) -> None:
     """Every link hangs together with the frame, or with a point whose motion is given."""
-    near: dict[str, list[str]] = {link: [] for link in scene.links}
-    for pair in scene.binding:
-        _join(near, pair.links)
-    driven = [link for link, points in scene.links.items() if scene.motions.keys() & set(points)]
-    held = _reached(near, [FRAME] * (FRAME in near) + driven)
+    joined = [{*pair.links} for pair in scene.binding]
+    paired = {link for links in joined for link in links}
+    held = {FRAME} & {*scene.links} | {link for point in scene.motions for link in scene.links_of[point]}
+    known = 0
+    while known < len(held):
+        known = len(held)
+        for links in joined:
+            if not held.isdisjoint(links):
+                held |= links
     for link in scene.moving:
         if held and link not in held:
             lonely = "shares no joint or slide with any other"
-            told = "hangs on neither the frame nor a given motion" if near[link] else lonely
+            told = "hangs on neither the frame nor a given motion" if link in paired else lonely
             instead = "a point that it shares with another link, or a slide"
             faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
-
-
-def _join(near: dict[str, list[str]], links: tuple[str, ...]) -> None:
-    for one, other in pairwise(links):
-        near[one].append(other)
-        near[other].append(one)
-
-
-def _reached(near: Mapping[str, Iterable[str]], start: list[str]) -> set[str]:
-    reached, edge = set(start), list(start)
-    while edge:
-        for other in near[edge.pop()]:
-            if other not in reached:
-                reached.add(other)
-                edge.append(other)
-    return reached
 
 
 def check_mobility(scene: Scene, faults: Faults) -> Scene:
@@ -127,7 +114,37 @@ def _in_its_pose(scene: Scene, given: int, told: str, faults: Faults) -> Scene |
     return replace(scene, redundant=found.redundant, repeating=found.repeating)
 
 
-def check_balance(scene: Scene, faults: Faults) -> None:
+def check_loads(scene: Scene, faults: Faults) -> None:
+    """What can be said against the loads only when all of the scene is known."""
+    loads = scene.loads
+    if loads is None:
+        if scene.find.reactions:
+            faults.add("find.reactions", "reactions are asked for, but no load is given", "[[forces]] or [masses]")
+        return
+    counts = f"{_count(len(loads.balances), 'balance')} for {_count(len(scene.drives), 'drive')}"
+    if scene.motions:
+        faults.add("motion", "what moves these points is no link, so nothing is known of its force",
+                   "drives, where forces are asked for")
+    elif len(loads.balances) < len(scene.drives):
+        faults.add("balance", f"{counts}: nothing keeps the prescribed motion",
+                   '[balance] with link = "1" for a moment, or with at, on and direction for a force')
+    elif len(loads.balances) > len(scene.drives):
+        faults.add("balance", f"{counts}: statically indeterminate", "one balance for each drive")
+    else:
+        _check_balance(scene, faults)
+        _check_asked(scene, faults)
+
+
+def _check_asked(scene: Scene, faults: Faults) -> None:
+    """Of every joint and slide that is asked for some reaction is determinate."""
+    for name in scene.find.reactions or ():
+        told = [f"{link} at {name}" for link in scene.links_of.get(name, ())[1:]] or [name]
+        if set(told) <= set(scene.indeterminate_pairs):
+            what = f"the reaction {' and '.join(told)} is statically indeterminate: the pairs of this mechanism repeat"
+            faults.add("find.reactions", f"{what} each other", "reactions of other pairs, or no redundant pair")
+
+
+def _check_balance(scene: Scene, faults: Faults) -> None:
     """With the balances in the place of the drives each link is held just once: then statics determines all forces."""
     held: Bracing = bracing(scene, balanced=True)
     if not held.sound:

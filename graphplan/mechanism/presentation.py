@@ -5,9 +5,8 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from graphplan.mechanism.faults import perhaps
 from graphplan.mechanism.fields import DISTANCE, TEXT, Field, Kind, Named, Names, Row, Table, choice
-from graphplan.mechanism.items import Item, described
+from graphplan.mechanism.items import Item, described, perhaps
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.units import METRES

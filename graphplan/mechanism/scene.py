@@ -12,44 +12,43 @@ from errno import EBADF
 from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
-from graphplan.mechanism.checks import check_connections, check_joints, check_mobility, check_use
+from graphplan.mechanism import sections
+from graphplan.mechanism.checks import check_connections, check_joints, check_loads, check_mobility, check_use
 from graphplan.mechanism.directions import points_of
-from graphplan.mechanism.faults import Faults, perhaps
 from graphplan.mechanism.fields import TEXT, VECTOR, Field, Names, Table
-from graphplan.mechanism.items import Item, quoted
-from graphplan.mechanism.loads import BALANCE, FORCES, FRICTION, MASSES, MOMENTS, check_loads, loads
-from graphplan.mechanism.loads import TABLES as LOADS
+from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.model import Find, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
-from graphplan.mechanism.sections import FIND, LINKS, MOTIONS, UNITS
 
+FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 PAIRS = fields()
 PAIR_KEYS = tuple(field.name for field in PAIRS)
 SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and what is asked of it", (
     Field("title", "what the mechanism is", TEXT),
     Field("source", "where it comes from: author, title, year, figure", TEXT),
     Field("gravity", "the acceleration of gravity in m/s^2, where forces are asked for", VECTOR, default=[0, 0]),
-    Field("units", "the units of the scene and of its results", UNITS),
+    Field("units", "the units of the scene and of its results", sections.UNITS),
     Field("points", "every named point, in this pose of the mechanism", POINTS,
           "[points] with entries such as A = [0, 0]"),
     Field("links", "a link is the list of its points; a point that several links name is a revolute joint there",
-          LINKS, '[links] with entries such as 1 = "O A"'),
+          sections.LINKS, '[links] with entries such as 1 = "O A"'),
     *PAIRS,
-    Field("motion", "the given motion of a point, for open chains", MOTIONS),
+    Field("motion", "the given motion of a point, for open chains", sections.MOTIONS),
     Field("find", "what is asked for; without it the velocity and acceleration of every joint, and the rates of every "
-          "link", FIND),
+          "link", sections.FIND),
     Field("sheet", "how the sheet should look; the command line has the last word", SHEET),
-    Field("masses", "the mass of a link", MASSES),
-    Field("forces", "a force on a link", FORCES),
-    Field("moments", "a moment on a link", MOMENTS),
+    Field("masses", "the mass of a link", sections.MASSES),
+    Field("forces", "a force on a link", sections.FORCES),
+    Field("moments", "a moment on a link", sections.MOMENTS),
     Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
-          BALANCE),
-    Field("friction", "friction in a joint or in a slide", FRICTION),
+          sections.BALANCE),
+    Field("friction", "friction in a joint or in a slide", sections.FRICTION),
 ))
-ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *LOADS, "sheet")
+ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *sections.LOADS,
+         "sheet")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -67,11 +66,7 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
     except IsADirectoryError:
         fault = Fault("file", "this is a directory", "a scene file")
     except FileNotFoundError:
-        packaged = [entry.name.removesuffix(".toml") for entry in _packaged()]
-        instead = (
-            perhaps(written, packaged, "scene") if packaged else "the path of a scene file, or - for standard input"
-        )
-        fault = Fault("file", "no such file and no packaged scene", instead)
+        fault = Fault("file", "no such file and no packaged scene", perhaps(written, packaged(), "scene"))
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
         fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
     else:
@@ -84,22 +79,15 @@ def _bytes(source: str) -> bytes:
         if sys.stdin is None:
             raise OSError(EBADF, "standard input is closed")
         return sys.stdin.buffer.read()
-    for entry in _packaged():
-        if entry.name == f"{source}.toml" and not os.path.exists(source):
-            source = os.fspath(entry)
-            break
+    if source in packaged() and not os.path.exists(source):
+        source = os.path.join(FOLDER, f"{source}.toml")
     with open(source, "rb") as file:
         return file.read()
 
 
 def packaged() -> list[str]:
     """The names of the packaged scenes, in alphabetical order."""
-    return sorted(entry.name.removesuffix(".toml") for entry in _packaged())
-
-
-def _packaged() -> list[os.DirEntry[str]]:
-    folder = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
-    return [entry for entry in os.scandir(folder) if entry.name.endswith(".toml")]
+    return sorted(name.removesuffix(".toml") for name in os.listdir(FOLDER) if name.endswith(".toml"))
 
 
 def parse(text: str, name: str) -> Scene:
@@ -155,19 +143,10 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         elif key in PAIR_KEYS:
             names.pairs += read.get(key, ())
     scene = Scene(
-        title=read.get("title", ""),
-        source=read.get("source", ""),
-        name=name,
-        units=names.units,
+        title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
-        placements=placements,
-        links=names.links,
-        written=names.pairs,
-        motions=read.get("motion", {}),
-        find=read.get("find") or _asked(names),
-        loads=loads(read),
-        sheet=read.get("sheet") or Presentation(),
-    )
+        placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
+        find=read.get("find") or _asked(names), loads=sections.loads(read), sheet=read.get("sheet") or Presentation())
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in _counting(scene) and not is_exact(names.placed[point])]
     return _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
@@ -211,7 +190,7 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
         check_connections(scene, faults)
         if faults.none_in("links"):
             scene = check_mobility(scene, faults)
-        if faults.none_in("links", "drive", *LOADS):
+        if faults.none_in("links", "drive", *sections.LOADS):
             check_loads(scene, faults)
     check_joints(scene, placed, faults)
     return scene

@@ -1,24 +1,49 @@
-"""Sections: the tables of a scene besides its points, pairs and loads: links, units, motions and questions."""
+"""Sections: the tables of a scene besides points, pairs and sheet: links, units, motions, questions, loads."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from typing import Any
 
+from graphplan.mechanism.directions import GUIDE
 from graphplan.mechanism.fields import (
+    AMOUNT,
     LINK,
     NAME,
+    NUMBER,
     POINT,
+    TWO_LINKS,
     VECTOR,
+    Either,
     Field,
     Kind,
     Named,
     Names,
+    Row,
+    Rows,
     Table,
     asked,
     choice,
+    moving,
+    on_link,
 )
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.model import FRAME, Find, Motion, Slide, Units
+from graphplan.mechanism.model import (
+    FRAME,
+    Balance,
+    Find,
+    Force,
+    Friction,
+    Loads,
+    Mass,
+    Moment,
+    Motion,
+    Pair,
+    Slide,
+    Units,
+)
+from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
 
 # --- links ---------------------------------------------------------------------------------------------------------
@@ -103,3 +128,97 @@ FIND = Table("what is asked for", (
           asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
                 many="joints and slides", after=("slides", "links", "points"))),
 ), lambda row: Find(**row.values))
+
+
+# --- masses, forces, moments ---------------------------------------------------------------------------------------
+
+
+def _weighed(link: str, item: Item, names: Names) -> None:
+    """A fault where a link can have no mass."""
+    if link == FRAME:
+        item.fault("the frame is given a mass", "a moving link")
+    elif link not in names.links:
+        item.faults.unknown(item.where, "link", link, names.links)
+
+
+MASSES = Named(Table("a mass", (
+    Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
+    Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
+    Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
+), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
+
+_LOADED = moving("a load on the frame moves nothing")
+FORCES = Rows(Table("a force", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
+    Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
+    Field("value", "the components of the force", VECTOR, "two components, such as value = [-150, 0]"),
+), lambda row: Force(**row.values) if on_link(row, row["on"]) else None))
+MOMENTS = Rows(Table("a moment", (
+    Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
+    Field("value", "the moment in force * m, counter-clockwise positive", NUMBER, "a moment, such as value = 12.0"),
+), lambda row: Moment(**row.values)))
+
+
+# --- balance and friction ------------------------------------------------------------------------------------------
+
+
+def _balance(row: Row) -> Balance | None:
+    vector, _, written = row["direction"]
+    return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+
+
+_BALANCED = moving("a balance on the frame, which does not move, keeps no motion")
+BALANCE = Rows(Either((Table("a moment", (
+    Field("link", "the link on which a moment keeps the motion", _BALANCED,
+          'the link on which a moment acts, such as link = "1"'),
+), lambda row: Balance(**row.values)), Table("a force along a line", (
+    Field("at", "the point of that link where the force acts", POINT,
+          'the point where a force acts, such as at = "B"'),
+    Field("on", "the link on which a force keeps the motion", _BALANCED,
+          'the link on which it acts, such as on = "1"'),
+    Field("direction", "the force's direction: a vector, an angle in degrees, or two points", GUIDE,
+          "the force's direction: a vector, an angle in degrees, or two points"),
+), _balance))), single=True)
+
+
+def _journal(row: Row) -> Friction | None:
+    at = row["at"]
+    if sum(at in points for points in row.names.links.values()) < 2 and row.item.faults.none_in("links"):
+        row.items["at"].fault(f"{at} is no joint of two links", "a joint")
+        return None
+    return Friction(at, None, row["radius"], row["coefficient"])
+
+
+def _rubbing(row: Row) -> Friction | None:
+    slide = has_slide(row, "a joint and its radius")
+    return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
+
+
+def _rubbed(friction: Friction) -> tuple[object, str]:
+    """The pair that has the friction."""
+    if friction.slide is None:
+        return friction.at, f"friction of joint {friction.at}"
+    return friction.slide, "friction of slide {} along {}".format(*friction.slide)
+
+
+_COEFFICIENT = Field("coefficient", "the coefficient of friction", AMOUNT,
+                     "the coefficient of friction, such as coefficient = 0.1")
+FRICTION = Rows(Either((Table("friction in a journal", (
+    Field("at", "the joint", POINT, 'a joint, such as at = "B", or slide = ["3", "2"]'),
+    Field("radius", "the journal's radius", AMOUNT, "the journal's radius"),
+    _COEFFICIENT,
+), _journal), Table("friction in a slide", (
+    Field("slide", "the sliding link and the link with the guide", TWO_LINKS, 'a slide, such as slide = ["3", "2"]'),
+    _COEFFICIENT,
+), _rubbing))), once=_rubbed, remedy="one for each joint or slide")
+
+LOADS = ("forces", "moments", "friction", "masses", "balance")
+
+
+def loads(read: Mapping[str, Any]) -> Loads | None:
+    """The loads of a scene, from what is read of its tables; None where it has none of them."""
+    if read.keys().isdisjoint(LOADS):
+        return None
+    none: Pair = (Fraction(0), Fraction(0))
+    return Loads(read.get("gravity", none), read.get("masses", {}), read.get("forces", ()), read.get("moments", ()),
+                 read.get("balance", ()), read.get("friction", ()))

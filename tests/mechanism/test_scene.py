@@ -191,7 +191,7 @@ def test_load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     assert load(str(tmp_path / "press.toml"), name="short").name == "short"
     monkeypatch.setattr(sys, "stdin", SimpleNamespace(buffer=io.BytesIO(PRESS.encode())))
     assert load("-").name == "-"
-    monkeypatch.setattr(module, "_packaged", lambda: [tmp_path / "press.toml"])
+    monkeypatch.setattr(module, "FOLDER", str(tmp_path))
     monkeypatch.chdir(tmp_path)
     assert load("press").title == "Crank, coupler and block"
     (tmp_path / "press").write_text(PRESS.replace("Crank,", "My crank,"))
@@ -200,7 +200,8 @@ def test_load(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 def test_what_cannot_be_loaded(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A missing file, a directory, bytes that are no text and impossible names are faults like any other."""
-    monkeypatch.setattr(module, "_packaged", lambda: [tmp_path / "alt-eight-link.toml"])
+    (tmp_path / "alt-eight-link.toml").touch()
+    monkeypatch.setattr(module, "FOLDER", str(tmp_path))
     (tmp_path / "latin").write_bytes(b"title = '\xe9'")
     for source, line in [
         ("alt-eight-lnk", "file: no such file and no packaged scene; perhaps alt-eight-link"),

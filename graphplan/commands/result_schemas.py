@@ -11,7 +11,7 @@ from importlib.resources import files
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.marking.judge.verdict import STATES
-from graphplan.mechanism import fields
+from graphplan.mechanism import values
 from graphplan.mechanism.fields import Fragment
 from graphplan.mechanism.schema import DRAFT, described, listed, table
 from graphplan.mechanism.units import BY_QUANTITY
@@ -19,12 +19,12 @@ from graphplan.mechanism.units import BY_QUANTITY
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}
 VALUE: Fragment = {"anyOf": [
-    fields.NUMBER.schema,
+    values.NUMBER.schema,
     described("a fraction p/q, with --exact", {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
     described("proven digits, with --digits", DECIMAL),
 ]}
 PLAIN: dict[str, Fragment] = {
-    "text": fields.TEXT.schema, "number": fields.NUMBER.schema, "positive": fields.AMOUNT.schema,
+    "text": values.TEXT.schema, "number": values.NUMBER.schema, "positive": values.AMOUNT.schema,
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,
     "vector": {"type": "array", "items": VALUE, "minItems": 2, "maxItems": 2},
     "percent": {"type": "number", "minimum": 0, "maximum": 100},

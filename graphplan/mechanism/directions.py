@@ -6,10 +6,11 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import Any
 
-from graphplan.mechanism.fields import NAME, NUMBER, VECTOR, Kind, Names
+from graphplan.mechanism.fields import Kind, Names
 from graphplan.mechanism.items import Item, Vector
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, exactly, is_exact
 from graphplan.mechanism.plane import Pair
+from graphplan.mechanism.values import NAME, NUMBER, VECTOR
 
 Direction = Vector | Fraction | str
 """A direction as written: a vector, an angle in degrees, or two points such as "O A"."""

@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from fractions import Fraction
 
-from graphplan.mechanism.fields import DISTANCE, TEXT, Field, Kind, Named, Names, Row, Table, choice
+from graphplan.mechanism.fields import Field, Kind, Named, Names, Row, Table
 from graphplan.mechanism.items import Item, described, perhaps
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.units import METRES
+from graphplan.mechanism.values import DISTANCE, TEXT, choice
 from graphplan.words import LANGUAGES
 
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}

@@ -15,13 +15,14 @@ from graphplan.errors import Fault, SceneError
 from graphplan.mechanism import sections
 from graphplan.mechanism.checks import check_connections, check_joints, check_loads, check_mobility, check_use
 from graphplan.mechanism.directions import points_of
-from graphplan.mechanism.fields import TEXT, VECTOR, Field, Names, Table
+from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.model import Find, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
+from graphplan.mechanism.values import TEXT, VECTOR
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 PAIRS = fields()

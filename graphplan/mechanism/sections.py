@@ -6,45 +6,14 @@ from collections.abc import Iterator, Mapping
 from fractions import Fraction
 from typing import Any
 
+from graphplan.mechanism import model
 from graphplan.mechanism.directions import GUIDE
-from graphplan.mechanism.fields import (
-    AMOUNT,
-    LINK,
-    NAME,
-    NUMBER,
-    POINT,
-    TWO_LINKS,
-    VECTOR,
-    Either,
-    Field,
-    Kind,
-    Named,
-    Names,
-    Row,
-    Rows,
-    Table,
-    asked,
-    choice,
-    moving,
-    on_link,
-)
+from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
 from graphplan.mechanism.items import Item
-from graphplan.mechanism.model import (
-    FRAME,
-    Balance,
-    Find,
-    Force,
-    Friction,
-    Loads,
-    Mass,
-    Moment,
-    Motion,
-    Pair,
-    Slide,
-    Units,
-)
+from graphplan.mechanism.model import FRAME, Pair, Slide
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.units import KILOGRAMS, METRES, NEWTONS
+from graphplan.mechanism.values import AMOUNT, LINK, NAME, NUMBER, POINT, TWO_LINKS, VECTOR, asked, choice, moving
 
 # --- links ---------------------------------------------------------------------------------------------------------
 
@@ -66,7 +35,7 @@ UNITS = Table("the units", (
     Field("length", "the unit of lengths", choice(*METRES), default="mm"),
     Field("force", "the unit of forces; moments are force * m", choice(*NEWTONS), default="N"),
     Field("mass", "the unit of masses; inertia is mass * m^2", choice(*KILOGRAMS), default="kg"),
-), lambda row: Units(**row.values))
+), lambda row: model.Units(**row.values))
 
 
 # --- motions and questions -----------------------------------------------------------------------------------------
@@ -85,7 +54,7 @@ def _moved(point: str, item: Item, names: Names) -> None:
 MOTIONS = Named(Table("a motion", (
     Field("velocity", "its velocity, in length/s", VECTOR, "two components, such as velocity = [10, 5]"),
     Field("acceleration", "its acceleration, in length/s^2", VECTOR, default=[0, 0]),
-), lambda row: Motion(**row.values)), POINT, _moved)
+), lambda row: model.Motion(**row.values)), POINT, _moved)
 
 
 def _still(point: object, item: Item, names: Names) -> bool:
@@ -127,7 +96,7 @@ FIND = Table("what is asked for", (
     Field("reactions", 'the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
           asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
                 many="joints and slides", after=("slides", "links", "points"))),
-), lambda row: Find(**row.values))
+), lambda row: model.Find(**row.values))
 
 
 # --- masses, forces, moments ---------------------------------------------------------------------------------------
@@ -145,33 +114,33 @@ MASSES = Named(Table("a mass", (
     Field("mass", "its mass", AMOUNT, "a mass, such as mass = 10"),
     Field("inertia", "its inertia about the centre of mass, in mass * m^2", AMOUNT, default=0),
     Field("centre", "its centre of mass, a point of that link", POINT, 'a point of the link, such as centre = "S"'),
-), lambda row: Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
+), lambda row: model.Mass(**row.values) if on_link(row, row.item.key) else None), LINK, _weighed)
 
 _LOADED = moving("a load on the frame moves nothing")
 FORCES = Rows(Table("a force", (
     Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "2"'),
     Field("at", "a point of that link", POINT, 'a point of that link, such as at = "C"'),
     Field("value", "the components of the force", VECTOR, "two components, such as value = [-150, 0]"),
-), lambda row: Force(**row.values) if on_link(row, row["on"]) else None))
+), lambda row: model.Force(**row.values) if on_link(row, row["on"]) else None))
 MOMENTS = Rows(Table("a moment", (
     Field("on", "the loaded link", _LOADED, 'the loaded link, such as on = "3"'),
     Field("value", "the moment in force * m, counter-clockwise positive", NUMBER, "a moment, such as value = 12.0"),
-), lambda row: Moment(**row.values)))
+), lambda row: model.Moment(**row.values)))
 
 
 # --- balance and friction ------------------------------------------------------------------------------------------
 
 
-def _balance(row: Row) -> Balance | None:
+def _balance(row: Row) -> model.Balance | None:
     vector, _, written = row["direction"]
-    return Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
+    return model.Balance(row["on"], row["at"], vector, written) if on_link(row, row["on"]) else None
 
 
 _BALANCED = moving("a balance on the frame, which does not move, keeps no motion")
 BALANCE = Rows(Either((Table("a moment", (
     Field("link", "the link on which a moment keeps the motion", _BALANCED,
           'the link on which a moment acts, such as link = "1"'),
-), lambda row: Balance(**row.values)), Table("a force along a line", (
+), lambda row: model.Balance(**row.values)), Table("a force along a line", (
     Field("at", "the point of that link where the force acts", POINT,
           'the point where a force acts, such as at = "B"'),
     Field("on", "the link on which a force keeps the motion", _BALANCED,
@@ -181,20 +150,20 @@ BALANCE = Rows(Either((Table("a moment", (
 ), _balance))), single=True)
 
 
-def _journal(row: Row) -> Friction | None:
+def _journal(row: Row) -> model.Friction | None:
     at = row["at"]
     if sum(at in points for points in row.names.links.values()) < 2 and row.item.faults.none_in("links"):
         row.items["at"].fault(f"{at} is no joint of two links", "a joint")
         return None
-    return Friction(at, None, row["radius"], row["coefficient"])
+    return model.Friction(at, None, row["radius"], row["coefficient"])
 
 
-def _rubbing(row: Row) -> Friction | None:
+def _rubbing(row: Row) -> model.Friction | None:
     slide = has_slide(row, "a joint and its radius")
-    return Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
+    return model.Friction("", slide.links, Fraction(0), row["coefficient"]) if slide else None
 
 
-def _rubbed(friction: Friction) -> tuple[object, str]:
+def _rubbed(friction: model.Friction) -> tuple[object, str]:
     """The pair that has the friction."""
     if friction.slide is None:
         return friction.at, f"friction of joint {friction.at}"
@@ -215,10 +184,10 @@ FRICTION = Rows(Either((Table("friction in a journal", (
 LOADS = ("forces", "moments", "friction", "masses", "balance")
 
 
-def loads(read: Mapping[str, Any]) -> Loads | None:
+def loads(read: Mapping[str, Any]) -> model.Loads | None:
     """The loads of a scene, from what is read of its tables; None where it has none of them."""
     if read.keys().isdisjoint(LOADS):
         return None
     none: Pair = (Fraction(0), Fraction(0))
-    return Loads(read.get("gravity", none), read.get("masses", {}), read.get("forces", ()), read.get("moments", ()),
-                 read.get("balance", ()), read.get("friction", ()))
+    return model.Loads(read.get("gravity", none), read.get("masses", {}),
+                       *(read.get(table, ()) for table in ("forces", "moments", "balance", "friction")))

@@ -8,11 +8,12 @@ from fractions import Fraction
 from math import pi
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from graphplan.mechanism.fields import BODY, NUMBER, TWO_LINKS, Either, Field, Row, Rows, Table, moving
+from graphplan.mechanism.fields import Either, Field, Row, Rows, Table
 from graphplan.mechanism.numerals import exactly, is_exact, root
 from graphplan.mechanism.pairs.pair import FRAME, Along, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.sliding import has_slide
 from graphplan.mechanism.plane import Number, Pair, X, Y, dot
+from graphplan.mechanism.values import BODY, NUMBER, TWO_LINKS, moving
 
 if TYPE_CHECKING:
     from graphplan.mechanism.model import Scene

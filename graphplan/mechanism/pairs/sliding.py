@@ -7,9 +7,10 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, ClassVar
 
 from graphplan.mechanism.directions import GUIDE, Written
-from graphplan.mechanism.fields import LINK, POINT, Field, Row, Rows, Table, on_link
+from graphplan.mechanism.fields import Field, Row, Rows, Table, on_link
 from graphplan.mechanism.pairs.pair import LINE, TURNING, Along, KinematicPair, Statement, Turning
 from graphplan.mechanism.plane import Pair, turned
+from graphplan.mechanism.values import LINK, POINT
 from graphplan.phrases import phrase
 
 if TYPE_CHECKING:

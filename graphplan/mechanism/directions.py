@@ -38,13 +38,11 @@ def _direction(item: Item, names: Names) -> Direction | None:
     if isinstance(item.value, list):
         components = item.vector()
         if components is not None and not any(components):
-            item.fault("the direction is zero", "a vector that is not [0, 0]")
-            return None
+            return item.fault("the direction is zero", "a vector that is not [0, 0]")
         return components
     if isinstance(item.value, str):
         if not {*item.value.split()} <= {*names.points} and (told := item.slip()):
-            item.fault(*told)
-            return None
+            return item.fault(*told)
         return item.two_points(names.points, "O A")
     return item.number()
 
@@ -60,8 +58,7 @@ def _guide(item: Item, names: Names) -> tuple[Pair, tuple[str, ...] | None, Writ
     try:
         x, y, exact = vector(direction, lambda name: exactly(names.placed[name]))
     except Misfit as misfit:
-        item.fault(misfit.what, misfit.instead)
-        return None
+        return item.fault(misfit.what, misfit.instead)
     if not exact:
         names.irrational.append(f"{item.where}: angle")
     rational = exact and is_exact(*(names.placed[name] for name in through))

@@ -7,13 +7,15 @@ are gathered, with the names that were probably meant.
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterable, Mapping
+from collections.abc import Collection, Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from typing import TypeVar
 
 from graphplan.errors import Fault, by_name, printable
 from graphplan.mechanism.numerals import Unusable, integer, shown
 
+T = TypeVar("T")
 Vector = tuple[Fraction, Fraction]
 
 _LONGEST = 300
@@ -29,10 +31,8 @@ class Faults:
     def __init__(self) -> None:
         self._found: dict[Fault, None] = {}
 
-    @property
-    def found(self) -> tuple[Fault, ...]:
-        """All faults, first found first."""
-        return tuple(self._found)
+    def __iter__(self) -> Iterator[Fault]:
+        return iter(self._found)
 
     def __len__(self) -> int:
         return len(self._found)
@@ -49,7 +49,7 @@ class Faults:
 
     def none_in(self, *tables: str) -> bool:
         """Whether the scene's top-level tables of these names are free of faults."""
-        return not any(fault.where.split(".")[0] in tables for fault in self._found)
+        return not any(fault.where.split(".")[0] in tables for fault in self)
 
 
 @dataclass(frozen=True)
@@ -65,9 +65,10 @@ class Item:
         """Another value at the same place, such as a part of this one."""
         return replace(self, value=value)
 
-    def fault(self, what: str, instead: str) -> None:
-        """Note a fault of this very item."""
+    def fault(self, what: str, instead: str) -> T | None:
+        """Note a fault of this very item; None, as it has no value then."""
         self.faults.add(self.where, what, instead)
+        return None
 
     def number(self) -> Fraction | None:
         """A finite number of usable size, exactly."""
@@ -75,12 +76,8 @@ class Item:
         if isinstance(value, Fraction):
             return value
         if isinstance(value, Unusable):
-            self.fault(f"{value.text} is no usable number", "a finite number between 1e-60 and 1e60 in size")
-        elif told := self.slip():
-            self.fault(*told)
-        else:
-            self.fault(f"{described(value)} where a number is wanted", "a number such as 12.5")
-        return None
+            return self.fault(f"{value.text} is no usable number", "a finite number between 1e-60 and 1e60 in size")
+        return self.fault(*(self.slip() or (f"{described(value)} where a number is wanted", "a number such as 12.5")))
 
     def slip(self) -> tuple[str, str] | None:
         """What is wrong with a text that was meant as a number, and what to write; None where it is none."""
@@ -94,23 +91,20 @@ class Item:
         """A number above zero."""
         number = self.number()
         if number is not None and number <= 0:
-            self.fault(f"the {what} {shown(number)} is not positive", f"a {what} above 0")
-            return None
+            return self.fault(f"the {what} {shown(number)} is not positive", f"a {what} above 0")
         return number
 
     def amount(self) -> Fraction | None:
         """A number that is not negative."""
         number = self.number()
         if number is not None and number < 0:
-            self.fault(f"the {self.key} {shown(number)} is negative", "a number of 0 or more")
-            return None
+            return self.fault(f"the {self.key} {shown(number)} is negative", "a number of 0 or more")
         return number
 
     def vector(self) -> Vector | None:
         """Two numbers: coordinates or components."""
         if not isinstance(self.value, list) or len(self.value) != 2:
-            self.fault(f"{described(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
-            return None
+            return self.fault(f"{described(self.value)} where two numbers are wanted", "two numbers such as [10, 5]")
         x, y = (self.instead(part).number() for part in self.value)
         return None if x is None or y is None else (x, y)
 
@@ -118,16 +112,14 @@ class Item:
         """A string."""
         if isinstance(self.value, str):
             return self.value
-        self.fault(f"{described(self.value)} where {wanted} is wanted", instead)
-        return None
+        return self.fault(f"{described(self.value)} where {wanted} is wanted", instead)
 
     def choice(self, words: Collection[str]) -> str | None:
         """One of a few words."""
         if isinstance(self.value, str) and self.value in words:
             return self.value
         instead = perhaps(self.value, words, "word") if isinstance(self.value, str) else "one of " + ", ".join(words)
-        self.fault(f"{described(self.value)} is not known here", instead)
-        return None
+        return self.fault(f"{described(self.value)} is not known here", instead)
 
     def name_of(self, kind: str, known: Collection[str]) -> str | None:
         """The name of a point or link that the scene has."""
@@ -143,8 +135,7 @@ class Item:
         if text is None:
             return None
         if "," in text:
-            self.fault("commas between points", 'points separated by blanks alone, such as "A B"')
-            return None
+            return self.fault("commas between points", 'points separated by blanks alone, such as "A B"')
         names = text.split()
         before = len(self.faults)
         for name in dict.fromkeys(names):
@@ -158,15 +149,13 @@ class Item:
         """Two points, as one string."""
         names = self.points(known)
         if names is not None and len(names) != 2:
-            self.fault(f"{described(self.value)} where two points are wanted", f'two points such as "{such}"')
-            return None
+            return self.fault(f"{described(self.value)} where two points are wanted", f'two points such as "{such}"')
         return None if names is None else " ".join(names)
 
     def table(self) -> dict[str, Item] | None:
         """The items of a table."""
         if not isinstance(self.value, dict):
-            self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
-            return None
+            return self.fault(f"{described(self.value)} where a table is wanted", "a table of keys and values")
         prefix = f"{self.where}." if self.where else ""
         return {key: Item(value, prefix + quoted(key), self.faults, key) for key, value in self.value.items()}
 

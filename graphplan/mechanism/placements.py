@@ -33,8 +33,7 @@ def _distances(wanted: int) -> Kind:
         if table is None:
             return None
         if len(table) != wanted:
-            item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
-            return None
+            return item.fault(f"distances from {len(table)} points", f"distances from {wanted}, as the other keys ask")
         distances = {centre: distance.positive("distance") for centre, distance in table.items()}
         for centre in distances:
             if centre not in names.points:
@@ -92,9 +91,8 @@ def _form(item: Item) -> Value | None:
     way = max(WAYS, key=lambda way: sum(key in way.keys for key in item.value))  # type: ignore[attr-defined]
     if item.value.keys() & {*way.keys}:
         return way
-    item.fault(f"{described(item.value)} places no point",
-               'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
-    return None
+    return item.fault(f"{described(item.value)} places no point",
+                      'coordinates [x, y], or a table such as { from = "O", distance = 250, angle = 20 }')
 
 
 def _named(point: str, item: Item, names: Names) -> None:

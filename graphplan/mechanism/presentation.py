@@ -32,8 +32,8 @@ def _ratio(item: Item, names: Names) -> Fraction | None:
     """The scene's lengths in a millimetre of paper, from a ratio such as 1:2."""
     ratio = re.fullmatch(RATIO, item.value) if isinstance(item.value, str) else None
     if ratio is None:
-        item.fault(f"{described(item.value)} is no ratio", 'a length on paper to a length of the scene, such as "1:2"')
-        return None
+        return item.fault(f"{described(item.value)} is no ratio",
+                          'a length on paper to a length of the scene, such as "1:2"')
     return Fraction(ratio[2]) / Fraction(ratio[1]) / 1000 / METRES[names.units.length]
 
 

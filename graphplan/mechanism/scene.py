@@ -100,7 +100,7 @@ def parse(text: str, name: str) -> Scene:
 
         for slip in slips_in_vectors(text):
             faults.add(*slip)
-        raise SceneError(name, faults.found)
+        raise SceneError(name, tuple(faults))
     return replace(scene, text=text)
 
 

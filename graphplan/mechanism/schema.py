@@ -38,7 +38,8 @@ def schema(value: Value) -> Fragment:
     """The JSON Schema of a kind of value."""
     match value:
         case Table(fields=fields, either=either):
-            keys = {field.name: described(field.words, schema(field.kind) | _default(field)) for field in fields}
+            keys = {field.name: described(field.words, schema(field.kind) | (
+                {} if field.default is None else {"default": field.default})) for field in fields}
             one = {"oneOf": [{"required": [key]} for key in either]} if either else {}
             return table(keys, [field.name for field in fields if field.wanted]) | one
         case Either(forms=forms):
@@ -51,10 +52,6 @@ def schema(value: Value) -> Fragment:
             return named | ({"minProperties": least} if least else {})
         case Kind(schema=fragment):
             return fragment
-
-
-def _default(field: Field) -> Fragment:
-    return {} if field.default is None else {"default": field.default}
 
 
 def reference() -> str:

@@ -153,8 +153,7 @@ BALANCE = Rows(Either((Table("a moment", (
 def _journal(row: Row) -> model.Friction | None:
     at = row["at"]
     if sum(at in points for points in row.names.links.values()) < 2 and row.item.faults.none_in("links"):
-        row.items["at"].fault(f"{at} is no joint of two links", "a joint")
-        return None
+        return row.items["at"].fault(f"{at} is no joint of two links", "a joint")
     return model.Friction(at, None, row["radius"], row["coefficient"])
 
 

@@ -25,8 +25,7 @@ BODY = Kind("link", lambda item, names: item.name_of("link", names.bodies), LINK
 
 def _two_links(item: Item, names: Names) -> tuple[str | None, ...] | None:
     if not isinstance(item.value, list) or len(item.value) != 2:
-        item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
-        return None
+        return item.fault(f"{described(item.value)} where two links are wanted", 'two links such as ["3", "2"]')
     return tuple(LINK.read(item.instead(name), names) for name in item.value)
 
 
@@ -64,8 +63,8 @@ def asked(noun: str, such: str, known: Callable[[Names], Collection[str]],
         if item.value == "all":
             return (every or known)(names)
         if not isinstance(item.value, list):
-            item.fault(f"{described(item.value)} where a list of {many} is wanted", f'a list such as {such}, or "all"')
-            return None
+            return item.fault(f"{described(item.value)} where a list of {many} is wanted",
+                              f'a list such as {such}, or "all"')
         parts = [item.instead(value) for value in item.value]
         found = [part.name_of(noun, known(names)) for part in parts if not wrong(part.value, item, names)]
         return tuple(dict.fromkeys(name for name in found if name is not None))

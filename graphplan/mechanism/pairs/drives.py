@@ -102,8 +102,8 @@ class DrivenPoint(KinematicPair):
 def _turning(row: Row) -> TurningDrive | None:
     link, base, rpm = row["link"], row["relative_to"], row.values.get("rpm")
     if link == base:
-        row.item.fault(f"link {link} is driven relative to itself", "another link, or no relative_to for the frame")
-        return None
+        instead = "another link, or no relative_to for the frame"
+        return row.item.fault(f"link {link} is driven relative to itself", instead)
     if rpm:
         row.names.irrational.append(f"{row.items['rpm'].where}: rpm (2 pi/60)")
     omega = row["omega"] if rpm is None else float(rpm / 30 * Fraction(pi)) if rpm else rpm

@@ -68,8 +68,7 @@ def _read(row: Row) -> Slide | None:
     """A sliding pair; the direction's length stays as written."""
     link, along = row["link"], row["along"]
     if link == along:
-        row.item.fault(f"link {link} slides along itself", "two different links")
-        return None
+        return row.item.fault(f"link {link} slides along itself", "two different links")
     return Slide(link, along, row["at"], *row["direction"]) if on_link(row, link, "the sliding link") else None
 
 
@@ -93,5 +92,4 @@ def has_slide(row: Row, otherwise: str, few: str = "") -> Slide | None:
     known = [f'slide = ["{one}", "{other}"]' for one, other in sorted(guides)]
     instead = few + ", ".join(known) if known else otherwise
     meant = f'perhaps slide = ["{along}", "{link}"]' if (along, link) in guides else instead
-    item.fault(f"no slide of link {link} along link {along}", meant)
-    return None
+    return item.fault(f"no slide of link {link} along link {along}", meant)

@@ -51,8 +51,8 @@ def _lines(found: Report, groups: Sequence[str], notes: Sequence[str]) -> list[s
     lines = [found.scene.title, *groups, "", _row("", "construction", "analytic solver", "difference", "own size")]
     for part, ours in found.results.items():
         truth = found.truth(part)
-        lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]), *_apart(found, part, name))
-                  for name in ours]
+        lines += [_row(f"{part} {name}", _text(ours[name]), _text(truth[name]),
+                       *(f"{float(number):.2g}" for number in _sizes(found, part, name))) for name in ours]
     powers = found.forces.named(found.forces.power) if found.forces and found.forces.power else {}
     lines += [_row(f"power balance {name}", "", _text(value)) for name, value in powers.items()]
     lines.append("")
@@ -88,10 +88,6 @@ def _row(name: str, *cells: str) -> str:
     """A line of the table: two opinions, their difference, and the size that it is relative to."""
     widths = (30, 30, 12, 12)
     return f"{name:<24}" + "".join(f"  {cell:>{width}}" for cell, width in zip(cells, widths, strict=False))
-
-
-def _apart(found: Report, part: str, name: str) -> list[str]:
-    return [f"{float(number):.2g}" for number in _sizes(found, part, name)]
 
 
 def _sizes(found: Report, part: str, name: str) -> tuple[Any, ...]:

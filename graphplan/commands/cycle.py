@@ -15,6 +15,7 @@ from __future__ import annotations
 
 import argparse
 from collections.abc import Iterator, Mapping
+from itertools import groupby
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, add_language, count, presented
@@ -104,12 +105,8 @@ def _say(found: Cycle, messages: Messages) -> None:
 
 def _told(notes: Mapping[int, str]) -> Iterator[str]:
     """Notes on poses, those of neighbours that say the same as one line."""
-    stretches: list[list[int]] = []
-    for k in notes:
-        if not stretches or k != stretches[-1][-1] + 1 or _reason(notes[k]) != _reason(notes[k - 1]):
-            stretches.append([])
-        stretches[-1].append(k)
-    for first, *rest in stretches:
+    for _, run in groupby(enumerate(notes), lambda at: (at[1] - at[0], _reason(notes[at[1]]))):
+        first, *rest = (k for _, k in run)
         poses = f"pose {first}" if not rest else f"poses {first} to {rest[-1]} ({len(rest) + 1})"
         yield f"{poses}: {notes[first]}"
 

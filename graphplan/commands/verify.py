@@ -39,7 +39,6 @@ if TYPE_CHECKING:
     from graphplan.marking.classroom import Marked
     from graphplan.marking.judge.score import Weights
     from graphplan.phrases import Said
-    from graphplan.sheet.plates.display import Sheet
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
@@ -99,23 +98,18 @@ class Desk:
         from graphplan.marking.judge.score import score
         from graphplan.marking.submission import read
         from graphplan.marking.traces import PlanFrame
-        from graphplan.sheet.handout import code
+        from graphplan.sheet.handout import code, solution, task
 
         composition = self.on_sheet.composition
         frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
         size = composition.arrangement.width, composition.arrangement.height
-        submission = read(path, list(composition.views), frames, self._printed, code(composition), size)
-        task = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
-        found = (judge(*task) if self.options.method
-                 else judge_any_method(*task, self.options.plan, self.options.inertia, construct))
+        submission = read(path, list(composition.views), frames,  # task and guided version have the same plans
+                          lambda: task(solution(composition), composition)[0], code(composition), size)
+        work = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
+        found = (judge(*work) if self.options.method
+                 else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
         judgement = replace(found, name=printable(path.name))
         return Marked(judgement, score(judgement, self.weights))
-
-    def _printed(self) -> Sheet:
-        """The page that was drawn on: of a task and of its guided version the plans are the same."""
-        from graphplan.sheet.handout import solution, task
-
-        return task(solution(self.on_sheet.composition), self.on_sheet.composition)[0]
 
 
 def printable(name: str) -> str:

@@ -19,10 +19,8 @@ from graphplan.mechanism.units import BY_QUANTITY
 COUNT: Fragment = {"type": "integer", "minimum": 0}
 DECIMAL: Fragment = {"type": "string", "pattern": r"^-?\d+(\.\d+)?(e[+-]?\d+)?$"}
 VALUE: Fragment = {"anyOf": [
-    values.NUMBER.schema,
-    described("a fraction p/q, with --exact", {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
-    described("proven digits, with --digits", DECIMAL),
-]}
+    values.NUMBER.schema, described("a fraction p/q, with --exact", {"type": "string", "pattern": r"^-?\d+(/\d+)?$"}),
+    described("proven digits, with --digits", DECIMAL)]}
 PLAIN: dict[str, Fragment] = {
     "text": values.TEXT.schema, "number": values.NUMBER.schema, "positive": values.AMOUNT.schema,
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,

@@ -191,11 +191,9 @@ def _compass(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) -
     across, exact = _half_chord(p * p / square - along * along, p * p / square, rounded, sharp)
     if across is None:
         apart = shown(float(sharp.root(square)[0]))
-        raise Misfit(
-            f"compass arcs around {a} (radius {shown(p)}) and {b} (radius {shown(q)}) do not meet, "
-            f"the centres are {apart} apart",
-            f"radii {'whose sum is at least' if (p + q) ** 2 < square else 'that differ by at most'} {apart}",
-        )
+        raise Misfit(f"compass arcs around {a} (radius {shown(p)}) and {b} (radius {shown(q)}) do not meet, "
+                     f"the centres are {apart} apart",
+                     f"radii {'whose sum is at least' if (p + q) ** 2 < square else 'that differ by at most'} {apart}")
     turned = across if data["side"] == "left" else -across
     return ax + along * dx - turned * dy, ay + along * dy + turned * dx, exact
 
@@ -210,11 +208,9 @@ def _arc_line(data: dict[str, Any], at: Where, rounded: bool, sharp: Reckoning) 
     gap = (ux * (cy - ty) - uy * (cx - tx)) ** 2 / square
     half, exact = _half_chord((radius**2 - gap) / square, radius**2 / square, rounded, sharp)
     if half is None:
-        gap_shown = shown(float(sharp.root(gap)[0]))
-        raise Misfit(
-            f"the arc around {centre} (radius {shown(radius)}) does not meet the line, which is {gap_shown} away",
-            f"a radius of at least {gap_shown}",
-        )
+        away = shown(float(sharp.root(gap)[0]))
+        raise Misfit(f"the arc around {centre} (radius {shown(radius)}) does not meet the line, which is {away} away",
+                     f"a radius of at least {away}")
     step = foot + (half if data["pick"] == "right" else -half)
     return tx + step * ux, ty + step * uy, exact and straight
 

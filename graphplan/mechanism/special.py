@@ -9,7 +9,7 @@ higher derivatives: the motion is continued as a power series, until a condition
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Hashable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from random import Random
@@ -47,7 +47,7 @@ def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=DIGITS):
         system = System(*fine_pose(replace(scene, motions={}, redundant=())))
-        pairs, found = sorted(system.pairs, key=_Order(scene)), Echelon[Unknown]()
+        pairs, found = sorted(system.pairs, key=_order(scene)), Echelon[Unknown]()
         redundant = tuple(equation.condition for equation in pairs if not found.add(equation.terms))
         repeating = tuple(pairs[i].condition for i in sorted(found.repeated()))
         freedoms = len(system.unknowns) - found.rank
@@ -57,22 +57,23 @@ def special(scene: Scene) -> Special:
         return Special(freedoms, links, moves, redundant, repeating)
 
 
-class _Order:
+def _order(scene: Scene) -> Callable[[Equation], tuple[bool, bool, int, Key, bool, Key, str]]:
     """The order in which conditions are taken in: of those that repeat each other the last is called redundant.
 
     Driven links come first, joints before slides, then links with many pairs; of one link its pairs with the frame.
     Nothing depends on the order in which the scene is written.
     """
 
-    def __init__(self, scene: Scene):
-        self._driven = {link for drive in scene.drives for link in drive.links} - {FRAME}
-        self._fixed = {FRAME, *scene.links.get(FRAME, ())}
-        self._pairs = Counter(link for pair in scene.binding for link in pair.links)
+    driven = {link for drive in scene.drives for link in drive.links} - {FRAME}
+    fixed = {FRAME, *scene.links.get(FRAME, ())}
+    pairs = Counter(link for pair in scene.binding for link in pair.links)
 
-    def __call__(self, equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
+    def key(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
         link, on, way = equation.condition
-        return (link not in self._driven, way in ("across", "turn"), -self._pairs[link], by_name(link),
-                on not in self._fixed, by_name(on), way)
+        return (link not in driven, way in ("across", "turn"), -pairs[link], by_name(link), on not in fixed,
+                by_name(on), way)
+
+    return key
 
 
 def _continues(course: _Course, found: Echelon[Unknown], pairs: Sequence[Equation],

@@ -12,7 +12,7 @@ Source: Jaanimets (1966), sections 1-9; Artobolevsky's classes.
 from __future__ import annotations
 
 from collections import Counter, defaultdict
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from itertools import pairwise
 from typing import NamedTuple
 
@@ -122,7 +122,7 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     if len(bodies) == 1:
         held = len([bond for bond in outer if bond.kind != "T"])
         return Group(links, 1, held, "driving link") if around.driven(links) else Group(links, 0, held, "follower")
-    form = _form(outer, _inner(bonds))
+    form = _form(outer, [bond for bond in bonds if len(bond.bodies) > 1])
     if len(bodies) == 2 and form in _MODIFICATIONS:
         return Group(links, 2, 2, f"dyad {form} (modification {_MODIFICATIONS.index(form) + 1})")
     sides = _sides(bonds)
@@ -135,10 +135,6 @@ def _form(outer: list[_Bond], inner: list[_Bond]) -> str:
     """The form of a dyad: outer, inner and outer pair; anything else where special geometry has made one redundant."""
     first, *last = sorted((bond.kind for bond in outer), reverse=True)
     return "".join([first, *(bond.kind for bond in inner), *last])
-
-
-def _inner(bonds: Iterable[_Bond]) -> list[_Bond]:
-    return [bond for bond in bonds if len(bond.bodies) > 1]
 
 
 def _sides(bonds: tuple[_Bond, ...]) -> int:
@@ -177,10 +173,8 @@ class _Surroundings:
             for link in pair.links:
                 self.pairs[link].append(pair)
         self.dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
-        self.first = {
-            point: min((stage[link] for link in links if link != FRAME and self._held(link, point)), default=-1)
-            for point, links in scene.links_of.items()
-        }
+        self.first = {point: min((stage[link] for link in links if link != FRAME and self._held(link, point)),
+                                 default=-1) for point, links in scene.links_of.items()}
 
     def _held(self, link: str, point: str) -> bool:
         """Whether a joint holds a link, at least in one way."""

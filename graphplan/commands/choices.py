@@ -43,21 +43,19 @@ def count(option: str, least: int, most: int | None = None) -> Callable[[str], i
 
 def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> None:
     """The options that choose how it is drawn."""
-    command.add_argument("--method", default="", choices=tuple(METHODS),
-                         help="the form of loci and rings; without it the pose chooses, and the protocol says why")
-    command.add_argument("--plan", default="", metavar="PLAN",
-                         help="orthogonal velocities on the mechanism plan, or polar plans (without either the lengths "
-                         "of the links decide); of the forces lever, polygons, or both (default); such as "
-                         "--plan polar,lever")
-    command.add_argument("--inertia", default=INERTIA[0], choices=INERTIA,
-                         help="inertia forces: at the centre of mass with a couple (default), shifted so that they "
-                         "need none, or at two points that replace the link")
-    command.add_argument("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
-                         help="draw so many rounds of friction; without it they go on until the forces stand")
+    add = command.add_argument
+    add("--method", default="", choices=tuple(METHODS),
+        help="the form of loci and rings; without it the pose chooses, and the protocol says why")
+    add("--plan", default="", metavar="PLAN", help="orthogonal velocities on the mechanism plan, or polar plans "
+        "(without either the lengths of the links decide); of the forces lever, polygons, or both (default); such as "
+        "--plan polar,lever")
+    add("--inertia", default=INERTIA[0], choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
+        "(default), shifted so that they need none, or at two points that replace the link")
+    add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
+        help="draw so many rounds of friction; without it they go on until the forces stand")
     command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="")
     if strict:
-        command.add_argument("--strict", action="store_true",
-                             help="compasses and straightedge alone, no set squares")
+        add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 
 
 def add_language(command: argparse.ArgumentParser, default: str = "") -> None:
@@ -74,9 +72,8 @@ def add_paper(command: argparse.ArgumentParser, told: str) -> None:
 def add_sheet(command: argparse.ArgumentParser) -> None:
     """The options that say what the sheet looks like; without them the scene has a say in it."""
     add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
-    command.add_argument("--frame", choices=FRAMES,
-                         help="frame and title block after ISO 5457 and 7200, or GOST 2.301 and 2.104; without it the "
-                         "scene's, or iso")
+    command.add_argument("--frame", choices=FRAMES, help="frame and title block after ISO 5457 and 7200, or GOST "
+                         "2.301 and 2.104; without it the scene's, or iso")
     add_language(command)
 
 

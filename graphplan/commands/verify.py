@@ -44,15 +44,14 @@ ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
-    command.add_argument("--report", metavar="FILE",
-                         help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over "
-                         "the true one")
-    command.add_argument("--weights", default="", metavar="WEIGHTS",
-                         help="what a step earns by its verdict, and how many steps a number counts for: such as "
-                         "right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); follows is right after an "
-                         "earlier slip")
-    command.add_argument("--json", action="store_true", help="as data")
+    add = command.add_argument
+    add("drawing", metavar="DRAWING", help="the file that was handed in, or a folder of them")
+    add("--report", metavar="FILE",
+        help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over the true one")
+    add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict, and how many steps a "
+        "number counts for: such as right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); follows is right "
+        "after an earlier slip")
+    add("--json", action="store_true", help="as data")
     add_sheet(command)
     add_choices(command)
     add_pencil(command)

@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
-from graphplan.methods import kinds, panels
-from graphplan.methods.forces import assumed_motion
-from graphplan.methods.forces.assumed_motion import Assumed
+from graphplan.methods import kinds
 from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.friction import rough
-from graphplan.methods.forces.lever import Lever
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import DrawnForces, Shown, pair_letter, reaction_on
+from graphplan.methods.forces.reactions import DrawnForces, reaction_on
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -43,7 +39,7 @@ class ForceTransfer:
         self.scene = scene
         self.groups: list[ForceGroup] = []
         self._general = in_general(scene)
-        self._assumed: dict[str, Planner] = {}
+        self.planners: dict[str, Planner] = {}  # of the motions that levers assume, by their panel
         self.options = 1
         self._moves: dict[tuple[tuple[str, ...], Way], list[StaticMove] | Refused] = {}
         done: list[str] = []
@@ -61,12 +57,6 @@ class ForceTransfer:
         """The plans of the scene whose journals rub."""
         changed = rough(self.scene)
         return self if changed.links == self.scene.links else ForceTransfer(changed)
-
-    def planner(self, assumed: Assumed, panel: str) -> Planner:
-        """The plan of the motion that a lever's panel shows."""
-        if panel not in self._assumed:
-            self._assumed[panel] = assumed_motion.planned(assumed)
-        return self._assumed[panel]
 
     def moves(self, group: ForceGroup, way: Way) -> list[StaticMove]:
         """The moves of a group."""
@@ -141,70 +131,6 @@ def results(scene: Scene, loading: Loading, forces: DrawnForces, board: Board) -
             yield kinds.SLIDE_REACTION, slide.name, forces.slides[slide]
             yield kinds.SLIDE_MOMENT, slide.name, _moment(loading, slide, forces)
     yield from balances(loading, forces, kinds.BY_PLANS)
-
-
-def levers(pose: Pose, velocity: Velocity, loading: Loading, plans: ForceTransfer) -> tuple[list[Result], list[Shown]]:
-    """The balances by Zhukovsky's lever: one lever for each."""
-    scene, board = loading.scene, pose.board
-    results: list[Result] = []
-    shown: list[Shown] = []
-    for mode, (name, balance) in enumerate(loading.loads.named_balances.items()):
-        panel, motion = panels.LeverPlan.of(None if len(loading.loads.balances) == 1 else mode + 1), velocity
-        if not assumed_motion.moving(scene):
-            assumed = assumed_motion.working(scene, mode)
-            motion = assumed_motion.velocities(assumed, pose, plans.planner(assumed, panel))
-        lever = Lever(board, motion, loading, panel)
-        marks: tuple[Mark, ...] = lever.force(balance) if balance.at else lever.moment(balance.link)
-        results.append((kinds.balance_kind(kinds.BY_LEVER, balance), name, marks))
-        shown += [*lever.shown, Shown("balance", f"{'F' if balance.at else 'T'}_{balance.link}", *marks[-2:])]
-    return results, shown
-
-
-class Freed:
-    """Reactions by levers without any force plan, each with its pair freed: results and the arrows that show them."""
-
-    def __init__(self, pose: Pose, loading: Loading, plans: ForceTransfer):
-        self.pose, self.loading, self.plans, self.board = pose, loading, plans, pose.board
-        self.results: list[Result] = []
-        self.shown: list[Shown] = []
-
-    def all(self, asked: Collection[str]) -> Freed:
-        """Those of the joints and slides of these names that statics tells."""
-        scene = self.loading.net.scene
-        for point, link, pin in pairs(scene):
-            if point in asked and JointForce(point, link).name not in scene.indeterminate_pairs:
-                self._joint(point, link, pin)
-        for slide in self.loading.scene.slides:
-            if slide.name in asked and slide.name not in scene.indeterminate_pairs:
-                self._slide(slide)
-        return self
-
-    def _lever(self, assumed: Assumed, panel: panels.LeverPlan) -> Lever:
-        motion = assumed_motion.velocities(assumed, self.pose, self.plans.planner(assumed, panel))
-        return Lever(self.board, motion, self.loading, panel, assumed.renamed)
-
-    def _joint(self, point: str, link: str, pin: str) -> None:
-        """A joint's reaction by two levers, one for each component."""
-        spans, force = [], JointForce(point, link)
-        for axis, letter in zip(assumed_motion.AXES, "xy", strict=True):
-            assumed = assumed_motion.freed_joint(self.loading.scene, point, link, pin, axis)
-            lever = self._lever(assumed, panels.LeverPlan.of(force, letter))
-            spans.append(lever.across(point, link, pin))
-            self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
-        (tail, corner), other = spans
-        with self.board.on(lever.panel):
-            self.results.append((kinds.REACTION, force.name, (tail, self.board.transfer(*other, corner))))
-
-    def _slide(self, slide: Slide) -> None:
-        """A slide's reaction by two levers: its force, and its moment."""
-        lever = self._lever(assumed_motion.freed_slide(self.loading.scene, slide), panels.LeverPlan.of(slide, "F"))
-        force = lever.off_guide(slide)
-        self.shown += [*lever.shown, Shown("reaction", pair_letter(slide.along, slide.link), *force)]
-        self.results.append((kinds.SLIDE_REACTION, slide.name, force))
-        lever = self._lever(assumed_motion.freed_turning(self.loading.scene, slide), panels.LeverPlan.of(slide, "M"))
-        moment = lever.turning(slide.link, slide.along)
-        self.shown += [*lever.shown, Shown("reaction", f"M_{slide.link}", *moment[-2:])]
-        self.results.append((kinds.SLIDE_MOMENT, slide.name, moment))
 
 
 def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Iterable[str]) -> Iterator[Result]:

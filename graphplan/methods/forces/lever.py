@@ -4,33 +4,122 @@ The moment of a force about the pole is its power, in the scale of the plan. So 
 does, and one unknown force or moment is had from the moments of all others, without any reaction; the velocities may be
 of any size, and those of a mechanism at rest are assumed. To find a reaction its pair is freed: the link may then move
 in the pair, the balances do no work, and the reaction takes their place (Ozols 1974, 10-6 and 13-3).
+
+In an assumed motion one force that is looked for does work, and no other. A balance that does no work is a support: its
+link does not turn, or its point moves only across its direction, in a block that slides that way on the frame.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections import ChainMap
+from collections.abc import Collection, Iterator
+from copy import copy
+from dataclasses import replace
+from fractions import Fraction
+from typing import NamedTuple
 
-from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import FRAME, Balance, Slide
-from graphplan.methods import panels
+from graphplan.kernel.program import Mark
+from graphplan.mechanism.bracing import bracing
+from graphplan.mechanism.model import FRAME, Balance, Drive, Find, Pair, Scene, Slide, SlidingDrive, TurningDrive
+from graphplan.mechanism.order import ordered_drives
+from graphplan.mechanism.pairs.pair import KinematicPair
+from graphplan.methods import kinds
+from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import Shown
-from graphplan.methods.motion.velocity import Polar, Velocity
+from graphplan.methods.forces.reactions import Shown, Span, pair_letter
+from graphplan.methods.motion.alternatives import ways
+from graphplan.methods.motion.network import Network
+from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.time_scale import Tempo, extent, round_number
+from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
+from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
+from graphplan.methods.poses import Pose
+from graphplan.methods.styles import Style
 from graphplan.phrases import said
 
-Span = tuple[Mark, Mark]
+AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))
+
+
+class Levers:
+    """Balances and reactions of a scene by levers, without any force plan: results, and the arrows that show them."""
+
+    def __init__(self, pose: Pose, velocity: Velocity, loading: Loading, plans: ForceTransfer):
+        self.pose, self.velocity, self.loading, self.plans = pose, velocity, loading, plans
+        self.scene = loading.scene
+        self.results: list[Result] = []
+        self.shown: list[Shown] = []
+
+    def balances(self) -> Levers:
+        """The balances, one lever for each; where one drive moves the scene's own velocities serve."""
+        drives, named = self.scene.drives, self.loading.loads.named_balances
+        for mode, (name, balance) in enumerate(named.items()):
+            own = len(drives) == 1 and drives[0].rate
+            lever = self._lever(None if own else working(self.scene, mode),
+                                LeverPlan.of(None if len(named) == 1 else mode + 1))
+            marks = lever.force(balance) if balance.at else lever.turning(balance.link)
+            self._found(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks,
+                        "balance", f"{'F' if balance.at else 'T'}_{balance.link}")
+        return self
+
+    def reactions(self, asked: Collection[str]) -> Levers:
+        """The reactions of the joints and slides of these names that statics tells, each with its pair freed."""
+        scene = self.loading.net.scene
+        for point, link, pin in pairs(scene):
+            if point in asked and JointForce(point, link).name not in scene.indeterminate_pairs:
+                self._joint(JointForce(point, link), pin)
+        for slide in self.scene.slides:
+            if slide.name in asked and slide.name not in scene.indeterminate_pairs:
+                lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of(slide, "F"))
+                self._found(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide),
+                            "reaction", pair_letter(slide.along, slide.link))
+                lever = self._lever(freed_turning(self.scene, slide), LeverPlan.of(slide, "M"))
+                self._found(lever, kinds.SLIDE_MOMENT, slide.name, lever.turning(slide.link, slide.along),
+                            "reaction", f"M_{slide.link}")
+        return self
+
+    def _joint(self, force: JointForce, pin: str) -> None:
+        """A joint's reaction by two levers, one for each component."""
+        spans = []
+        for axis, letter in zip(AXES, "xy", strict=True):
+            lever = self._lever(freed_joint(self.scene, force.point, force.link, pin, axis),
+                                LeverPlan.of(force, letter))
+            spans.append(lever.across(force.point, force.link, pin))
+            self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
+        (tail, corner), other = spans
+        with self.pose.board.on(lever.panel):
+            self.results.append((kinds.REACTION, force.name, (tail, self.pose.board.transfer(*other, corner))))
+
+    def _found(self, lever: Lever, kind: kinds.ResultKind, name: str, marks: tuple[Mark, ...],
+               shown: str, letter: str) -> None:
+        self.results.append((kind, name, marks))
+        self.shown += [*lever.shown, Shown(shown, letter, *marks[-2:])]
+
+    def _lever(self, assumed: Assumed | None, panel: LeverPlan) -> Lever:
+        """The lever of an assumed motion, or of the scene's own."""
+        if assumed is None:
+            return Lever(self.velocity, self.loading, panel, {})
+        if panel not in self.plans.planners:
+            self.plans.planners[panel] = planned(assumed.scene)
+        own, planner = copy(self.pose), self.plans.planners[panel]
+        own.scene = assumed.scene
+        renamed = {new: self.pose.points[old] for (_, old), new in assumed.renamed.items()}
+        own.points = ChainMap(renamed, self.pose.standing)
+        velocity = Orthogonal(self.pose.board, planner.net, own, Tempo(Fraction(1)))
+        with self.pose.board.on(MECHANISM):
+            velocity.draw(planner.moves)
+        return Lever(velocity, self.loading, panel, assumed.renamed)
 
 
 class Lever:
     """One lever: the loads of a scene at the ends of one set of velocities, on a panel of its own."""
 
-    def __init__(self, board: Board, velocity: Velocity, loading: Loading, panel: panels.LeverPlan,
-                 renamed: dict[tuple[str, str], str] | None = None):
-        self.board, self.velocity, self.loading, self.panel = board, velocity, loading, panel
-        self.renamed = renamed or {}
+    def __init__(self, velocity: Velocity, loading: Loading, panel: LeverPlan, renamed: dict[tuple[str, str], str]):
+        self.board, self.velocity, self.loading, self.panel = loading.board, velocity, loading, panel
+        self.renamed = renamed
         self.shown: list[Shown] = []
-        with board.on(panel):
-            self.pole = board.begin(plan=panel.words, number=1, name="o")
+        with self.board.on(panel):
+            self.pole = self.board.begin(plan=panel.words, number=1, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
 
@@ -79,11 +168,7 @@ class Lever:
                                       why=said("moments about the pole balance, since powers do"))
         return mark
 
-    def moment(self, link: str) -> tuple[Mark, ...]:
-        """The balancing moment on a link, as a pair of forces at two of its points: a pole, a point, tail and head."""
-        return self.turning(link, FRAME)
-
-    def turning(self, link: str, on: str) -> tuple[Mark, ...]:
+    def turning(self, link: str, on: str = FRAME) -> tuple[Mark, ...]:
         """The moment on a link that turns on another, as a pair of forces: a pole, a point, tail and head."""
         P, R = names = self.loading.arm_points(link)
         with self.board.on(self.panel, (link,)):
@@ -117,3 +202,95 @@ class Lever:
         with self.board.on(self.panel, (slide.link,)):
             X = self._relative(self.end(slide.along, slide.at), self.end(slide.link, slide.at))
             return self._along(X, self.board.perpendicular(guide, X))
+
+
+# ---- assumed motions ------------------------------------------------------------------------------------------------
+
+
+class Assumed(NamedTuple):
+    """A scene whose drives make an assumed motion; of the links that were freed, points that are named apart."""
+
+    scene: Scene
+    renamed: dict[tuple[str, str], str]
+
+
+def planned(scene: Scene) -> Planner:
+    """The plan of an assumed motion by the best way."""
+    every = Find(tuple(point for point, links in scene.links_of.items() if links), ())
+    bare, style = replace(scene, loads=None, find=every), Style()
+    return next(ways(Network(bare), "", lambda planner: Draughtsman(bare, planner, style).draw()))[1]
+
+
+def working(scene: Scene, mode: int) -> Assumed:
+    """The motion in which only the balance of this number does work; a single drive stands for its balance."""
+    assert scene.loads is not None
+    held = [balance for nth, balance in enumerate(scene.loads.balances) if nth != mode]
+    balance, apart = scene.loads.balances[mode], scene.with_drives(())
+    own: list[Drive] = [_unit(drive, scene) for drive in ordered_drives(scene)]
+    if len(own) > 1 and not balance.at:
+        own = [TurningDrive(balance.link, FRAME, Fraction(1), Fraction(0))]
+    found = [_held(apart.with_drives((drive,)), held) for drive in own]
+    return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
+
+
+def _unit(drive: Drive, scene: Scene) -> Drive:
+    """The drive at a rate of one."""
+    return drive.driven_at(round_number(extent(scene) / 4) if drive.slides else Fraction(1), Fraction(0))
+
+
+def _held(scene: Scene, balances: list[Balance]) -> Scene:
+    """The scene with supports in the place of balances."""
+    for nth, balance in enumerate(balances):
+        if balance.direction is None:
+            still = TurningDrive(balance.link, FRAME, Fraction(0), Fraction(0))
+            scene = scene.with_drives((*scene.drives, still))
+        else:
+            (dx, dy), block = balance.direction, f"support {nth + 1} of {balance.link}"
+            across = Slide(block, FRAME, balance.at, (-dy, dx))
+            scene = replace(scene, links=scene.links | {block: (balance.at,)}, written=(*scene.written, across))
+    return scene
+
+
+def freed_joint(scene: Scene, point: str, link: str, pin: str, axis: Pair) -> Assumed:
+    """The motion of a link on the pin in a joint, along an axis.
+
+    The link's point gets a name of its own, and a block that carries it and slides along the pin's link.
+    """
+    new, block = f"{point} of {link}", f"pin {point}"
+    links = {name: tuple(new if name == link and p == point else p for p in points)
+             for name, points in scene.links.items()}
+    slides = [replace(s, at=new) if (s.link, s.at) == (link, point) else s for s in scene.slides]
+    written = *slides, Slide(block, pin, new, axis), _sliding(scene, block, pin)
+    return _freed(scene, links | {block: (new,)}, written, {(link, point): new})
+
+
+def freed_slide(scene: Scene, slide: Slide) -> Assumed:
+    """The motion of a sliding link off its guide, along the axis that is more across it: on a second block."""
+    new, block = f"{slide.at} of {slide.name}", f"block {slide.name}"
+    dx, dy = slide.direction
+    axis = AXES[abs(float(dx)) >= abs(float(dy))]
+    slides = [replace(s, along=block) if s == slide else s for s in scene.slides]
+    written = *slides, Slide(block, slide.along, new, axis), _sliding(scene, block, slide.along)
+    return _freed(scene, scene.links | {block: (new,)}, written, {(block, slide.at): new})
+
+
+def freed_turning(scene: Scene, slide: Slide) -> Assumed:
+    """The motion of a sliding link that turns on its guide, about the slide's point, in a block there."""
+    block = f"block {slide.name}"
+    slides = [replace(s, link=block) if s == slide else s for s in scene.slides]
+    written = *slides, TurningDrive(slide.link, slide.along, Fraction(1), Fraction(0))
+    return _freed(scene, scene.links | {block: (slide.at,)}, written, {})
+
+
+def _sliding(scene: Scene, block: str, along: str) -> Drive:
+    return SlidingDrive(block, along, round_number(extent(scene) / 4), Fraction(0))
+
+
+def _freed(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],
+           renamed: dict[tuple[str, str], str]) -> Assumed:
+    """The scene with other pairs, one freed and driven, and with all its balances as supports."""
+    assert scene.loads is not None
+    points = scene.points | {new: scene.points[old] for (_, old), new in renamed.items()}
+    freed = replace(scene, points=points, links=links, written=written)
+    return Assumed(_held(freed, [replace(balance, at=renamed.get((balance.link, balance.at), balance.at))
+                                 for balance in scene.loads.balances]), renamed)

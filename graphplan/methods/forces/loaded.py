@@ -19,17 +19,8 @@ from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.forces.friction import SHORT, Rubbed
-from graphplan.methods.forces.groups import (
-    ForceTransfer,
-    Freed,
-    Result,
-    Way,
-    arms,
-    balances,
-    levers,
-    reactions,
-    results,
-)
+from graphplan.methods.forces.groups import ForceTransfer, Result, Way, arms, balances, reactions, results
+from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
 from graphplan.methods.forces.reactions import DrawnForces, Shown
 from graphplan.methods.forces.statics import PREFERENCES
@@ -88,12 +79,12 @@ class Loaded(Draughtsman):
         if self.style.polygons:
             self._polygons(velocity, loading)
         if self.style.lever or self.scene.repeating:
-            self._note(*levers(self.pose, velocity, loading, self.plans))
+            levers = Levers(self.pose, velocity, loading, self.plans).balances()
             if not self.style.polygons:
-                freed = Freed(self.pose, loading, self.plans).all(self.by_lever)
-                self._note(freed.results, freed.shown)
+                levers.reactions(self.by_lever)
                 if self.loads.frictions:
                     self.notes.append(said("friction is left out: force polygons alone have it"))
+            self._note(levers.results, levers.shown)
 
     def _far(self, loading: Loading) -> Iterator[str]:
         """The links whose inertia force would be shifted too far, or is nothing beside its couple."""

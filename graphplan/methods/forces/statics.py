@@ -10,8 +10,8 @@ found by false position.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
 from itertools import combinations
+from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Balance, Slide
@@ -26,29 +26,25 @@ TURN = (0, 0, 1)
 Part = frozenset[str]
 
 
-@dataclass(frozen=True)
-class AtPoint:
+class AtPoint(NamedTuple):
     """Moments about a point of the mechanism."""
 
     point: str
 
 
-@dataclass(frozen=True)
-class AcrossSlide:
+class AcrossSlide(NamedTuple):
     """No moments: forces across the direction in which a slide's reaction acts."""
 
     slide: Slide
 
 
-@dataclass(frozen=True)
-class AcrossLine:
+class AcrossLine(NamedTuple):
     """No moments: forces across the known line of a site."""
 
     site: UnknownForce
 
 
-@dataclass(frozen=True)
-class AtCrossing:
+class AtCrossing(NamedTuple):
     """Moments about the auxiliary point where the known lines of two sites meet."""
 
     one: UnknownForce
@@ -58,8 +54,7 @@ class AtCrossing:
 About = AtPoint | AcrossSlide | AcrossLine | AtCrossing
 
 
-@dataclass(frozen=True)
-class LineFact:
+class LineFact(NamedTuple):
     """The part's equilibrium about a point tells one thing of a site's force: then its line is known."""
 
     part: Part
@@ -67,8 +62,7 @@ class LineFact:
     about: About
 
 
-@dataclass(frozen=True)
-class ForceFact:
+class ForceFact(NamedTuple):
     """As a fact, of a site whose line is known: then its force is."""
 
     part: Part
@@ -76,8 +70,7 @@ class ForceFact:
     about: About
 
 
-@dataclass(frozen=True)
-class ClosePolygon:
+class ClosePolygon(NamedTuple):
     """Two sites of known lines close the part's force polygon."""
 
     part: Part
@@ -85,23 +78,20 @@ class ClosePolygon:
     two: UnknownForce
 
 
-@dataclass(frozen=True)
-class Close:
+class Close(NamedTuple):
     """One site closes the part's force polygon, and its moments."""
 
     part: Part
     site: UnknownForce
 
 
-@dataclass(frozen=True)
-class Pin:
+class Pin(NamedTuple):
     """The forces on the links of one joint balance: the last of them."""
 
     site: JointForce
 
 
-@dataclass(frozen=True)
-class Assume:
+class Assume(NamedTuple):
     """False position: the force of a site is assumed on its line, twice, and the moves are drawn for both; in the end
     the force at `end` should be as the part's equilibrium about a point tells, and is not; the third time it is."""
 

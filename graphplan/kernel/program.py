@@ -294,22 +294,25 @@ def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
     return pruned(Program(tuple(board.steps), tuple(mark.step.index for mark in wanted)))
 
 
-def needed_steps(board: Board, wanted: Iterable[Mark]) -> set[int]:
-    """The steps, by index, that the wanted marks need."""
-    return _needed(board.steps, (mark.step.index for mark in wanted))
+def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = ()) -> set[int]:
+    """The steps, by index, that the wanted marks need, but for known ones and what those need."""
+    return needed(board.steps, (mark.step.index for mark in wanted), known)
 
 
-def _needed(steps: Sequence[Step], wanted: Iterable[int]) -> set[int]:
-    needed = set(wanted)
-    for step in reversed(steps):
-        if step.index in needed:
-            needed.update(step.args)
-    return needed
+def needed(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
+    """The same for steps, by index."""
+    found, waiting = set[int](), [*wanted]
+    while waiting:
+        index = waiting.pop()
+        if index not in found and index not in known:
+            found.add(index)
+            waiting.extend(steps[index].args)
+    return found
 
 
 def pruned(program: Program) -> Program:
     """The same program without the steps that no wanted mark needs."""
-    return _renumbered(program, sorted(_needed(program.steps, program.wanted)))
+    return _renumbered(program, sorted(needed(program.steps, program.wanted)))
 
 
 def _renumbered(program: Program, order: Sequence[int]) -> Program:

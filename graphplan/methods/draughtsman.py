@@ -1,13 +1,17 @@
-"""Draws a scene by a list of moves, and notes what can be read from it."""
+"""Draws a scene by a list of moves, and notes what can be read from it.
 
+A slide makes two links turn alike, a turning drive by a given difference. So a link of one point, such as a block, has
+its turning from another; one that such pairs tie to the frame has what the drives prescribe, and nothing is drawn.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from itertools import combinations
+from typing import NamedTuple
 
 from graphplan.errors import Refused
-from graphplan.kernel.program import Board, Mark, freeze
+from graphplan.kernel.program import Board, Mark, freeze, needed_steps
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods import kinds
@@ -16,7 +20,6 @@ from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
 from graphplan.methods.motion.moves import FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.rates import LinkSide, Needed, apart, sides
 from graphplan.methods.motion.time_scale import tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
@@ -24,6 +27,18 @@ from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
 from graphplan.methods.styles import Style
 from graphplan.phrases import Said, said
+
+
+class LinkSide(NamedTuple):
+    """Two points of a link's plane, and the marks that its turning is read from: both, begin and end of each vector.
+
+    `own` says whether both are points of the link, which cannot come together in another pose.
+    """
+
+    link: str
+    marks: tuple[Mark, ...]
+    length: float
+    own: bool
 
 
 class Draughtsman:
@@ -105,7 +120,7 @@ class Draughtsman:
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]
-            P, R = max(combinations(names, 2), key=lambda pair: apart(self.scene, *pair), default=("", ""))
+            P, R = max(combinations(names, 2), key=lambda pair: _apart(self.scene, *pair), default=("", ""))
             if P and sought & {*names}:
                 vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
                 points = self.pose.points[P], self.pose.points[R]
@@ -115,7 +130,7 @@ class Draughtsman:
         """The turning of the other links that are asked for: what is given, else it is read off the cheapest side."""
         read = {reading.of for reading in self.readings if reading.kind == kind}
         links = [link for link in self.net.links if link in (self.scene.find.links or ()) and link not in read]
-        needed = Needed(self.board, self.marks)
+        needed = needed_steps(self.board, self.marks)
         cheapest: dict[frozenset[str], LinkSide] = {}
         for link in links:
             alike = self.net.turnings.alike(link)
@@ -124,17 +139,19 @@ class Draughtsman:
                 continue
             if (group := frozenset(alike)) not in cheapest:
                 side = cheapest[group] = self._cheapest(plan, link, needed)
-                needed.add(side.marks)
+                needed |= needed_steps(self.board, side.marks, needed)
             side = cheapest[group]
             self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
 
-    def _cheapest(self, plan: MotionPlan, link: str, needed: Needed) -> LinkSide:
-        """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway."""
-        found = sides(plan, self.net.turnings.alike(link))
+    def _cheapest(self, plan: MotionPlan, link: str, needed: set[int]) -> LinkSide:
+        """The side, of a link or of one that turns alike, that costs the fewest steps beside those needed anyway; then
+        one of its own points, then the longest."""
+        found = _sides(plan, self.net.turnings.alike(link))
         if not found:
             why = said("no construction known here reaches it")
             raise Refused(link_named(link), why, "ask for other links")
-        return min(found, key=needed.price)
+        return min(found, key=lambda side: (len(needed_steps(self.board, side.marks, needed)), not side.own,
+                                            -side.length))
 
     def _slides(self, plan: MotionPlan, kind: kinds.ResultKind, asked: tuple[str, ...]) -> None:
         """The sliding of each pair that is asked for, by its name or by its point."""
@@ -160,3 +177,45 @@ def _ways(moves: Iterable[Move]) -> Iterator[Said]:
         elif isinstance(move, FalsePosition):
             yield said("false position of {0}", move.at[0][0])
             yield from _ways(move.moves)
+
+
+def _sides(plan: MotionPlan, links: Iterable[str]) -> list[LinkSide]:
+    """The sides of these links from which their turning can be read: those between points whose ends are drawn, if
+    there are any, else those whose ends follow from all that is known of the link."""
+    for places in (_drawn, _known):
+        found = [_side(plan, link, P, R) for link in links for P, R in combinations(places(plan, link), 2)
+                 if _apart(plan.net.scene, P, R)]
+        if found:
+            return found
+    return []
+
+
+def _apart(scene: Scene, P: str, R: str) -> float:
+    """How far apart two points are: a link's turning is read off its longest side."""
+    return max(abs(float(p - q)) for p, q in zip(scene.points[P], scene.points[R], strict=True))
+
+
+def _drawn(plan: MotionPlan, link: str) -> list[str]:
+    """The points of a link's plane whose ends are drawn."""
+    own = [p for p in plan.net.links[link] if (p, "") in plan.ends]
+    return own + [p for p, seen in plan.ends if seen == link and p in plan.net.scene.points]
+
+
+def _known(plan: MotionPlan, link: str) -> list[str]:
+    """The points whose ends tell all of the motion of a link's body."""
+    return [p for p, _ in plan.known[plan.net.body[link]] if p in plan.net.scene.points]
+
+
+def _side(plan: MotionPlan, link: str, P: str, R: str) -> LinkSide:
+    points, own = plan.pose.points, {P, R} <= {*plan.net.links[link]}
+    marks = points[P], points[R], *_vector(plan, link, P), *_vector(plan, link, R)
+    return LinkSide(link, marks, _apart(plan.net.scene, P, R), own)
+
+
+def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:
+    """Begin and end of the vector of a point of a link's plane."""
+    with plan.board.on(plan.panel, (link,)):
+        for place in ((point, ""), (point, link)):
+            if place in plan.ends and (place[1] or point in plan.net.links[link]):
+                return plan.home(place), plan.ends[place]
+        return plan.figure(link, point), plan.end_in(link, point)

@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 from graphplan.accuracy.settings import decimal, settings
 from graphplan.errors import Refused
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import needed
 from graphplan.marking.judge.verdict import UNSEEN, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
@@ -113,15 +113,6 @@ def served(drawing: Construction) -> list[str]:
     groups = [FORCE if drawing.scene.loads else VELOCITY] * len(drawn)
     for group in (ACCELERATION, VELOCITY):
         kinds = (reading for reading in drawing.readings if reading.kind.group == group)
-        for index in _needed(drawn, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
+        for index in needed(drawn.steps, {drawn.wanted[place] for reading in kinds for place in reading.marks}):
             groups[index] = group
     return [POSE] * drawn.givens + groups[drawn.givens:]
-
-
-def _needed(drawn: Program, wanted: set[int]) -> set[int]:
-    """These marks with all that they are drawn from."""
-    found = set(wanted)
-    for step in reversed(drawn.steps):
-        if step.index in found:
-            found.update(step.args)
-    return found

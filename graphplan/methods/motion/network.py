@@ -14,9 +14,8 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
-from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
-from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides
-from graphplan.methods.motion.turnings import AngularRates, Turnings
+from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide
+from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
 
 BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -34,6 +33,49 @@ class DrivenPair(NamedTuple):
     sign: int
     at: str = ""
     slide: Slide | None = None
+
+
+class AngularRates(NamedTuple):
+    """An angular velocity and an angular acceleration."""
+
+    omega: Number
+    alpha: Number
+
+
+class Turnings:
+    """How the links of a scene turn beside each other, whatever the pose; asked link by link.
+
+    A slide makes two links turn alike, a turning drive by a given difference.
+    """
+
+    def __init__(self, scene: Scene):
+        self._beside: dict[str, list[tuple[str, AngularRates]]] = {}
+        self._found: dict[str, dict[str, AngularRates]] = {}
+        for slide in ordered_slides(scene):
+            if slide.turns_alike:
+                self._join(*slide.links, AngularRates(0, 0))
+        for drive in turning_drives(scene):
+            self._join(*drive.links, AngularRates(*drive.rates))
+
+    def _join(self, link: str, other: str, more: AngularRates) -> None:
+        self._beside.setdefault(link, []).append((other, more))
+        self._beside.setdefault(other, []).append((link, AngularRates(-more.omega, -more.alpha)))
+
+    def alike(self, link: str) -> dict[str, AngularRates]:
+        """The links whose turning differs from this one's by given rates, and by how much this link exceeds each."""
+        if link not in self._found:
+            found = self._found[link] = {link: AngularRates(0, 0)}
+            waiting = [link]
+            for here in waiting:
+                for other, more in self._beside.get(here, ()):
+                    if other not in found:
+                        found[other] = AngularRates(found[here].omega + more.omega, found[here].alpha + more.alpha)
+                        waiting.append(other)
+        return self._found[link]
+
+    def given(self, link: str) -> AngularRates | None:
+        """The rates that the drives prescribe for a link: by how much it exceeds the frame."""
+        return self.alike(link).get(FRAME)
 
 
 @dataclass
@@ -81,17 +123,8 @@ class Network:
         for points in links.values():
             first: dict[str, str] = {}
             for point in points:
-                other = first.setdefault(self.spot(point), point)
-                one, two = self._followed(names, other), self._followed(names, point)
-                if one != two:
-                    names[two] = one
-        return {point: self._followed(names, point) for point in names}
-
-    @staticmethod
-    def _followed(names: dict[str, str], point: str) -> str:
-        while point in names:
-            point = names[point]
-        return point
+                _unite(names, first.setdefault(self.spot(point), point), point)
+        return {point: _followed(names, point) for point in names}
 
     def name(self, point: str) -> str:
         """The name under which a point is known here."""
@@ -106,10 +139,8 @@ class Network:
         """The points that another's mark serves, each with that point: they lie in one place."""
         pairs = dict(self.names)
         for (at, _), name in self.coincident.items():
-            one, two = self._followed(pairs, at), self._followed(pairs, name)
-            if one != two:
-                pairs[two] = one
-        return {point: self._followed(pairs, point) for point in pairs}
+            _unite(pairs, at, name)
+        return {point: _followed(pairs, point) for point in pairs}
 
     def _coincident_points(self) -> dict[tuple[str, str], str]:
         """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
@@ -158,18 +189,10 @@ class Network:
 
     def _turning_classes(self) -> dict[str, str]:
         """Bodies that turn alike, or by a known difference: joined by slides, or by a drive without a common pair."""
-        top = {body: body for body in self.members}
-
-        def find(body: str) -> str:
-            while top[body] != body:
-                body = top[body]
-            return body
-
+        top: dict[str, str] = {}
         for one, two in [*(s.links for s in self.slides if s.turns_alike), *(drive.links for drive in self.turning)]:
-            a, b = find(self.body[one]), find(self.body[two])
-            if a != b:
-                top[max(a, b)] = min(a, b)
-        return {body: find(body) for body in self.members}
+            _unite(top, *sorted(_followed(top, self.body[link]) for link in (one, two)))
+        return {body: _followed(top, body) for body in self.members}
 
     def place(self, point: str, link: str) -> BodyPoint:
         """The place of a point in a link's plane."""
@@ -233,3 +256,17 @@ class Network:
     def excess(self, body: str, like: str) -> AngularRates:
         """By how much the turning of one body's top link exceeds another's, as the drives prescribe."""
         return self.turnings.alike(body)[like]
+
+
+def _followed(names: dict[str, str], name: str) -> str:
+    """The name under which all that go by it are known."""
+    while name in names:
+        name = names[name]
+    return name
+
+
+def _unite(names: dict[str, str], one: str, two: str) -> None:
+    """Know two, and all that go by their names, under the name of the first."""
+    one, two = _followed(names, one), _followed(names, two)
+    if one != two:
+        names[two] = one

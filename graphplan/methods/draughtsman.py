@@ -20,7 +20,7 @@ from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
 from graphplan.methods.motion.moves import FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.time_scale import tempo
+from graphplan.methods.motion.time_scale import apart, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
 from graphplan.methods.poses import Pose
@@ -120,7 +120,7 @@ class Draughtsman:
             known = sought | {*map(self.net.name, self.scene.motions)}
             names = [p for p in self.net.links[link] if p in known or FRAME in self.net.links_of[p]]
             names = [p for p in names if (p, "") in plan.ends]
-            P, R = max(combinations(names, 2), key=lambda pair: _apart(self.scene, *pair), default=("", ""))
+            P, R = max(combinations(names, 2), key=lambda pair: apart(self.scene, *pair), default=("", ""))
             if P and sought & {*names}:
                 vectors = [mark for p in (P, R) for mark in (plan.home((p, "")), plan.ends[p, ""])]
                 points = self.pose.points[P], self.pose.points[R]
@@ -184,15 +184,10 @@ def _sides(plan: MotionPlan, links: Iterable[str]) -> list[LinkSide]:
     there are any, else those whose ends follow from all that is known of the link."""
     for places in (_drawn, _known):
         found = [_side(plan, link, P, R) for link in links for P, R in combinations(places(plan, link), 2)
-                 if _apart(plan.net.scene, P, R)]
+                 if apart(plan.net.scene, P, R)]
         if found:
             return found
     return []
-
-
-def _apart(scene: Scene, P: str, R: str) -> float:
-    """How far apart two points are: a link's turning is read off its longest side."""
-    return max(abs(float(p - q)) for p, q in zip(scene.points[P], scene.points[R], strict=True))
 
 
 def _drawn(plan: MotionPlan, link: str) -> list[str]:
@@ -209,7 +204,7 @@ def _known(plan: MotionPlan, link: str) -> list[str]:
 def _side(plan: MotionPlan, link: str, P: str, R: str) -> LinkSide:
     points, own = plan.pose.points, {P, R} <= {*plan.net.links[link]}
     marks = points[P], points[R], *_vector(plan, link, P), *_vector(plan, link, R)
-    return LinkSide(link, marks, _apart(plan.net.scene, P, R), own)
+    return LinkSide(link, marks, apart(plan.net.scene, P, R), own)
 
 
 def _vector(plan: MotionPlan, link: str, point: str) -> tuple[Mark, Mark]:

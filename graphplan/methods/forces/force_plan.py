@@ -7,8 +7,9 @@ drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from fractions import Fraction
+from functools import partial
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
@@ -84,30 +85,23 @@ class ForcePolygon(FreeBodies):
         backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
         start, end = self.polygon(part) if base is None else (base, base)
         mark = first = start if backwards else end
-        why = self._why(part, about)
+        pole, where, weigh = self._weighing(about, X)
+        why = said("moments of {0} about {1}", listed([link for link in self.group.links if link in part]), where)
         for force in self.acting(part, self.others(part, site), site):
-            if force.at is self._about_mark(about):
-                continue
-            span = signed((force.tail, force.head), -sign if backwards else sign)
-            mark = self._weighed(about, X, force.at, span, mark, why)
+            if force.at is not pole:
+                mark = weigh(force.at, *signed((force.tail, force.head), -sign if backwards else sign), mark, why=why)
         if mark is first:
             return None
         return (mark, first) if backwards else (first, mark)
 
-    def _about_mark(self, about: statics.About) -> Mark | None:
-        return self.pose.points[about.point] if isinstance(about, statics.AtPoint) else None
-
-    def _why(self, part: Part, about: statics.About) -> str:
-        """The law: of which links, and about what, the moments are taken."""
-        links = [link for link in self.group.links if link in part]
-        where = self.pose.spoken(about.point) if isinstance(about, statics.AtPoint) else said("the auxiliary point")
-        return said("moments of {0} about {1}", listed(links), where)
-
-    def _weighed(self, about: statics.About, X: Mark, C: Mark, force: Span, mark: Mark, why: str) -> Mark:
+    def _weighing(self, about: statics.About, X: Mark) -> tuple[Mark | None, str, Callable[..., Mark]]:
+        """The point that moments are taken about, if it is a mark; its words; and how a moment is weighed at X."""
         if isinstance(about, statics.AtPoint):
-            return self.board.balance(self.pose.points[about.point], X, C, *force, mark, why=why)
+            pole = self.pose.points[about.point]
+            return pole, self.pose.spoken(about.point), partial(self.board.balance, pole, X)
         assert isinstance(about, statics.AtCrossing)
-        return self.board.weigh(*self._lines(about), X, C, *force, mark, names=self._letters(about), why=why)
+        weigh = partial(self.board.weigh, *self._lines(about), X, names=self._letters(about))
+        return None, said("the auxiliary point"), weigh
 
     def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cached_property
 
 from graphplan.errors import Refused
@@ -15,7 +15,7 @@ from graphplan.methods.forces.friction import rough
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.reactions import DrawnForces, reaction_on
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
-from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
+from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
@@ -59,25 +59,22 @@ class ForceTransfer:
         return self if changed.links == self.scene.links else ForceTransfer(changed)
 
     def moves(self, group: ForceGroup, way: Way) -> list[StaticMove]:
-        """The moves of a group."""
-        if (group.links, way) not in self._moves:
-            try:
-                self._plan(group, (self._general, posed(self.scene)), way)
-            except Refused:  # the pose may be singular, which the numbers will show
-                self._plan(group, (self._general,), way)
-        moves = self._moves[group.links, way]
+        """The moves of a group; where the pose refuses them it may be singular, which the numbers will show."""
+        key = group.links, way
+        if key not in self._moves:
+            for positions in ((self._general, posed(self.scene)), (self._general,)):
+                equilibrium = Equilibrium(group, positions, *way)
+                try:
+                    self._moves[key] = equilibrium.plan()
+                except Refused as refused:
+                    self._moves[key] = refused
+                else:
+                    self.options = max(self.options, equilibrium.options)
+                    break
+        moves = self._moves[key]
         if isinstance(moves, Refused):
             raise moves
         return moves
-
-    def _plan(self, group: ForceGroup, positions: Sequence[Position], way: Way) -> None:
-        equilibrium = Equilibrium(group, positions, *way)
-        try:
-            self._moves[group.links, way] = equilibrium.plan()
-        except Refused as refused:
-            self._moves[group.links, way] = refused
-            raise
-        self.options = max(self.options, equilibrium.options)
 
 
 def _indeterminate(scene: Scene, links: Iterable[str], untold: set[str]) -> bool:

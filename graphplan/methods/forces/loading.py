@@ -10,14 +10,14 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
-from typing import Protocol
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
 from graphplan.mechanism.order import by_name, ordered
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.motion.network import Network
-from graphplan.methods.motion.time_scale import extent, round_number, tempo
+from graphplan.methods.motion.plan import MotionPlan
+from graphplan.methods.motion.time_scale import apart, extent, round_number, tempo
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -41,13 +41,6 @@ class Acting:
 Lay = Callable[[Mark], Acting]
 
 
-class Accelerations(Protocol):
-    """The acceleration plan, as far as loads need it: of a link's point the mark in its figure, and the end."""
-
-    def figure(self, link: str, point: str) -> Mark: ...
-    def end_in(self, link: str, point: str) -> Mark: ...
-
-
 class Loading:
     """The loads of each link, laid off from any mark of a force plan.
 
@@ -56,7 +49,7 @@ class Loading:
     needs none, or as those of two points that replace the link; those of the links `apart` are not to be shifted.
     """
 
-    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: Accelerations | None,
+    def __init__(self, board: Board, net: Network, pose: Pose, phi: Number, unit: Number, motion: MotionPlan | None,
                  inertia: str = "couple"):
         self.board, self.net, self.pose, self.phi, self.unit, self.motion = board, net, pose, phi, unit, motion
         self.inertia, self.apart = inertia, frozenset[str]()
@@ -202,13 +195,13 @@ class Loading:
         """Two points of a link, far apart, the first one fixed if the link has such; of a block, one of its guide."""
         scene, names = self.scene, sorted(self.scene.links[link], key=by_name)
         first = next((p for p in names if FRAME in scene.links_of[p]), names[0])
-        own = [p for p in names if self._apart(first, p)]
+        own = [p for p in names if apart(scene, first, p)]
         names += [p for s in scene.slides if link in (s.link, s.along) for k in (s.link, s.along) if k != link
                   for p in scene.links[k]]
         names += list(scene.points)
         if own:
-            return first, max(own, key=lambda p: self._apart(first, p))
-        return first, next((p for p in names if self._apart(first, p)), None) or self._aside(first)
+            return first, max(own, key=lambda p: apart(scene, first, p))
+        return first, next((p for p in names if apart(scene, first, p)), None) or self._aside(first)
 
     def _aside(self, point: str) -> str:
         """A point beside this one, where all points of the scene coincide: couples need an arm."""
@@ -218,10 +211,6 @@ class Loading:
                 points[name] = self.board.lay_off(points[point], dx=Fraction(1), dy=Fraction(0),
                                                   name=self.pose.letter(name), why=said("an arm for couples"))
         return name
-
-    def _apart(self, P: str, R: str) -> float:
-        one, two = self.scene.points[P], self.scene.points[R]
-        return max(abs(float(a - b)) for a, b in zip(one, two, strict=True))
 
     def arm(self, link: str) -> tuple[Mark, Mark]:
         """The marks of the two points at which a link's couples act as pairs of forces."""

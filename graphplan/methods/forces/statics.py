@@ -200,16 +200,14 @@ class Equilibrium:
         known = [other for other in others if self.rank[other]]
         options: list[About] = []
         if free:
-            options = [self._pencil(free[0])]
+            pair = free[0]
+            assert isinstance(pair, JointForce | Slide)
+            options = [AtPoint(pair.point) if isinstance(pair, JointForce) else AcrossSlide(pair)]
         elif len(known) > 1:
             options = [self._meeting(*pair) for pair in combinations(known[:3], 2)][:1]
         elif known and not self._is_couple(known[0]):
             options = [self.through[known[0]]] if not isinstance(known[0], JointForce) else [AtPoint(known[0].point)]
         return [about for about in options if self._passed(about, free, known) and self._tells(site, about)]
-
-    def _pencil(self, site: UnknownForce) -> About:
-        assert isinstance(site, JointForce | Slide)
-        return AtPoint(site.point) if isinstance(site, JointForce) else AcrossSlide(site)
 
     def _meeting(self, one: UnknownForce, two: UnknownForce) -> About:
         """Where two known lines meet; a couple's line is far away."""
@@ -275,11 +273,6 @@ class Equilibrium:
                 return False
         return True
 
-    def _use(self, part: Part, about: About) -> None:
-        """Use up the equilibrium of a part about a point."""
-        for span, Y in zip(self.used, self.points(about), strict=True):
-            span.adds(equation(part, Y))
-
     def _enter(self, move: StaticMove) -> None:
         """Take a move: what it uses, and what is known after it."""
         for n, span in enumerate(self.used):
@@ -321,7 +314,8 @@ class Equilibrium:
             elif not self._assume():
                 return False
         end, part, about = closing
-        self._use(part, about)
+        for span, Y in zip(self.used, self.points(about), strict=True):
+            span.adds(equation(part, Y))
         self.assumed -= 1
         self.moves = [*before, Assume(site, tuple(self.moves), end, part, about)]
         return True

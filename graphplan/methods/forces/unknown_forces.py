@@ -10,15 +10,14 @@ divides by.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from functools import cached_property
 from random import Random
-from typing import TypeGuard
+from typing import NamedTuple, TypeGuard
 
 from graphplan.mechanism.equations import PRIME, System
 from graphplan.mechanism.model import Balance, Scene, Slide
 from graphplan.mechanism.transfer import stages
-from graphplan.methods.motion.residues import Triple, cross, residue
+from graphplan.methods.motion.residues import Triple, cross, quarter, residues
 from graphplan.methods.panels import JointForce
 
 MOST_PARTS = 2000  # of a group: no textbook's has so many
@@ -124,8 +123,7 @@ class ForceGroup:
         return (joined | slid) & set(self.links) - {link}
 
 
-@dataclass(frozen=True)
-class Position:
+class Position(NamedTuple):
     """Where points lie, and which way the forces of slides and balances run."""
 
     points: dict[str, Triple]
@@ -154,20 +152,15 @@ def in_general(scene: Scene) -> Position:
     def pair(w: int) -> Triple:
         return chance.randrange(1, PRIME), chance.randrange(1, PRIME), w
 
-    return Position({p: pair(1) for p in scene.points}, {s: pair(0) for s in _directed(scene)})
+    directed: tuple[UnknownForce, ...] = *scene.slides, *_balances(scene)
+    return Position({p: pair(1) for p in scene.points}, {site: pair(0) for site in directed})
 
 
 def posed(scene: Scene) -> Position:
     """The position of the scene's pose."""
-    across: dict[UnknownForce, Triple] = {s: (-residue(s.direction[1]) % PRIME, residue(s.direction[0]), 0)
-                                  for s in scene.slides}
-    along: dict[UnknownForce, Triple] = {b: (residue(b.direction[0]), residue(b.direction[1]), 0)
-                                 for b in _balances(scene) if b.direction is not None}
-    return Position({p: (residue(x), residue(y), 1) for p, (x, y) in scene.points.items()}, across | along)
-
-
-def _directed(scene: Scene) -> tuple[UnknownForce, ...]:
-    return *scene.slides, *_balances(scene)
+    ways: dict[UnknownForce, Triple] = {s: (*quarter(residues(s.direction)), 0) for s in scene.slides}
+    ways |= {b: (*residues(b.direction), 0) for b in _balances(scene) if b.direction is not None}
+    return Position({p: (*residues(at), 1) for p, at in scene.points.items()}, ways)
 
 
 def _balances(scene: Scene) -> tuple[Balance, ...]:

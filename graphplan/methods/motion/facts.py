@@ -59,16 +59,13 @@ class Facts:
         if ground:
             self.turning[self.net.classes[ground]] = ground
             for place in self.places[ground]:
-                self._rest(place)
+                self.moves.append(moves.Rest(place))
+                self._file(place, ground, None)
             self._wake_class(ground)
         for point in sorted(map(self.net.name, self.net.scene.motions), key=by_name):
             self.moves.append(moves.Seed((point, "")))
             self._file((point, ""), "motion", None)
         self._queue(*[b for b in self.places if b != ground], *self.net.slides)
-
-    def _rest(self, place: BodyPoint) -> None:
-        self.moves.append(moves.Rest(place))
-        self._file(place, self.net.ground, None)
 
     def _queue(self, *nodes: str | Slide) -> None:
         for node in nodes:
@@ -215,28 +212,24 @@ class Facts:
             return
         figure = self._figure(body, X) if rank == 2 else None
         if figure:
-            self._tell_end(body, X, [figure])
+            self._tell_fact(body, X, [figure], None)
         elif not self.told.get((body, X)):  # known wholly, maybe, but no end is drawn yet to begin a figure at
             whole = self._settle(body, X) or self._beside(body, X)
             line = self._line(body, X, self._locus_of(X, body) if whole else None)
             if line and whole:  # the locus is for others, who may ask for it; pruned if nobody does
-                self._tell_locus(body, X, [line[0], whole], line[1], marked=True)
+                self._tell_fact(body, X, [line[0], whole], line[1], marked=True)
             elif whole:
-                self._tell_locus(body, X, [whole], ANYWHERE, marked=True)
+                self._tell_fact(body, X, [whole], ANYWHERE, marked=True)
             elif line:
-                self._tell_locus(body, X, [line[0]], line[1])
+                self._tell_fact(body, X, [line[0]], line[1])
             elif crossing := self._auxiliary(body, X):
-                self._tell_end(body, X, [crossing])
+                self._tell_fact(body, X, [crossing], None)
 
-    def _tell_end(self, body: str, X: BodyPoint, moves: list[Move]) -> None:
+    def _tell_fact(self, body: str, X: BodyPoint, moves: list[Move], fact: Fact, *, marked: bool = False) -> None:
+        """Tell a place its end, or a locus of it."""
         self.moves += moves
-        self.told[body, X] = 2
-        self._file(X, body, None)
-
-    def _tell_locus(self, body: str, X: BodyPoint, moves: list[Move], normal: Two, marked: bool = False) -> None:
-        self.moves += moves
-        self.told[body, X] = 1
-        self._file(X, body, normal, marked=marked)
+        self.told[body, X] = 2 if fact is None else 1
+        self._file(X, body, fact, marked=marked)
 
     def _swung(self, K: BodyPoint, X: BodyPoint) -> Two:
         """The normal of the locus that a body gives X about K."""

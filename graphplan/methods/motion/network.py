@@ -10,7 +10,6 @@ Links, points, slides and drives are taken in an order of their own, so that the
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from functools import cached_property
 from typing import NamedTuple
 
@@ -78,18 +77,13 @@ class Turnings:
         return self.alike(link).get(FRAME)
 
 
-@dataclass
 class Network:
     """Bodies, places, slides and classes of equal turning of a scene."""
 
-    scene: Scene
-    welds: dict[str, DrivenPair] = field(default_factory=dict)
-    members: dict[str, list[str]] = field(default_factory=dict)
-    slides: list[Slide] = field(default_factory=list)
-    turning: list[Drive] = field(default_factory=list)
-
-    def __post_init__(self) -> None:
-        scene = self.scene
+    def __init__(self, scene: Scene) -> None:
+        self.scene = scene
+        self.welds: dict[str, DrivenPair] = {}
+        self.turning: list[Drive] = []
         own = ordered_links(scene)
         first: dict[object, str] = {}
         self._spots = {point: first.setdefault(scene.points[point], point) for point in ordered_points(scene)}

@@ -8,24 +8,14 @@ condition.
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
 from functools import partial
 from itertools import chain, combinations, islice, pairwise, zip_longest
 from typing import NamedTuple
 
 from graphplan.errors import Refused
+from graphplan.methods.motion import moves
 from graphplan.methods.motion.facts import ANYWHERE, Facts
-from graphplan.methods.motion.moves import (
-    Auxiliary,
-    Carry,
-    FalsePosition,
-    Locus,
-    Move,
-    Pole,
-    SimilarFigure,
-    Slip,
-    Swing,
-)
+from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, Network
 from graphplan.methods.motion.residues import Two, line, meet, parallel
 
@@ -33,14 +23,8 @@ MOST_TRIALS = 6  # at how many places a trial may begin
 DEEPEST = 4  # trials within trials
 MOST_FIGURES = 3  # by which one locus may close a trial
 Bar = tuple[str, BodyPoint, BodyPoint]
-
-
-@dataclass
-class _Open:
-    """A trial that has not closed yet: where it was assumed, and where its moves begin."""
-
-    at: Locus
-    start: int
+# What a trial's error is seen by: the moves that draw an end, and a locus on which it should lie.
+Closing = tuple[tuple[Move, ...], BodyPoint, Locus]
 
 
 class Choices(NamedTuple):
@@ -48,14 +32,6 @@ class Choices(NamedTuple):
 
     ways: int
     rare: bool = False
-
-
-class Closing(NamedTuple):
-    """What a trial's error is seen by: an end that should lie on a locus, and the moves that draw them."""
-
-    moves: tuple[Move, ...]
-    end: BodyPoint
-    locus: Locus
 
 
 class Planner(Facts):
@@ -73,7 +49,7 @@ class Planner(Facts):
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
         self.joined: set[frozenset[str]] = set()
-        self.open: list[_Open] = []
+        self.open: list[tuple[Locus, int]] = []  # trials: where assumed, and where their moves begin
 
     def plan(self) -> list[Move]:
         """The moves, in order, that give the end of every place; refuses by name what no move reaches."""
@@ -86,7 +62,7 @@ class Planner(Facts):
             if not loose and not self.open:
                 return self.moves
             if not self._break(loose):
-                stuck = loose or [body for trial in self.open for body in self._at(trial.at[0])]
+                stuck = loose or [body for (place, _), _ in self.open for body in self._at(place)]
                 raise Refused(f"links {', '.join(stuck)}", "no construction known here reaches them",
                               "check the drives, or ask for points of other links")
 
@@ -121,18 +97,15 @@ class Planner(Facts):
             if slides and crossing and not self._ends(body) and self._count(body) == 2:
                 yield body, loci[0], loci[1]
 
-    def _auxiliary_spot(self, one: Locus, two: Locus) -> Two:
-        """Where the auxiliary point of two loci lies: each line through its place runs as the locus does."""
+    def _cross(self, body: str, one: Locus, two: Locus) -> None:
+        """Mark the auxiliary point: each line through a locus's place runs as the locus does."""
+        place = (f"auxiliary point of {body}", self.net.link_at(body, one[0]))
         spot = meet(*(line(self._normal(locus), self._spot(locus[0])) for locus in (one, two)))
         assert spot is not None
-        return spot
-
-    def _cross(self, body: str, one: Locus, two: Locus) -> None:
-        place = (f"auxiliary point of {body}", self.net.link_at(body, one[0]))
-        self.spots[place[0]] = self._auxiliary_spot(one, two)
+        self.spots[place[0]] = spot
         self._add_place(body, place)
         self.bodies[place] = [body]
-        self.moves.append(Auxiliary(body, one, two, place))
+        self.moves.append(moves.Auxiliary(body, one, two, place))
         self._file(place, body, None)
 
     # ---- relative poles -------------------------------------------------------------------------------------
@@ -170,7 +143,7 @@ class Planner(Facts):
             self._add_place(body, place)
         self.retired |= {bar[0] for bar in bars}
         self.joined.add(pair)
-        self.moves.append(Pole((one, two), (bars[0], bars[1]), place))
+        self.moves.append(moves.Pole((one, two), (bars[0], bars[1]), place))
         self._tell(place)
 
     # ---- trials ---------------------------------------------------------------------------------------------
@@ -185,7 +158,7 @@ class Planner(Facts):
 
     def _try(self, at: Locus) -> None:
         """Assume the end of a place on its locus; the closing condition will tell how far off that was."""
-        self.open.append(_Open(at, len(self.moves)))
+        self.open.append((at, len(self.moves)))
         self.spent |= {body: max(self._excess(body), self.spent.get(body, 0)) for body in self.places}
         self._file(at[0], f"trial {len(self.open)}", ANYWHERE, marked=True)
 
@@ -199,11 +172,9 @@ class Planner(Facts):
         taken = self._chosen(Choices(len(closings) + 1, rare=True))
         if taken == 1:
             return  # another body may close it
-        moves, end, locus = closings[max(taken - 1, 0)]
-        trial = self.open.pop()
-        inner = (*self.moves[trial.start :], *moves)
-        del self.moves[trial.start :]
-        self.moves.append(FalsePosition(trial.at, inner, end, locus))
+        drawn, end, locus = closings[max(taken - 1, 0)]
+        at, start = self.open.pop()
+        self.moves[start:] = [moves.FalsePosition(at, (*self.moves[start:], *drawn), end, locus)]
         self.spent[body] = self.spent.get(body, 0) + 1
         self._queue(*self.places)
 
@@ -214,12 +185,12 @@ class Planner(Facts):
         own = f"{body} trial"  # a source of its own: what the body told before stands
         for X in whole:
             if line := self._independent(body, X, whole, own):
-                yield Closing((line,), X, (X, own))
+                yield (line,), X, (X, own)
         for K in whole:
             for (R, _), (X, source) in pairwise(self._loci(body, K)):
                 if R in told:
                     copy = (X[0], own)
-                    yield Closing((SimilarFigure(body, K, X, R=R, copy=copy),), copy, (X, source))
+                    yield (moves.SimilarFigure(body, K, X, R=R, copy=copy),), copy, (X, source)
         if closing := self._three_loci(body):
             yield closing
         loci = [locus for place in self.places[body] if (locus := self._locus_of(place, body))]
@@ -228,10 +199,10 @@ class Planner(Facts):
             for (X, source), figure in zip(loci, figures, strict=True):
                 if figure:
                     copy = (X[0], own)
-                    yield Closing((figure._replace(copy=copy),), copy, (X, source))
+                    yield (figure._replace(copy=copy),), copy, (X, source)
         for K, X in combinations(told, 2):
             if self.net.spot(K[0]) != self.net.spot(X[0]) and not told[K] == told[X] == 2:
-                yield Closing((Swing(body, K, X, own),), X, (X, own))
+                yield (moves.Swing(body, K, X, own),), X, (X, own)
 
     def _three_loci(self, body: str) -> Closing | None:
         """An end found by all loci of a body but one, beside that one."""
@@ -241,7 +212,7 @@ class Planner(Facts):
             return None
         lines, meet = crossed
         copy = (meet.place[0], f"{body} trial")
-        return Closing((*lines, meet._replace(copy=copy)), copy, loci[0])
+        return (*lines, meet._replace(copy=copy)), copy, loci[0]
 
     def _begin(self) -> bool:
         """Begin the figure of a body that is known by loci alone, if there is one that nobody gives an end to."""
@@ -250,7 +221,7 @@ class Planner(Facts):
                 for X in self.places[body]:
                     crossed = self._crossed(body, X) if X not in self.drawn else None
                     if crossed and not self._ends(body):
-                        self._tell_end(body, X, [*crossed[0], crossed[1]])
+                        self._tell_fact(body, X, [*crossed[0], crossed[1]], None)
                         return True
         return False
 
@@ -258,8 +229,8 @@ class Planner(Facts):
         """A locus for X by what the body heard elsewhere."""
         others = [place for place in ends if self.net.spot(place[0]) != self.net.spot(X[0])]
         if others:
-            return Swing(body, others[0], X, own)
+            return moves.Swing(body, others[0], X, own)
         loci, like = list(self._loci(body, X)), self._like(body)
         if loci and like:
-            return Slip(body, loci[0], X, like, own)
-        return Carry(body, loci[0], loci[1], X, own) if len(loci) > 1 else None
+            return moves.Slip(body, loci[0], X, like, own)
+        return moves.Carry(body, loci[0], loci[1], X, own) if len(loci) > 1 else None

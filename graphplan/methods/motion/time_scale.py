@@ -52,6 +52,11 @@ def extent(scene: Scene) -> float:
     return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
 
 
+def apart(scene: Scene, P: str, R: str) -> float:
+    """How far apart two points are."""
+    return max(abs(float(p - q)) for p, q in zip(scene.points[P], scene.points[R], strict=True))
+
+
 def round_number(number: float) -> Fraction:
     """A round number nearby, of the series 1, 2, 5, exactly."""
     digits = f"{number:.0e}"

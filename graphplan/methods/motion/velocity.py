@@ -21,14 +21,12 @@ LAWS: dict[type, str] = {
     Guide: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
     Meet: said("the end lies on both"),
 }
-POLAR_LAWS: dict[type, str] = {
+POLAR_LAWS = LAWS | {
     Swing: said("the velocity of one point of a link about another is square to their line"),
-    Slip: LAWS[Slip],
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
     Settle: said("the velocity of one point of a link about another is square to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("the sliding pair leaves only a velocity along the guide"),
-    Meet: said("the end lies on both"),
 }
 
 

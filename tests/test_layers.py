@@ -47,7 +47,7 @@ OUTSIDE = {
     "pypdfium2": {"marking"},
     "svgelements": {"marking"},
     "numba": {"kernel/tape/blocks.py"},
-    "distributed": {"methods/executors.py"},
+    "distributed": {"methods/batch.py"},
     "flint": {"kernel/numbers/enclosures.py"},
     "shtab": {"commands/completion.py"},
 }

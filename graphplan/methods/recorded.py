@@ -44,12 +44,8 @@ class Recorded:
     turned: bool
     phi: Number = 1
 
-    def read(
-        self,
-        domain: Domain,
-        given: Mapping[Any, Mapping[str, Any]] | None = None,
-        after: Callable[[Step], None] | None = None,
-    ) -> dict[str, dict[str, Any]]:
+    def read(self, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
+             after: Callable[[Step], None] | None = None) -> dict[str, dict[str, Any]]:
         """All readings in a number domain, by kind and name: pairs (x, y), or single numbers for links.
 
         `given` overrides numbers of steps, by name or index: such as the coordinates of points; `after` is called

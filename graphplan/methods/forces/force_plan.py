@@ -14,10 +14,9 @@ from functools import partial
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import Balance, Slide
 from graphplan.methods.forces import statics
-from graphplan.methods.forces.free_bodies import FreeBodies, Part
+from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, signed
 from graphplan.methods.forces.loading import Acting
-from graphplan.methods.forces.reactions import Known, Pair, Shown, Span, pair_letter, reaction_letter, signed
-from graphplan.methods.forces.unknown_forces import UnknownForce
+from graphplan.methods.forces.unknown_forces import Part, UnknownForce
 from graphplan.methods.panels import MECHANISM, JointForce, listed
 from graphplan.phrases import said
 
@@ -298,10 +297,10 @@ class ForcePolygon(FreeBodies):
                     self.forces.joints[point, link] = self._at_joint(point, link)
         for site, span in self.ends.items():
             self.forces.shown.append(Shown("balance" if isinstance(site, Balance) else "reaction",
-                                           self._letter(site), *span))
+                                           self.letter(site), *span))
             part = self.known[site].part if site in self.known else None
             if part is not None and self.known[site].line is not None:
-                self.forces.shown.append(Shown("part", "T" + self._letter(site)[1:], *part))
+                self.forces.shown.append(Shown("part", "T" + self.letter(site)[1:], *part))
             if isinstance(site, Slide):
                 self.forces.slides[site] = span
                 self.forces.pairs[site], self.forces.seats[site] = self.pairs.get(site), self.seats[site]
@@ -312,12 +311,6 @@ class ForcePolygon(FreeBodies):
                 self.forces.moments[site] = pair
                 if pair is not None:
                     self.forces.shown.append(Shown("balance", f"T_{site.link}", pair[0].tail, pair[0].head))
-
-    def _letter(self, site: UnknownForce) -> str:
-        """The letter of a site's force: that of the force of one link on another, or of the balance."""
-        if isinstance(site, JointForce):
-            return reaction_letter(self.forces.scene, site.point, site.link)
-        return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
 
     def _at_joint(self, point: str, link: str) -> Span:
         """The force on a link at a joint, from the pin: found, or what is left by the others there."""

@@ -1,25 +1,118 @@
-"""What acts on a part of a group: its links' loads in one chain, what solved groups pass on, what is found by now."""
+"""What acts on a part of a group: its links' loads in one chain, what solved groups pass on, what is found by now.
+
+R_12 is the force of link 1 on link 2, and 0 is the frame.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from typing import NamedTuple
 
 from graphplan.kernel.program import Board, Mark
-from graphplan.mechanism.model import Slide
-from graphplan.methods.forces import reactions
+from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import Known, Pair, Span, signed
-from graphplan.methods.forces.unknown_forces import ForceGroup, UnknownForce, has_line
+from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
 from graphplan.methods.poses import Pose
+from graphplan.phrases import said
 
-Part = frozenset[str]  # links of a group, seen as one free body
+Span = tuple[Mark, Mark]
+Pair = tuple[Acting, Acting]
+
+
+def signed(span: Span, sign: int) -> Span:
+    """A force as (tail, head), or its answer."""
+    return span if sign > 0 else (span[1], span[0])
+
+
+def signed_pair(pair: Pair, sign: int) -> Pair:
+    """A couple as a pair of forces, or its answer."""
+    return pair if sign > 0 else (pair[0].reversed, pair[1].reversed)
+
+
+class Known(NamedTuple):
+    """What is drawn of a site's force: `part`, the part across its line if there is one, as (tail, head); its line of
+    action through the mark `at`; and `pair`, the known couple besides. A couple has no line."""
+
+    part: Span | None
+    line: Mark | None
+    at: Mark | None
+    pair: Pair | None = None
+
+    @property
+    def acting(self) -> Mark:
+        """Its line of action."""
+        assert self.line is not None
+        return self.line
+
+
+class Shown(NamedTuple):
+    """A force that is drawn as an arrow: load, reaction, balance or part (of a reaction); and its letter.
+
+    It is drawn where its head is needed; or, if it only repeats another force, where the head `of` that one is.
+    """
+
+    kind: str
+    label: str
+    tail: Mark
+    head: Mark
+    of: Mark | None = None
+
+
+def applied(board: Board, force: Acting) -> Shown:
+    """A load drawn where it acts, on the mechanism plan."""
+    with board.on(MECHANISM):
+        why = said("{0}, where it acts", force.name)
+        head = board.transfer(force.tail, force.head, force.at, why=why)
+        return Shown("load", force.name, force.at, head, force.head)
+
+
+class DrawnForces:
+    """Reactions drawn so far, of all groups: for each joint and link, each slide, each balance; and all arrows.
+
+    `number` is that of the round of friction, 0 without; `before` are the forces of the round before.
+    """
+
+    def __init__(self, scene: Scene, before: DrawnForces | None = None) -> None:
+        self.scene = scene
+        self.shown: list[Shown] = []
+        self.corners: int = before.corners if before else 0
+        self.number: int = before.number + 1 if before else 0
+        self.joints: dict[tuple[str, str], Span] = {}
+        self.slides: dict[Slide, Span] = {}
+        self.pairs: dict[Slide, Pair | None] = {}
+        self.seats: dict[Slide, Mark] = {}
+        self.balances: dict[Balance, Span] = {}
+        self.moments: dict[Balance, Pair | None] = {}
+
+
+def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Span:
+    """The force on a link, the frame among them, at a joint."""
+    if (point, link) in forces.joints:
+        return forces.joints[point, link]
+    spans = [forces.joints[point, other][::-1] for other in forces.scene.links_of[point] if other != link]
+    first, mark = spans[0]
+    for tail, head in spans[1:]:
+        mark = board.transfer(tail, head, mark)
+    return first, mark
+
+
+def pair_letter(one: str, other: str) -> str:
+    """The letter of the force of one link on another."""
+    names = ["0" if name == FRAME else name for name in (one, other)]
+    return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def reaction_letter(scene: Scene, point: str, link: str) -> str:
+    """The letter of the force on a link at a joint: from the other link there, or from the pin of several."""
+    pin, *others = scene.links_of[point]
+    return pair_letter(others[0] if link == pin and len(others) == 1 else pin if link != pin else point, link)
 
 
 class FreeBodies:
     """The known forces of one group, drawn on a panel of its own."""
 
-    def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: reactions.DrawnForces):
+    def __init__(self, board: Board, pose: Pose, group: ForceGroup, loading: Loading, forces: DrawnForces):
         self.board, self.pose, self.group, self.loading, self.forces = board, pose, group, loading, forces
         self.panel = ForcePlan.of(group.links, forces.number)
         self.known: dict[UnknownForce, Known] = {}
@@ -65,17 +158,17 @@ class FreeBodies:
     def _apply(self, loads: Iterable[Acting]) -> None:
         """Draw loads where they act; once, not again with friction."""
         if not self.forces.number:
-            self.forces.shown += [reactions.applied(self.board, force) for force in loads]
+            self.forces.shown += [applied(self.board, force) for force in loads]
 
     def _in_chain(self, link: str, corner: Mark) -> list[Acting]:
         """The forces on one link: its loads, and what solved groups pass on to it."""
         own = list(self.loading.forces(link, corner))
-        self.forces.shown += [reactions.Shown("load", force.name, force.tail, force.head) for force in own]
+        self.forces.shown += [Shown("load", force.name, force.tail, force.head) for force in own]
         self._apply(own)
         for force in self._passed_to(link):
             tail = own[-1].head if own else corner
             own.append(Acting(force.at, tail, self.board.transfer(force.tail, force.head, tail), force.name))
-            self.forces.shown.append(reactions.Shown("reaction", force.name, tail, own[-1].head))
+            self.forces.shown.append(Shown("reaction", force.name, tail, own[-1].head))
         for force in own:
             self.numbered(force.head)
         return own
@@ -88,14 +181,14 @@ class FreeBodies:
         for slide in self._solved_slides(link):
             one, other = (slide.along, slide.link) if slide.link == link else (slide.link, slide.along)
             span = signed(self.forces.slides[slide], 1 if slide.link == link else -1)
-            yield Acting(self.forces.seats[slide], *span, reactions.pair_letter(one, other))
+            yield Acting(self.forces.seats[slide], *span, pair_letter(one, other))
 
     def _couples_of_slides(self, link: str) -> Iterator[Pair]:
         """The couples of the slides that join a link to solved groups."""
         for slide in self._solved_slides(link):
             pair = self.forces.pairs[slide]
             if pair is not None:
-                yield reactions.signed_pair(pair, 1 if slide.link == link else -1)
+                yield signed_pair(pair, 1 if slide.link == link else -1)
 
     def _solved_slides(self, link: str) -> list[Slide]:
         """The slides that join a link to solved groups."""
@@ -107,7 +200,7 @@ class FreeBodies:
         for link in self.group.scene.links_of[point]:
             if link in self.group.done:
                 tail, head = self.forces.joints[point, link]
-                name = reactions.reaction_letter(self.forces.scene, point, self.group.members(point)[0])
+                name = reaction_letter(self.forces.scene, point, self.group.members(point)[0])
                 yield Acting(self.pose.points[point], head, tail, name)
 
     # ---- a part of the group -----------------------------------------------------------------------------------
@@ -130,6 +223,12 @@ class FreeBodies:
         if site in self.seats:
             return self.seats[site]
         return self.pose.points[site.point if isinstance(site, JointForce) else site.at]
+
+    def letter(self, site: UnknownForce) -> str:
+        """The letter of a site's force: that of the force of one link on another, or of the balance."""
+        if isinstance(site, JointForce):
+            return reaction_letter(self.forces.scene, site.point, site.link)
+        return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
 
     def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[UnknownForce] = ()) -> Span:
         """The open polygon of a part's known forces: where it starts and where it ends."""
@@ -170,13 +269,13 @@ class FreeBodies:
         for site, sign in self._solved(part):
             pair_of = self.pairs.get(site)
             if pair_of is not None and site != but:
-                yield from reactions.signed_pair(pair_of, sign)
+                yield from signed_pair(pair_of, sign)
         told = [*facts, (but, self.sign(part, but))] if isinstance(but, Slide) else list(facts)
         yield from self.parts_of(told)
         for site, sign in told:
             known = self.known.get(site)
             if known is not None and known.pair is not None and site not in self.ends:
-                yield from reactions.signed_pair(known.pair, sign)
+                yield from signed_pair(known.pair, sign)
 
     def acts_at(self, site: UnknownForce, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)

@@ -18,8 +18,8 @@ from typing import Any
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
 from graphplan.mechanism.order import by_name
+from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.loading import Loading
-from graphplan.methods.forces.reactions import DrawnForces, Span, reaction_on
 from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, slide_named

@@ -11,9 +11,9 @@ from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
 from graphplan.methods import kinds
 from graphplan.methods.forces.force_plan import ForcePolygon
+from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
 from graphplan.methods.forces.friction import rough
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import DrawnForces, reaction_on
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
 from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner

@@ -25,9 +25,9 @@ from graphplan.mechanism.order import ordered_drives
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.methods import kinds
 from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.forces.free_bodies import Shown, Span, pair_letter
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.loading import Acting, Loading
-from graphplan.methods.forces.reactions import Shown, Span, pair_letter
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner

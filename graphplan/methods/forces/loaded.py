@@ -18,11 +18,11 @@ from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow
 from graphplan.methods.draughtsman import Draughtsman
+from graphplan.methods.forces.free_bodies import DrawnForces, Shown
 from graphplan.methods.forces.friction import SHORT, Rubbed
 from graphplan.methods.forces.groups import ForceTransfer, Result, Way, arms, balances, reactions, results
 from graphplan.methods.forces.lever import Levers
 from graphplan.methods.forces.loading import Loading, force_scale
-from graphplan.methods.forces.reactions import DrawnForces, Shown
 from graphplan.methods.forces.statics import PREFERENCES
 from graphplan.methods.kinds import REACTION, RUBBED, SLIDE_MOMENT, SLIDE_REACTION
 from graphplan.methods.motion.acceleration import Normal
@@ -107,7 +107,8 @@ class Loaded(Draughtsman):
         forces = reactions(self.board, self.pose, loading, self.plans, self.way)
         self._note(results(self.scene, loading, forces, self.board), forces.shown)
         self._note(arms(self.scene, forces, self.board, self.pose, self.arms), ())
-        if self.loads.frictions and self._in_motion and not self.scene.repeating:
+        moves = any(drive.rate for drive in self.scene.drives)  # at rest friction has no sense
+        if self.loads.frictions and moves and not self.scene.repeating:
             self._rounds(velocity, loading, forces)
 
     def _rounds(self, velocity: Velocity, loading: Loading, forces: DrawnForces) -> None:
@@ -136,11 +137,6 @@ class Loaded(Draughtsman):
         program = freeze(self.board, marks)
         values = evaluate(program, Floats())
         return [values[index] for index in program.wanted]
-
-    @property
-    def _in_motion(self) -> bool:
-        """Whether any drive moves: at rest friction has no sense."""
-        return any(drive.rate for drive in self.scene.drives)
 
     def _note(self, found: Iterable[Result], shown: Iterable[Shown]) -> None:
         """Keep results, and the arrows that show them."""

@@ -23,7 +23,7 @@ from graphplan.methods.panels import JointForce
 MOST_PARTS = 2000  # of a group: no textbook's has so many
 FAR: Triple = (0, 0, 1)  # the line on which all slides' pencils have their points: a force along it is a couple
 
-
+Part = frozenset[str]  # links of a group, seen as one free body
 UnknownForce = JointForce | Slide | Balance
 
 
@@ -44,7 +44,7 @@ class ForceGroup:
 
     def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
         self.scene, self.links, self.done = scene, links, frozenset(done)
-        self._boundaries: dict[frozenset[str], list[tuple[UnknownForce, int]]] = {}
+        self._boundaries: dict[Part, list[tuple[UnknownForce, int]]] = {}
 
     @cached_property
     def points(self) -> tuple[str, ...]:
@@ -66,7 +66,7 @@ class ForceGroup:
             return bool(self.rest(site.point))
         return isinstance(site, Slide) and not {site.link, site.along} <= set(self.links)
 
-    def boundary(self, part: frozenset[str]) -> list[tuple[UnknownForce, int]]:
+    def boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
         """The sites at which unknown forces act on a part of the group, each with its sign.
 
         At a joint within the group the force on the part may be told by that on the other links, reversed.
@@ -75,7 +75,7 @@ class ForceGroup:
             self._boundaries[part] = self._boundary(part)
         return self._boundaries[part]
 
-    def _boundary(self, part: frozenset[str]) -> list[tuple[UnknownForce, int]]:
+    def _boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
         found: list[tuple[UnknownForce, int]] = []
         for point in self.points:
             here = [link for link in self.members(point) if link in part]
@@ -95,17 +95,17 @@ class ForceGroup:
         first = self.members(point)[0]
         return (here, 1) if (len(here), first not in here) <= (len(others), first in here) else (others, -1)
 
-    def passed_on(self, part: frozenset[str]) -> list[str]:
+    def passed_on(self, part: Part) -> list[str]:
         """The joints at which a part has the known forces of solved groups, besides those of its boundary."""
         sides = {point: self._side(point, [link for link in self.members(point) if link in part])
                  for point in self.points if not self.rest(point) and set(self.members(point)) & part}
         return [point for point, (side, sign) in sides.items() if sign < 0 or not side]
 
     @cached_property
-    def parts(self) -> list[frozenset[str]]:
+    def parts(self) -> list[Part]:
         """The connected parts of the group, small ones first."""
         near = {link: self._near(link) for link in self.links}
-        found: dict[frozenset[str], None] = {frozenset({link}): None for link in self.links}
+        found: dict[Part, None] = {frozenset({link}): None for link in self.links}
         for part in (waiting := list(found)):
             for other in set().union(*(near[link] for link in part)) - part:
                 larger = part | {other}

@@ -10,8 +10,8 @@ from typing import Any
 from graphplan.mechanism.model import Balance
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
+from graphplan.methods.forces.free_bodies import pair_letter
 from graphplan.methods.forces.groups import pairs
-from graphplan.methods.forces.reactions import pair_letter
 from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
 from graphplan.sheet.layout.scales import digits

@@ -140,8 +140,7 @@ def _by_rules(construction: Recorded, given: Coordinates, results: Results, star
                 row[:] = number
 
 
-def _given(construction: Recorded, points: Mapping[str, Any],
-           guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
+def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
     """The number of poses, and what is given in each: coordinates of points, and directions of guides by their step."""
     scene = construction.scene
     arrays = {name: _poses(z) for name, z in points.items()}

@@ -125,8 +125,7 @@ def slide_named(slide: Slide) -> Said:
 def reactions_named(scene: Scene) -> dict[str, Said]:
     """In words, by their names in results, the force on every link of every joint, and every slide."""
     forces = (JointForce(point, link) for point in scene.joints for link in scene.links_of[point])
-    return {force.name: force.words for force in forces} | {
-        slide.name: slide_named(slide) for slide in scene.slides}
+    return {force.name: force.words for force in forces} | {slide.name: slide_named(slide) for slide in scene.slides}
 
 
 def redundancies(scene: Scene) -> Iterator[Said]:

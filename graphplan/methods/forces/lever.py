@@ -226,16 +226,12 @@ def working(scene: Scene, mode: int) -> Assumed:
     assert scene.loads is not None
     held = [balance for nth, balance in enumerate(scene.loads.balances) if nth != mode]
     balance, apart = scene.loads.balances[mode], scene.with_drives(())
-    own: list[Drive] = [_unit(drive, scene) for drive in ordered_drives(scene)]
+    speed = round_number(extent(scene) / 4)
+    own = [drive.driven_at(speed if drive.slides else Fraction(1), Fraction(0)) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
         own = [TurningDrive(balance.link, FRAME, Fraction(1), Fraction(0))]
     found = [_held(apart.with_drives((drive,)), held) for drive in own]
     return Assumed(next((one for one in found if bracing(one).sound), found[0]), {})
-
-
-def _unit(drive: Drive, scene: Scene) -> Drive:
-    """The drive at a rate of one."""
-    return drive.driven_at(round_number(extent(scene) / 4) if drive.slides else Fraction(1), Fraction(0))
 
 
 def _held(scene: Scene, balances: list[Balance]) -> Scene:

@@ -148,14 +148,8 @@ class Equilibrium:
 
     def _next(self) -> StaticMove | None:
         """The first new move of the most preferred kind."""
-        best: tuple[int, StaticMove] | None = None
-        for kind, move in self._candidates():
-            rank = self.order.index(kind)
-            if (best is None or rank < best[0]) and self._new(move):
-                best = rank, move
-                if rank == 0:
-                    break
-        return best[1] if best else None
+        candidates = sorted(self._candidates(), key=lambda found: self.order.index(found[0]))
+        return next((move for _, move in candidates if self._new(move)), None)
 
     def _candidates(self) -> Iterator[tuple[str, StaticMove]]:
         yield from (("pin", Pin(site)) for site in self._last_at_pins())

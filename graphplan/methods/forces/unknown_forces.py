@@ -10,7 +10,7 @@ divides by.
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from functools import cached_property
+from functools import cache, cached_property
 from random import Random
 from typing import NamedTuple, TypeGuard
 
@@ -44,7 +44,7 @@ class ForceGroup:
 
     def __init__(self, scene: Scene, links: tuple[str, ...], done: Iterable[str]):
         self.scene, self.links, self.done = scene, links, frozenset(done)
-        self._boundaries: dict[Part, list[tuple[UnknownForce, int]]] = {}
+        self.boundary = cache(self._boundary)
 
     @cached_property
     def points(self) -> tuple[str, ...]:
@@ -66,16 +66,11 @@ class ForceGroup:
             return bool(self.rest(site.point))
         return isinstance(site, Slide) and not {site.link, site.along} <= set(self.links)
 
-    def boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
+    def _boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
         """The sites at which unknown forces act on a part of the group, each with its sign.
 
         At a joint within the group the force on the part may be told by that on the other links, reversed.
         """
-        if part not in self._boundaries:
-            self._boundaries[part] = self._boundary(part)
-        return self._boundaries[part]
-
-    def _boundary(self, part: Part) -> list[tuple[UnknownForce, int]]:
         found: list[tuple[UnknownForce, int]] = []
         for point in self.points:
             here = [link for link in self.members(point) if link in part]

@@ -134,10 +134,8 @@ class Facts:
 
     def _locus_of(self, place: BodyPoint, body: str) -> Locus | None:
         """A locus of a place that another source than this body gives."""
-        for source, fact in self.facts.get(place, {}).items():
-            if source != body and fact is not None and fact is not ANYWHERE:
-                return place, source
-        return None
+        return next(((place, source) for source, fact in self.facts.get(place, {}).items()
+                     if source != body and fact is not None and fact is not ANYWHERE), None)
 
     def _normal(self, locus: Locus) -> Two:
         """The normal of a locus on the plan of orthogonal velocities; on the others all are turned alike."""

@@ -111,7 +111,7 @@ class Planner(Facts):
     # ---- relative poles -------------------------------------------------------------------------------------
 
     def _pairs(self, loose: list[str]) -> Iterator[tuple[frozenset[str], list[Bar]]]:
-        """Pairs of bodies joined by two bars, each with two facts: their relative pole serves as a joint."""
+        """Pairs of single links with two facts each, joined by two bars: their relative pole serves as a joint."""
         bars: dict[frozenset[str], list[Bar]] = {}
         for body in loose:
             ends = self.places[body]
@@ -120,17 +120,13 @@ class Planner(Facts):
                 (one, D), (two, G) = sorted((next(b for b in self._at(end) if b != body), end) for end in ends)
                 bars.setdefault(frozenset((one, two)), []).append((body, D, G))
         for pair, found in bars.items():
-            fit = len(found) == 2 and pair not in self.joined and all(self._fit(body) for body in pair)
-            if fit and self._pole_spot(found):
+            single = all(self._count(body) == 2 and len(self.net.members[body]) == 1 for body in pair)
+            if single and len(found) == 2 and pair not in self.joined and self._pole_spot(found):
                 yield pair, found
 
     def _pole_spot(self, bars: list[Bar]) -> Two | None:
         """Where the relative pole lies, if the bars are not parallel."""
         return meet(*(line(self._swung(D, G), self._spot(D)) for _, D, G in bars))
-
-    def _fit(self, body: str) -> bool:
-        """A single link with two facts."""
-        return self._count(body) == 2 and len(self.net.members[body]) == 1
 
     def _join(self, pair: frozenset[str], bars: list[Bar]) -> None:
         one, two = sorted(pair)

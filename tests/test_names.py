@@ -24,8 +24,8 @@ CUTTING = {"startswith", "endswith", "partition", "rpartition", "removeprefix", 
 # What bears a plan, a kind of result, a law, a reason or a form, by the word that it goes by.
 NAMED = {"panel", "home", "kind", "quantity", "law", "why", "reason", "form"}
 OWN = {  # what is no such name, and who reads it: rows of surveys, and a dyad's form
-    "accuracy/survey/best_forms.py", "accuracy/survey/pictures/draughtsman.py", "accuracy/survey/pictures/forms.py",
-    "accuracy/survey/pictures/machine.py", "mechanism/structure.py",
+    "accuracy/survey/draughtsman.py", "accuracy/survey/forms.py", "accuracy/survey/machine.py",
+    "mechanism/structure.py",
 }
 
 

@@ -8,8 +8,8 @@ from dataclasses import asdict, dataclass
 from typing import Any
 
 from graphplan.accuracy.drafted import Drafted, percent
+from graphplan.accuracy.first_order import sampled
 from graphplan.accuracy.preference import Form
-from graphplan.accuracy.sampling import sampled
 from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.mechanism.model import Scene
 from graphplan.sheet.layout.scales import digits

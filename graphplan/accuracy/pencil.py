@@ -9,9 +9,9 @@ along 160 mm of a line: 0.1 mm at both ends, times the root of two, over 160 mm 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Collection
 from dataclasses import asdict, dataclass, fields
 
-from graphplan.accuracy.settings import decimal, settings
 from graphplan.errors import Refused
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.scales import digits
@@ -64,3 +64,28 @@ def _size(name: str, text: str) -> float:
         right = f"a standard deviation in {UNITS[name]}, from 0 to below {most:g}"
         raise Refused(f"--pencil {name}={text}", "this is no size of an error", right)
     return size
+
+
+def settings(option: str, text: str, known: Collection[str], unknown: str,
+             size: Callable[[str, str], float]) -> dict[str, float]:
+    """What a text says of the `known` settings; `size` reads each from its name and what is given for it.
+
+    Fails with `Refused`, in the words `unknown`, where it names another one, and where it names one twice.
+    """
+    found: dict[str, float] = {}
+    for entry in filter(None, text.split(",")):
+        name, _, given = (part.strip() for part in entry.partition("="))
+        if name not in known:
+            raise Refused(f"{option} {entry}", unknown, f"one of {', '.join(known)}")
+        if name in found:
+            raise Refused(f"{option} {text}", f"{name} is told twice", "tell it once")
+        found[name] = size(name, given)
+    return found
+
+
+def decimal(text: str) -> float:
+    """A number, or nan where it is none."""
+    try:
+        return float(text)
+    except ValueError:
+        return math.nan

@@ -8,8 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.check.arithmetics import Bounds
-from graphplan.check.certified_solver import independent_facts
+from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Results, plain
 from graphplan.mechanism.model import FRAME, Balance, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, Statement

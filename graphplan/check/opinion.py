@@ -6,8 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosed
-from graphplan.check.certified_solver import bounded_rates
+from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed
 from graphplan.check.compared import Results
 from graphplan.mechanism.model import Scene
 from graphplan.methods.kinds import ORDER

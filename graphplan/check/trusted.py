@@ -1,25 +1,188 @@
 """The trusted construction: drawn, compared with the analytic solver, and taken another way where the two differ.
 
-Both opinions are reckoned in floats with proven bounds. Where these do not prove nine digits of each number, or the two
+Both opinions are computed in floats with proven bounds. Where these do not prove nine digits of each number, or the two
 differ by more than rounding, the next better arithmetic is taken: enclosures of more and more digits, then fractions. A
 construction that is proven to differ is given up for one that goes another way.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import suppress
 from dataclasses import replace
+from functools import cached_property
+from importlib.util import find_spec
 from itertools import islice
 from typing import Any, TypeVar
 
-from graphplan.check.bench import WAYS, Bench
+from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
+from graphplan.check.compared import compared, printed, rounded
+from graphplan.check.opinion import Opinion, opinion
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
+from graphplan.kernel.kinds import Movement, Primitive
+from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import constructions
 from graphplan.methods.construction import Construction
 from graphplan.solver import solve
+
+ENOUGH = 40, 80, 160, 320, 640  # digits of enclosures, one after the other
+WAYS = 24  # constructions that are tried at most
+
+
+class Bench:
+    """Where the constructions of a scene are judged, one after the other, each in as good an arithmetic as it needs."""
+
+    def __init__(self, scene: Scene, how: dict[str, Any], exact: bool):
+        self.scene, self.how, self.exact = scene, how, exact
+        self._opinions: dict[str, Opinion] = {}
+
+    def judged(self, drawing: Construction) -> Report:
+        """A construction beside the solver, in the first arithmetic that proves the digits or a difference.
+
+        Where none does, the last word is that of floats, with bounds as large as they are.
+        """
+        last: Report | None = None
+        fault: ConstructionError | None = None
+        for by in self._ladder():
+            try:
+                with by.working():
+                    found = self._judged(drawing, by)
+            except ConstructionError as error:
+                fault = error
+                continue
+            except by.doubt:
+                continue
+            if found.proven or found.wrong:
+                return found
+            last, fault = found, None
+        if last is None and (fault is None or self._singular is not None):
+            raise self._unproven(drawing)
+        if fault is not None:
+            raise fault
+        assert last is not None
+        return last
+
+    def alone(self, drawing: Construction, fault: ConstructionError) -> Report:
+        """What the solver says of all that a construction would give, which has no numbers in this pose."""
+        found: Report | None = None
+        for by in self._ladder():
+            with suppress(by.doubt), by.working():
+                if isinstance(by, Exact) or (found is not None and found.proven):
+                    break
+                truth = self._opinion(by, drawing).truth({})
+                ours = {kind: {r.of: _middle(truth[kind][r.of]) if by is FLOATS else truth[kind][r.of]
+                               for r in drawing.readings if r.kind == kind} for kind in drawing.kinds if kind in truth}
+                found = replace(self._report(drawing, by, ours), fault=fault)
+        if found is None:
+            raise fault
+        return found
+
+    def _ladder(self) -> Iterator[Arithmetic]:
+        """The arithmetics in their order; only fractions can tell of a singular pose that it is."""
+        frictions = self.scene.loads.frictions if self.scene.loads else ()
+        rational = not self.scene.irrational and not any(friction.at for friction in frictions)
+        if not self.exact:
+            yield FLOATS
+            if find_spec("flint") and not (rational and self._singular):
+                for digits in ENOUGH:
+                    yield enclosures(digits * 10 // 3 + 4, f"enclosures of {digits} digits")
+        if self.exact or rational:
+            yield Exact()
+
+    def _judged(self, drawing: Construction, by: Arithmetic) -> Report:
+        """A construction beside the solver in one arithmetic; fails with its doubt where that cannot tell."""
+        known, domain = self._opinion(by, drawing).scene, by.domain()
+        sharp = self._same(known, drawing) if self.scene.irrational and by is not FLOATS else drawing
+        if sharp is None:
+            raise by.doubt
+        try:
+            return self._report(drawing, by, sharp.read(domain))
+        except ConstructionError:
+            if getattr(domain, "undecided", False):
+                raise by.doubt from None
+            raise
+
+    def _opinion(self, by: Arithmetic, drawing: Construction) -> Opinion:
+        """What the solver says in one arithmetic, found once; of a singular pose what fractions say is so."""
+        try:
+            if by.name not in self._opinions:
+                self._opinions[by.name] = opinion(self.scene, by)
+        except SingularPose as singular:
+            if isinstance(by, Exact):
+                raise SingularPose(singular.why, singular.links, miss(drawing, by.domain())) from None
+            raise
+        return self._opinions[by.name]
+
+    @cached_property
+    def _singular(self) -> SingularPose | None:
+        """Why floats hold the pose for singular, where they do."""
+        if self.exact or FLOATS.name in self._opinions:
+            return None
+        try:
+            solve(self.scene)
+            if self.scene.loads is not None:
+                from graphplan.solver.statics import reactions
+
+                reactions(self.scene)
+        except SingularPose as singular:
+            return singular
+        return None
+
+    def _unproven(self, drawing: Construction) -> SingularPose | Refused:
+        """The error where no arithmetic at hand tells anything: what floats say of it."""
+        if self._singular is not None:
+            return SingularPose(self._singular.why, self._singular.links, miss(drawing, Floats()))
+        return Refused(f"{self.scene.name}: the pose", "it is too near to a singular one for floats",
+                       "install graphplan[certified], or give its points as coordinates")
+
+    def _same(self, known: Scene, drawing: Construction) -> Construction | None:
+        """The same construction of the scene in enclosures: by the same steps."""
+        def steps(one: Construction) -> list[tuple[Primitive, tuple[int, ...]]]:
+            return [(step.op, step.args) for step in one.program.steps]
+
+        every = islice(constructions(known, **self.how), WAYS)
+        return next((one for one in every if steps(one) == steps(drawing)), None)
+
+    def _report(self, drawing: Construction, by: Arithmetic, ours: dict[str, dict[str, Any]]) -> Report:
+        """The comparison in one arithmetic; fractions that are not asked for are printed as floats."""
+        told = self._opinions[by.name]
+        numbers = compared(drawing, ours | told.third, told.truth(ours, drawing.rounds))
+        if isinstance(by, Exact) and not self.exact:
+            numbers = rounded(numbers)
+        results = printed(ours, numbers, (lambda number: number) if self.exact else float)
+        forces = told.beside(self.scene, results, drawing.rounds, self.exact)
+        return Report(drawing, told.rates, results, self.exact, forces, by.name, numbers)
+
+
+def _middle(value: Any) -> Any:
+    """A number with bounds, or a vector of them, as floats."""
+    return tuple(map(float, value)) if isinstance(value, tuple) else float(value)
+
+
+def miss(drawing: Construction, domain: Domain) -> str:
+    """The lines that should meet and do not: where the construction stops, or where its lines cross flattest."""
+    try:
+        drawing.read(domain)
+    except ConstructionError as error:
+        return f"{error.drawing}: {error.why}"
+    try:
+        flattest = min((step for step in drawing.program.steps if step.op.movement is Movement.MET),
+                       key=lambda step: _sine(drawing, step.args), default=None)
+    except ConstructionError:
+        return ""
+    if flattest is None:
+        return ""
+    one, two = (drawing.program.described(arg) for arg in flattest.args)
+    return f"{drawing.program.text(flattest.index)}, where {one} should meet {two}: the two lines are all but parallel"
+
+
+def _sine(drawing: Construction, lines: tuple[int, ...]) -> float:
+    (a, b, _), (c, d, _) = (drawing.truth[line] for line in lines)
+    return float(abs(a * d - b * c) / ((a * a + b * b) * (c * c + d * d)) ** 0.5)
+
 
 Judged = TypeVar("Judged", bound=Report)
 

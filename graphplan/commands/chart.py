@@ -29,13 +29,12 @@ from graphplan.mechanism.scene import load, packaged
 
 
 class Survey(NamedTuple):
-    """What is measured for a chart: the module that does, what its rows are, and what it gives of all, or of a scene.
+    """What is measured for a chart, by the module of its name: what its rows are, what it gives of all, or of a scene.
 
     Of all it is called with the module alone, and `progress` says what a row is about; of a scene also with this,
     the pencil, and whether scenes are named.
     """
 
-    module: str
     row: str
     rows: Callable[..., Iterable[Any]]
     progress: str = ""
@@ -43,13 +42,12 @@ class Survey(NamedTuple):
 
 BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
 CHARTS = {
-    "machine": Survey("machine", "Measure", lambda module, scene, hand, named: module.measures(
+    "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
         scene, compiled=named or scene.name == BIG)),
-    "draughtsman": Survey("draughtsman", "Draft", lambda module, scene, hand, named: module.drafts(
-        scene, hand, long=named)),
-    "stability": Survey("stability", "Sample", lambda module: module.everything(), "{0.degeneracy}"),
-    "forms": Survey("best_forms", "Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
-    "growth": Survey("growth", "Stage", lambda module: module.stages(), "{0.links} links"),
+    "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
+    "stability": Survey("Sample", lambda module: module.everything(), "{0.degeneracy}"),
+    "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
+    "growth": Survey("Stage", lambda module: module.stages(), "{0.links} links"),
 }
 
 
@@ -63,7 +61,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.accuracy.survey.table import table
+    from graphplan.accuracy.survey.picture import table
     from graphplan.output.charts import drawn
 
     for name in options.names:
@@ -72,11 +70,10 @@ def run(options: argparse.Namespace) -> int:
     folder_at(options.folder)
     scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
     for name in options.names or CHARTS:
-        module = import_module(f"graphplan.accuracy.survey.{CHARTS[name].module}")
+        module = import_module(f"graphplan.accuracy.survey.{name}")
         rows = [*_rows(name, module, scenes, hand, messages)]
         messages.progress("")
-        picture = import_module(f"graphplan.accuracy.survey.pictures.{name}").picture
-        chart = picture(rows, hand.told) if name == "draughtsman" else picture(rows)
+        chart = module.picture(rows, hand.told) if name == "draughtsman" else module.picture(rows)
         write(drawn(chart), str(options.folder / f"{name}.svg"))
         write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0

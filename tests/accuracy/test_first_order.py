@@ -9,10 +9,9 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
-from graphplan.accuracy.first_order import Result, first_order
+from graphplan.accuracy.first_order import HANDS, Result, first_order, sampled
 from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.sampling import HANDS, sampled
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
 

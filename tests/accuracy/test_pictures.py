@@ -10,15 +10,10 @@ from xml.etree import ElementTree
 import pytest
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey import best_forms, growth, machine, stability
+from graphplan.accuracy.survey import draughtsman, forms, growth, machine, stability
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
 from graphplan.accuracy.survey.picture import Chart
-from graphplan.accuracy.survey.pictures import draughtsman as board
-from graphplan.accuracy.survey.pictures import forms as strips
-from graphplan.accuracy.survey.pictures import growth as lines
-from graphplan.accuracy.survey.pictures import machine as precision
-from graphplan.accuracy.survey.pictures import stability as ways
 from graphplan.commands import main
 from graphplan.output.charts import drawn
 
@@ -47,29 +42,29 @@ def marks(chart: Chart) -> int:
 
 def test_every_mark_is_a_row_of_its_table() -> None:
     """Each row with numbers is one mark, those without none; of the front there is a line and no mark."""
-    chart = board.picture(DRAFTS, str(Pencil()))
+    chart = draughtsman.picture(DRAFTS, str(Pencil()))
     assert marks(chart) == 3
     assert chart.panels[0].series[0].spots == (
         (40.0, 3.0), (40.0, 2.0), (90.0, 2.0), (90.0, 1.0), (95.0, 1.0))
     assert "(1 not drawn)" in chart.panels[0].title
-    assert marks(precision.picture(MEASURES)) == 3
+    assert marks(machine.picture(MEASURES)) == 3
     samples = list(stability.samples(DEGENERACIES[2], (1.0, 1e-3, 0.0)))
-    assert marks(ways.picture(samples)) == len(samples)
+    assert marks(stability.picture(samples)) == len(samples)
 
 
 def test_exact_and_singular_stand_on_rails() -> None:
     """No error stands on the exact rail, proven digits on theirs, and what has no number on that of its method."""
-    levels = [series.spots[0][1] for series in precision.picture(MEASURES).panels[0].series]
+    levels = [series.spots[0][1] for series in machine.picture(MEASURES).panels[0].series]
     assert levels == [1e-15, "exact", "proven"]
     singular = stability.Sample("dead centre", "poles", 0.0, float("inf"), None, "singular")
-    spots = [series.spots for series in ways.picture([singular]).panels[0].series if series.spots]
+    spots = [series.spots for series in stability.picture([singular]).panels[0].series if series.spots]
     assert spots == [(("0", "poles"),)]
 
 
 def test_the_median_is_over_all_scenes() -> None:
     """With several scenes one picture more tells medians and quartiles, not of what few scenes have."""
     rows = [measure("rules, floats", time, 1e-15, scene) for scene, time in (("a", 1.0), ("b", 3.0), ("c", 5.0))]
-    (series,) = precision.picture([*rows, measure(machine.COMPILED, 1.0, 1e-15, "a")]).panels[-1].series
+    (series,) = machine.picture([*rows, measure(machine.COMPILED, 1.0, 1e-15, "a")]).panels[-1].series
     assert series.spots == ((3.0, 1e-15),)
     assert series.spreads == (((2.0, 1e-15), (4.0, 1e-15)),)
 
@@ -79,15 +74,15 @@ def test_the_median_is_over_all_scenes() -> None:
     (["auxiliary, polar", "trial, polar", "poles, polar"], "any method, polar")])
 def test_equally_good_forms_have_one_colour(best: list[str], name: str) -> None:
     """Orthogonal plans before polar ones, and every method on a plan as any."""
-    assert strips.shown(best) == name
+    assert forms.shown(best) == name
 
 
 def test_strips_cover_the_cycle() -> None:
     """Neighbouring poses with one best form are one stretch, and the stretches fill the turn without a gap."""
-    one = best_forms.Sample("triad", 0, 0.0, best_forms.PENCIL, "trial, polar", 1.0, True)
+    one = forms.Sample("triad", 0, 0.0, forms.PENCIL, "trial, polar", 1.0, True)
     rows = [replace(one, pose=k, travel=90.0 * k, best=k != 2) for k in range(4)]
-    spots = [series.spots for series in strips.picture(rows).panels[0].series]
-    ends = [(start, end) for (start, rail), (end, _) in spots if rail == best_forms.PENCIL]
+    spots = [series.spots for series in forms.picture(rows).panels[0].series]
+    ends = [(start, end) for (start, rail), (end, _) in spots if rail == forms.PENCIL]
     assert ends == [(0.0, 180.0), (180.0, 270.0), (270.0, 360.0)]
 
 
@@ -96,14 +91,14 @@ def test_the_exponent_is_that_of_long_chains() -> None:
     rows = [growth.Stage(n, 6 * n - 10, stage, float(n * n) if n > 10 else 1e9, 1.0, 1.0)
             for n in (4, 100, 500) for stage in growth.STAGES]
     assert growth.exponent(rows, growth.STAGES[0]) == pytest.approx(2)
-    words = [words for words, _ in lines.picture(rows).key]
+    words = [words for words, _ in growth.picture(rows).key]
     assert words[0] == f"{growth.STAGES[0]}: n^2.00"
     assert words[-1] == "steps: 6 n − 10"
 
 
 def test_the_same_picture_is_the_same_text() -> None:
     """Pictures are valid SVG without a date, drawn twice alike."""
-    chart = board.picture(DRAFTS, str(Pencil()))
+    chart = draughtsman.picture(DRAFTS, str(Pencil()))
     text = drawn(chart)
     assert text == drawn(chart)
     assert "dc:date" not in text

@@ -11,12 +11,12 @@ import numpy as np
 import pytest
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey import best_forms
+from graphplan.accuracy.survey import forms
 from graphplan.accuracy.survey.binary import binary, truth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts, front
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
 from graphplan.accuracy.survey.machine import ARITHMETICS, COMPILED, LAPACK, SOLVERS, Measure, measures
-from graphplan.accuracy.survey.table import table
+from graphplan.accuracy.survey.picture import table
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
 from graphplan.solver import solve
@@ -92,10 +92,10 @@ def test_forms_that_are_not_drawn_have_a_reason() -> None:
 
 def test_best_forms_over_a_cycle() -> None:
     """Each pose has all forms by both measures; the best are the least, and where nothing comes there is none."""
-    rows = list(best_forms.samples(load("triad"), Pencil(), 4))
-    assert len(rows) == 4 * 2 * len(best_forms.FORMS)
+    rows = list(forms.samples(load("triad"), Pencil(), 4))
+    assert len(rows) == 4 * 2 * len(forms.FORMS)
     for pose in range(4):
-        for measure in (best_forms.ROUNDING, best_forms.PENCIL):
+        for measure in (forms.ROUNDING, forms.PENCIL):
             here = [row for row in rows if (row.pose, row.measure) == (pose, measure)]
             values = [row.value for row in here if row.value is not None]
             assert all(row.value is not None or row.why for row in here)

@@ -13,7 +13,7 @@ from proven import lies
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
 from graphplan.accuracy.survey.stability import METHODS
-from graphplan.check import bench
+from graphplan.check import trusted
 from graphplan.check.json_results import data
 from graphplan.check.trusted import report
 from graphplan.commands import main
@@ -166,7 +166,7 @@ def test_without_flint_fractions_serve_a_rational_scene(text: str, monkeypatch: 
     """Where enclosures are missing, fractions give the digits that floats cannot."""
     scene = parse(text, "scene")
     with_enclosures = report(scene)
-    monkeypatch.setattr(bench, "find_spec", lambda name: None)
+    monkeypatch.setattr(trusted, "find_spec", lambda name: None)
     found = report(scene)
     assert found.arithmetic in ("floats", "fractions")
     assert lies(found, scene) == lies(with_enclosures, scene) == []
@@ -178,7 +178,7 @@ def test_without_flint_the_bound_of_an_irrational_scene_is_as_large_as_it_is(mon
     scene = parse(FLAT.format(zeros="0" * 4).replace(
         "A = [30, 40]", 'A = { from = "O", distance = 50, angle = 53.13010235415598 }'), "flat")
     sharp = report(scene)
-    monkeypatch.setattr(bench, "find_spec", lambda name: None)
+    monkeypatch.setattr(trusted, "find_spec", lambda name: None)
     found = report(scene)
     assert (sharp.arithmetic, found.arithmetic) == ("enclosures of 40 digits", "floats")
     assert max(sharp.bounds.values()) <= 1e-9 < max(found.bounds.values())

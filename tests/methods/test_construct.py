@@ -13,8 +13,7 @@ from four_bars import SMALL as FOUR_BAR
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
-from graphplan.check.bench import Bench
-from graphplan.check.trusted import report
+from graphplan.check.trusted import Bench, report
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import Find, Scene
 from graphplan.mechanism.structure import structure

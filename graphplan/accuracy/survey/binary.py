@@ -54,8 +54,7 @@ def truth(scene: Scene) -> Rates:
     except Refused:
         if find_spec("flint") is None:
             raise
-    from graphplan.check.arithmetics import enclosures
-    from graphplan.check.certified_solver import bounded_rates
+    from graphplan.check.arithmetics import bounded_rates, enclosures
     from graphplan.kernel.numbers.enclosures import precision
 
     with precision(BITS):

@@ -7,7 +7,7 @@ scene's own, enlarged by up to a fiftieth: as good a mechanism each, and other r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -18,8 +18,9 @@ import numpy as np
 
 from graphplan.accuracy.preference import called, led_to
 from graphplan.accuracy.survey.binary import binary, placed, truth
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
 from graphplan.accuracy.survey.stability import error_of
-from graphplan.accuracy.survey.timing import ratios
+from graphplan.accuracy.survey.timing import ratios, spread
 from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
@@ -28,6 +29,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.styles import MOTION_PLANS
+from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED
 from graphplan.solver import Rates, poses, solve
 
 POSES = 4096  # at once
@@ -249,3 +251,69 @@ def _solved_exactly(setting: Setting) -> Run:
 SOLVERS: dict[str, Callable[[Setting], Run]] = {
     SOLVER: _solved, LAPACK: _solved_at_once, EXACT_SOLVER: _solved_exactly,
 }
+
+
+SHOWN = ("alt-eight-link", "class-four", "shaper")  # by themselves, where they are among the scenes
+PROVEN = 1e-20  # errors below this are those of enclosures
+MARKERS = dict(zip((*ARITHMETICS, SOLVER, LAPACK, EXACT_SOLVER), (
+    "circle", "square", "up", "diamond", "star", "plus", "cross", "down", "left", "right"), strict=True))
+COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
+TIME = Axis("time for a pose, in poses solved by LAPACK in batches")
+ERROR = Axis("largest error, relative", before=(("exact", "exact"), ("proven", "proven")))
+REMARKS = (
+    "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, in the "
+    "time that LAPACK takes for a pose of the same scene in batches. Errors are the largest of any velocity or "
+    "acceleration in five poses, beside the largest of its kind, against fractions. The last picture has the "
+    "medians over all scenes, with the quartiles, of the form that the pose chooses."
+)
+
+
+def picture(rows: Sequence[Measure]) -> Chart:
+    """The chart of these measures."""
+    scenes = grouped(rows, "scene")
+    shown = [scene for scene in scenes if scene in SHOWN] or list(scenes)[:1]
+    panels = [SubChart(scene, TIME, ERROR, tuple(_alone(scenes[scene]))) for scene in shown]
+    if len(scenes) > 1:
+        panels.append(SubChart(f"median of {len(scenes)} scenes", TIME, ERROR, tuple(_median(rows))))
+    return Chart("The machine: time against error", REMARKS, tuple(panels), 2,
+                 (140.0, 85.0), tuple(_key()))
+
+
+def _alone(rows: Iterable[Measure]) -> Iterable[Series]:
+    """Each measure of a scene as a mark."""
+    for row in rows:
+        if row.time is not None and row.error is not None:
+            yield Series(look(row), ((row.time, _level(row.error)),))
+
+
+def _median(rows: Sequence[Measure]) -> Iterable[Series]:
+    """Each arithmetic by its median over the scenes, with the quartiles."""
+    groups: dict[tuple[str, str], list[Measure]] = {}
+    for row in rows:
+        if row.time is not None and row.form.split(", ")[0] in ("", "pose's own", "every method"):
+            groups.setdefault((row.plan, row.arithmetic), []).append(row)
+    scenes = {row.scene for row in rows}
+    for group in groups.values():
+        if 2 * len(group) <= len(scenes):  # what was measured of few scenes is no median of all
+            continue
+        left, x, right = spread([row.time for row in group if row.time is not None])
+        low, y, high = spread([row.error for row in group if row.error is not None])
+        corners = (left, _level(low)), (right, _level(high))
+        yield Series(look(group[0]), ((x, _level(y)),), (corners,))
+
+
+def _level(error: float) -> Place:
+    return "exact" if error == 0 else "proven" if error < PROVEN else error
+
+
+def look(row: Measure) -> Look:
+    """A measure's look: its arithmetic by the marker, its method by the colour, polar plans hollow."""
+    return Look(COLOURS[row.form.split(", ")[0]], MARKERS[row.arithmetic], hollow=row.plan == "polar", size=2.2)
+
+
+def _key() -> Iterable[tuple[str, Look]]:
+    yield from ((name, Look(GREY if name.startswith("solver") else INK, marker, size=2.2))
+                for name, marker in MARKERS.items())
+    yield "form of the pose or of every method", Look(INK, area=True)
+    yield from ((name, Look(COLOURS[name], area=True)) for name in ("auxiliary", "trial", "poles"))
+    yield "hollow: polar plans", Look(INK, "circle", hollow=True, size=2.2)

@@ -1,10 +1,12 @@
-"""What a chart is made of: panels with axes, marks and lines, in numbers and colours that know no mechanics."""
+"""What a chart is made of: panels with axes, marks and lines that know no mechanics; and its rows as a table."""
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Iterable
-from dataclasses import dataclass
-from typing import TypeVar
+from dataclasses import dataclass, fields
+from typing import Any, TypeVar
 
 T = TypeVar("T")
 Place = float | str  # a number on an axis, or the name of one of its rails
@@ -76,3 +78,17 @@ def grouped(rows: Iterable[T], field: str) -> dict[str, list[T]]:
     for row in rows:
         found.setdefault(getattr(row, field), []).append(row)
     return found
+
+
+def table(kind: type, rows: Iterable[Any]) -> str:
+    """Rows of one dataclass; numbers in as many digits as tell them apart, what there is not is left empty."""
+    names = [field.name for field in fields(kind)]
+    file = io.StringIO()
+    writer = csv.writer(file, lineterminator="\n")
+    writer.writerow(names)
+    writer.writerows([_cell(getattr(row, name)) for name in names] for row in rows)
+    return file.getvalue()
+
+
+def _cell(value: Any) -> str:
+    return "" if value is None else repr(value) if isinstance(value, float) else str(value)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, fields
 
-from graphplan.accuracy.settings import decimal, settings
+from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.program import needed
 from graphplan.marking.judge.verdict import UNSEEN, Judgement

@@ -6,8 +6,9 @@ the given pose, as on a sheet with many poses; only the pencil's slips and the w
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
 from typing import Any
 
 import numpy as np
@@ -17,6 +18,7 @@ from graphplan.accuracy.first_order import first_order
 from graphplan.accuracy.hand import hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.survey.draughtsman import PAPER
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, grouped
 from graphplan.cycle import follow
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
@@ -25,6 +27,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.motion.alternatives import growth_of_rates
 from graphplan.methods.styles import METHODS, MOTION_PLANS
 from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, RED
 from graphplan.solver import poses
 
 SCENES = ("alt-eight-link-2", "alt-ten-link-2", "class-four", "double-butterfly", "stephenson", "triad")
@@ -110,3 +113,48 @@ def _error(drawing: Construction, scales: Scales, pencil: Pencil) -> float:
     """The largest expected error of any result beside the largest of its kind, at these scales."""
     results = first_order(drawing, hand(drawing, scales, pencil), scales)
     return max((result.relative for result in results if result.relative is not None), default=0.0)
+
+
+ANY = "any method"
+_HUES = {"orthogonal": ("#7f7f7f", BLUE, RED, GREEN), "polar": ("#d4d4d4", "#8fb0e6", "#eaa0a4", "#93cfa9")}
+LOOKS = {f"{method}, {plan}": Look(colour, area=True) for plan in MOTION_PLANS
+         for method, colour in zip((ANY, *METHODS), _HUES[plan], strict=True)}
+NOWHERE = Look(GREY, area=True, hollow=True)
+TRAVEL = Axis("travel of the drive from the given pose, degrees", log=False, step=60.0)
+MEASURES = Axis("", log=False, after=((ROUNDING, ROUNDING), (PENCIL, PENCIL)))
+REMARKS = (
+    "Which form is best where: above by how much rounding grows in it, below by the expected pencil error, in "
+    f"each pose of the cycle. Forms within {100 * EQUAL - 100:.0f} % of the best count as equal, and of equals "
+    "orthogonal plans and the first method are shown; where every method is as good on a plan it is any. Blank: "
+    "the mechanism does not come there, or no form is drawn."
+)
+
+
+def picture(rows: Sequence[Sample]) -> Chart:
+    """The chart of these samples."""
+    panels = tuple(SubChart(scene, TRAVEL, MEASURES, tuple(_bands(of))) for scene, of in grouped(rows, "scene").items())
+    key = (*LOOKS.items(), ("no form there", NOWHERE))
+    return Chart("The best form over the cycle", REMARKS, panels, 2, (160.0, 12.0), key)
+
+
+def _bands(rows: Sequence[Sample]) -> Iterator[Series]:
+    """Stretches of poses with one best form, for each measure."""
+    travels = sorted({row.travel for row in rows})
+    ends = dict(zip(travels, [*travels[1:], 2 * travels[-1] - travels[-2] if len(travels) > 1 else 360.0], strict=True))
+    for measure in (ROUNDING, PENCIL):
+        best: dict[float, list[str]] = {travel: [] for travel in travels}
+        for row in rows:
+            if row.measure == measure and row.best:
+                best[row.travel].append(row.form)
+        for name, part in groupby(travels, key=lambda travel: shown(best[travel])):
+            stretch = list(part)
+            yield Series(LOOKS.get(name, NOWHERE), ((stretch[0], measure), (ends[stretch[-1]], measure)))
+
+
+def shown(best: Sequence[str]) -> str:
+    """The name under which equally good forms are shown; none where there are none."""
+    for plan in MOTION_PLANS:
+        methods = [form.split(", ")[0] for form in best if form.endswith(f", {plan}")]
+        if methods:
+            return f"{ANY if len(methods) == len(METHODS) else methods[0]}, {plan}"
+    return ""

@@ -1,1 +1,0 @@
-"""The surveys as pictures: which row stands where, and how it looks."""

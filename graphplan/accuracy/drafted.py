@@ -106,7 +106,7 @@ class Drafted:
     @cached_property
     def hand(self) -> Hand:
         """The hand that draws it."""
-        return hand(self.drawing, self.composition.scales, self.pencil)
+        return hand(self.drawing, self.composition.scales.of, self.pencil)
 
     @cached_property
     def cost(self) -> Cost:
@@ -208,7 +208,7 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     composer = Composer(drawing, paper, check, tongue)
     composition = composer.compose()
     for _ in range(ATTEMPTS):
-        results = first_order(drawing, hand(drawing, composition.scales, pencil), composition.scales)
+        results = first_order(drawing, hand(drawing, composition.scales.of, pencil), composition.scales)
         found = Drafted(drawing, pencil, composition, results)
         again = composer.compose(found.deviations)
         if again.scales == composition.scales:

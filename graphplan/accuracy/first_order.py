@@ -19,6 +19,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.accuracy.hand import Hand
+from graphplan.check.compared import each
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
@@ -35,6 +36,8 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.tables import Deviation
 
 ROUNDING = 1e-12  # beside the error: a kind whose largest value is smaller is nothing
+HANDS = 4000  # the scatter is then known to about one part in a hundred
+SEED = 1939
 
 
 @dataclass(frozen=True)
@@ -77,22 +80,21 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
     def errors(step: int) -> list[Any]:
         return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
 
-    def variance(parts: Sequence[Any]) -> Any:
-        return np.sum([domain.partials(part) ** 2 for part in parts], axis=0)
-
     plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
     found = []
     for reading, _, value in readings(drawing, hand.draw(domain, errors), domain):
         if not reading.marks:
             continue  # it is given, not drawn
-        squares = variance(value if isinstance(value, tuple) else (value,))
+        squares = np.sum([domain.partials(part) ** 2 for part in each(value)], axis=0)
+        off = math.sqrt(float(np.sum(squares)))
         wanted = [drawing.drawn.wanted[position] for position in reading.marks]
         of_mm = _of_mm(reading.kind, [hand.values[index] for index in wanted], scales, plan_of_step[wanted[-1]])
-        deviation = Deviation(_root(squares), _root(squares) / of_mm if of_mm else None)
         shares = np.bincount(owner, squares, len(hand.slips))
         thing = thing_named(drawing.scene, reading.kind, reading.of)
-        beside = _beside(drawing.scene, reading.kind, deviation.value, largest)
-        found.append(Result(reading.kind, reading.of, thing, deviation, beside, tuple(shares.tolist())))
+        group, arm = _group(drawing.scene, reading.kind)
+        beside = arm * off / largest[group] if largest[group] > ROUNDING * arm * off else None
+        found.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
+                            tuple(shares.tolist())))
     return tuple(found)
 
 
@@ -121,28 +123,14 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
     largest = {"place": extent(drawing.scene)}
     for reading, _, value in readings(drawing, values, Gradients(0)):
         group, arm = _group(drawing.scene, reading.kind)
-        size = math.hypot(*value) if isinstance(value, tuple) else abs(value)
-        largest[group] = max(largest.get(group, 0.0), arm * size)
+        largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*each(value)))
     return largest
-
-
-def _beside(scene: Scene, kind: ResultKind, error: float, largest: dict[str, float]) -> float | None:
-    """An error beside the largest value of its kind; nothing where there is none."""
-    group, arm = _group(scene, kind)
-    return arm * error / largest[group] if largest[group] > ROUNDING * arm * error else None
 
 
 def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
     return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(extent(scene), scene.units))
 
-
-def _root(squares: Any) -> float:
-    return math.sqrt(float(np.sum(squares)))
-
-
-HANDS = 4000  # the scatter is then known to about one part in a hundred
-SEED = 1939
 
 
 @dataclass(frozen=True)
@@ -161,9 +149,9 @@ class Scatter:
     missed: float
 
 
-def sampled(drawing: Construction, hand: Hand, hands: int = HANDS, seed: int = SEED) -> Scatter:
+def sampled(drawing: Construction, hand: Hand, hands: int = HANDS) -> Scatter:
     """How far the results of many hands scatter."""
-    normal = np.random.default_rng(seed).normal
+    normal = np.random.default_rng(SEED).normal
     results: dict[str, dict[str, Spread]] = {}
     missed = np.zeros(hands, dtype=bool)
     with np.errstate(all="ignore"):
@@ -172,7 +160,7 @@ def sampled(drawing: Construction, hand: Hand, hands: int = HANDS, seed: int = S
         for reading, _, value in readings(drawing, values, domain):
             if not reading.marks:
                 continue  # it is given, not drawn
-            parts = np.broadcast_arrays(*(value if isinstance(value, tuple) else (value,)), missed)[:-1]
+            parts = np.broadcast_arrays(*each(value), missed)[:-1]
             missed = missed | np.isnan(parts).any(axis=0)
             mean, variance = np.nanmean(parts, axis=1), np.nanvar(parts, axis=1)
             spread = Spread(tuple(mean.tolist()), float(variance.sum() ** 0.5))

@@ -27,7 +27,6 @@ from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.construction import Construction
-from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 
 Slips = tuple[float, ...]
@@ -92,12 +91,7 @@ class Hand:
         return a - turn * b, b + turn * a, c + turn * (b * x - a * y) - _size(exact) * offset
 
 
-def hand(drawing: Construction, scales: Scales, pencil: Pencil) -> Hand:
-    """The hand that draws a construction on its sheet with this pencil."""
-    return hand_at(drawing, scales.of, pencil)
-
-
-def hand_at(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
+def hand(drawing: Construction, unit: Callable[[str], float], pencil: Pencil) -> Hand:
     """The hand that draws a construction with this pencil; `unit` is the length of a millimetre on a plan, by name."""
     plan_of_step = Plans(drawing).plan_of_step
     slips = [_slips(drawing, step, unit(plan_of_step[step.index]), pencil) for step in drawing.drawn.steps]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 from graphplan.accuracy import PREFERENCES
@@ -82,19 +83,18 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    ways = led_to(lambda method: construct(scene, method=method, plan=plan, strict=strict, inertia=inertia),
-                  lambda drawing: drawing.drawn)
+    ways = led_to(partial(construct, scene, plan=plan, strict=strict, inertia=inertia), lambda drawing: drawing.drawn)
     return sorted([form for way in ways for form in made(*way)], key=lambda form: FORMS.index(form.methods[0]))
 
 
-def led_to(draw: Callable[[str], Construction],
+def led_to(draw: Constructing,
            program: Callable[[Construction], Program]) -> list[tuple[list[str], Construction | GraphplanError]]:
     """The constructions of different programs to which methods lead, each with these; or why they lead to none."""
     found: dict[Any, tuple[list[str], Construction | GraphplanError]] = {}
     for method in FORMS:
         one: Construction | GraphplanError
         try:
-            one = draw(method)
+            one = draw(method=method)
             key: Any = tuple([step.key for step in program(one).steps])
         except GraphplanError as refusal:
             one, key = refusal, str(refusal)
@@ -123,7 +123,7 @@ def preferred(scene: Scene, prefer: str, pencil: Pencil, *, method: str = "", pl
 def weighed(found: Sequence[Form], prefer: str) -> Preference:
     """The best of some forms, of which one at least is drawn; of equals the first."""
     drawn = [(form, form.drafted) for form in found if form.drafted is not None]
-    weigh, word = WEIGHED[prefer]
+    word, weigh = WEIGHED[prefer]
     best, on = min(drawn, key=lambda pair: weigh(pair[1]))
     head = said("{0} form preferred: {1}; weighed on {2}:", word(), best.name, on.paper)
     return Preference(best.methods[0], (head, *(form.told for form in found)))
@@ -146,21 +146,8 @@ def _moved(form: Form, one: Drafted, paper: str) -> Form:
         return Form(form.methods, None, refusal)
 
 
-def _quick(one: Drafted) -> tuple[float, ...]:
-    """Fewest operations first."""
-    return one.operations, one.error
-
-
-def _accurate(one: Drafted) -> tuple[float, ...]:
-    """Smallest pencil error first."""
-    return one.error, one.operations
-
-
-def _balanced(one: Drafted) -> tuple[float, ...]:
-    """Smallest product of both first: so each counts beside the best of its kind."""
-    return one.operations * one.error, one.operations
-
-
-WEIGHED: dict[str, tuple[Callable[[Drafted], tuple[float, ...]], Phrase]] = dict(zip(PREFERENCES, (
-    (_quick, phrase("quick")), (_accurate, phrase("accurate")), (_balanced, phrase("balanced")),
+WEIGHED: dict[str, tuple[Phrase, Callable[[Drafted], tuple[float, ...]]]] = dict(zip(PREFERENCES, (
+    (phrase("quick"), lambda one: (one.operations, one.error)),  # fewest operations first
+    (phrase("accurate"), lambda one: (one.error, one.operations)),  # smallest pencil error first
+    (phrase("balanced"), lambda one: (one.operations * one.error, one.operations)),  # each beside the best of its kind
 ), strict=True))

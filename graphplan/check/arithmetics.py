@@ -99,9 +99,7 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
         return one.direction if one.written is None else vector(one.written, points.__getitem__, by.reckoning)[:2]
 
     def driven(one: Drive) -> Drive:
-        if one.rpm:
-            return one.driven_at(by.pi() * one.rpm / 30, one.change)
-        return one
+        return one.driven_at(by.pi() * one.rpm / 30, one.change) if one.rpm else one
 
     try:
         points = _points(scene, by)

@@ -10,7 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 from dataclasses import dataclass, field
-from decimal import Decimal
+from decimal import ROUND_DOWN, Context, Decimal
 from fractions import Fraction
 from functools import cached_property
 from typing import Any
@@ -129,8 +129,7 @@ class Certified(Report):
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]
 
 
-def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "",
-              inertia: str = "couple") -> Certified:
+def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "", inertia: str = "couple") -> Certified:
     """Construct, read, solve and compare between proven bounds, until every result has its digits.
 
     Fails with `SingularPose` where the pose is singular as far as the digits can tell, with `Refused` as `report` does
@@ -138,23 +137,24 @@ def certified(scene: Scene, digits: int, *, method: str = "", plan: str = "",
     """
     if not 1 <= digits <= MOST:
         raise Refused(f"--digits {digits}", "there are no such digits", f"a number from 1 to {MOST}")
+    how = {"method": method, "plan": plan, "inertia": inertia}
     least = bits = math.ceil((digits + SPARE) * math.log2(10)) + 64
     doubt = Undecided(OPEN)
     while bits <= max(ENOUGH, 2 * least):
         with precision(bits):
             try:
-                found = _attempt(scene, digits, bits, method=method, plan=plan, inertia=inertia)
+                found = _attempt(scene, digits, bits, how)
                 if found.settled:
                     return found
             except Undecided as undecided:
                 doubt = undecided
             except ConstructionError as certain:
-                raise _named(scene, certain, "", method=method, plan=plan, inertia=inertia) from None
+                raise _named(scene, certain, "", how) from None
         if bits == least and _certainly_singular(scene):
-            raise _named(scene, doubt, "", method=method, plan=plan, inertia=inertia)
+            raise _named(scene, doubt, "", how)
         bits *= 2
     far = f", as far as {bits // 2} bits can tell"
-    raise _named(scene, doubt.__cause__ or doubt, far, method=method, plan=plan, inertia=inertia)
+    raise _named(scene, doubt.__cause__ or doubt, far, how)
 
 
 def _certainly_singular(scene: Scene) -> bool:
@@ -167,7 +167,7 @@ def _certainly_singular(scene: Scene) -> bool:
     return False
 
 
-def _attempt(scene: Scene, digits: int, bits: int, **how: Any) -> Certified:
+def _attempt(scene: Scene, digits: int, bits: int, how: dict[str, str]) -> Certified:
     """Both opinions at one precision, by the first way on which they agree; `Undecided` where that is too low."""
     solved = opinion(scene, enclosures(bits))
     found = first_sound(solved.scene, how, lambda drawing: _beside(drawing, solved, digits, bits))
@@ -190,13 +190,13 @@ def _beside(drawing: Construction, solved: Opinion, digits: int, bits: int) -> C
                      truths=solved.truth(results, drawing.rounds))
 
 
-def _named(scene: Scene, fault: BaseException, far: str, **how: Any) -> GraphplanError:
+def _named(scene: Scene, fault: BaseException, far: str, how: dict[str, str]) -> GraphplanError:
     """The error that says what cannot be had and how `far` that is known; the floats name links, and lines that miss.
 
     Where they see nothing singular, it is the step of the construction that is named, or what could not be decided.
     """
     try:
-        report(scene, **how, refuse=False)
+        report(scene, refuse=False, **how)  # type: ignore[arg-type]
     except SingularPose as singular:
         return SingularPose(f"{singular.why}{far}", singular.links, singular.lines_that_miss)
     if isinstance(fault, ConstructionError):
@@ -248,8 +248,4 @@ def _ten(power: int) -> Fraction:
 
 def _exponent(size: Fraction) -> int:
     """The power of ten of the first digit."""
-    bits = size.numerator.bit_length() - size.denominator.bit_length()
-    exponent = math.floor((bits - 1) * math.log10(2))
-    while _ten(exponent + 1) <= size:
-        exponent += 1
-    return exponent
+    return Context(prec=1, rounding=ROUND_DOWN).divide(size.numerator, size.denominator).adjusted()

@@ -61,7 +61,8 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
     found: Numbers = {}
     for part, named in ours.items():
         if part in theirs:
-            scale = _scale(drawing, largest, part)
+            scale = (extent(drawing.scene) if part == kinds.SLIDE_ARM
+                     else largest[kinds.kind_of(part).group] / weight(drawing, part))
             least = scale if part in UNBOUNDED else NOTHING * scale
             found[part] = {
                 name: tuple(_vector(each(ours[part][name]), each(theirs[part][name]),
@@ -102,13 +103,6 @@ def drawn_sizes(drawing: Construction) -> dict[str, float]:
     """The numbers of each kind that are drawn as large as the mechanism."""
     reach, unit = extent(drawing.scene), float(drawing.tempo.unit)
     return {kinds.VELOCITY: reach * unit, kinds.ACCELERATION: reach * unit**2, kinds.FORCES: reach / float(drawing.phi)}
-
-
-def _scale(drawing: Construction, largest: Mapping[str, float], part: str) -> float:
-    """The largest number of a reading's group, as such a reading; of a place the mechanism's extent."""
-    if part == kinds.SLIDE_ARM:
-        return extent(drawing.scene)
-    return largest[kinds.kind_of(part).group] / weight(drawing, part)
 
 
 def weight(drawing: Construction, part: str) -> float:

@@ -72,7 +72,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
     turn = follow(scene, positions, span, lambda part: told("positions")(round(part * positions), positions))
-    left = Round(scene, np.arange(positions), turn.points, turn.guides).some(_reached(turn))
+    left = Round.reached(scene, turn.points, turn.guides)
     kinds = (*MOTION, *([FORCES] if scene.loads else []))
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
                   {kind: np.full(positions, np.nan) for kind in kinds})
@@ -106,11 +106,6 @@ def _comes_back(scene: Scene) -> bool:
     """Whether every point is back in its place after a full turn of the first drive."""
     there = follow(scene, 2, (0.0, 360.0)).points
     return all(abs(z[1] - z[0]) <= BACK * extent(scene) for z in there.values())
-
-
-def _reached(turn: Turn) -> Any:
-    """The poses in which every point has its place."""
-    return np.all([np.isfinite(z) for z in turn.points.values()], axis=0)
 
 
 def _forms(drawing: Construction, method: str, plan: str, inertia: str) -> Iterator[tuple[str, Construction]]:

@@ -10,7 +10,7 @@ from typing import Any
 
 from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Results, plain
-from graphplan.mechanism.model import FRAME, Balance, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot
@@ -88,10 +88,11 @@ def force_truth(scene: Scene, results: Results, found: Reactions,
     slides, moments = ({name: both[k] for name, both in found.slides.items()} for k in (0, 1))
     told: dict[str, Any] = {
         kinds.REACTION: joints, kinds.SLIDE_REACTION: slides, kinds.SLIDE_MOMENT: moments, kinds.SLIDE_ARM: arms}
+    named = asked(scene).named_balances
     for way in kinds.BY_PLANS, kinds.BY_LEVER, kinds.RUBBED:
         last = found if way != kinds.RUBBED else rough
-        for name, value in balances_named(scene, last.balances).items() if last else ():
-            told.setdefault(kinds.balance_kind(way, named_balances(scene)[name]), {})[name] = value
+        for (name, balance), value in zip(named.items(), last.balances, strict=True) if last else ():
+            told.setdefault(kinds.balance_kind(way, balance), {})[name] = value
     return told | powers(found.balances)
 
 
@@ -101,16 +102,6 @@ def powers(found: Iterable[Any]) -> dict[str, dict[str, Any]]:
     for number, value in enumerate(found, 1):
         told[kinds.POWER if isinstance(value, tuple) else kinds.POWER_MOMENT][str(number)] = value
     return told
-
-
-def balances_named(scene: Scene, values: Iterable[Any]) -> dict[str, Any]:
-    """What is said of each balance in the scene's order, by its name."""
-    return dict(zip(named_balances(scene), values, strict=True))
-
-
-def named_balances(scene: Scene) -> dict[str, Balance]:
-    """The balances of the scene in its order, by their names."""
-    return scene.loads.named_balances if scene.loads else {}
 
 
 def _arm(slide: Slide, scene: Scene, found: Reactions) -> Any:
@@ -137,7 +128,7 @@ class Forces:
 
     def named(self, values: Iterable[Any]) -> dict[str, Any]:
         """What is said of each balance in the scene's order, by its name."""
-        return balances_named(self.scene, values)
+        return dict(zip(asked(self.scene).named_balances, values, strict=True))
 
     @property
     def asked(self) -> list[tuple[str, str, str]]:

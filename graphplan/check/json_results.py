@@ -103,16 +103,12 @@ def _friction(found: Report, forces: Forces) -> dict[str, Any]:
     """The balances with friction and the efficiency: as drawn, in so many rounds, and where further rounds stand."""
     if not forces.rubbed:
         return {}
-    told = {"balance": _balances(found, forces.rubbed), "efficiency": _efficiency(forces.efficiency),
+    told = {"balance": _balances(found, forces.rubbed), "efficiency": _number(forces.efficiency),
             "rounds": forces.rounds}
     if not forces.bounded:
         told["stands"] = {"balance": _balances(found, forces.named(forces.standing.balances)),
-                          "efficiency": _efficiency(forces.standing.efficiency)}
+                          "efficiency": _number(forces.standing.efficiency)}
     return {"friction": told}
-
-
-def _efficiency(value: Any) -> Any:
-    return None if value is None else _number(value)
 
 
 def _merged(found: Report, names: Iterable[str], **kinds: str) -> dict[str, Any]:
@@ -134,7 +130,7 @@ def _balances(found: Report, values: Mapping[str, Any]) -> list[dict[str, Any]]:
 
 
 def _number(value: Any) -> Any:
-    """A number as JSON takes it: floats as they are, fractions as a string p/q."""
+    """A number as JSON takes it: floats as they are, fractions as a string p/q, none as null."""
     if isinstance(value, tuple):
         return [_number(part) for part in value]
-    return str(value) if isinstance(value, Fraction) else value + 0.0
+    return str(value) if isinstance(value, Fraction) else None if value is None else value + 0.0

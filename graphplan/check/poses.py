@@ -10,16 +10,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
-from graphplan.check.compared import (
-    CLOSE,
-    NOTHING,
-    compared,
-    drawn_sizes,
-    each,
-    plain,
-    sliding,
-    weight,
-)
+from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, sliding, weight
 from graphplan.check.opinion import by_part, opinion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
@@ -43,6 +34,12 @@ class Round:
     points: Mapping[str, Any]
     guides: Mapping[str, Any]
 
+    @classmethod
+    def reached(cls, scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Round:
+        """The poses in which every point has its place."""
+        there = np.all([np.isfinite(z) for z in points.values()], axis=0)
+        return cls(scene, np.arange(there.size), points, guides).some(there)
+
     def some(self, kept: Any) -> Round:
         """Those of the poses that a mask or a slice keeps."""
         points, guides = ({name: z[kept] for name, z in arrays.items()} for arrays in (self.points, self.guides))
@@ -56,10 +53,9 @@ class Round:
 
 def checked(drawing: Construction, points: Mapping[str, Any], guides: Mapping[str, Any]) -> dict[str, Any]:
     """Where points are in the poses in which the construction agrees with the solver; nan in others."""
-    count = len(next(iter(points.values())))
-    there = np.all([np.isfinite(z) for z in points.values()], axis=0)
-    part = Round(drawing.scene, np.arange(count), points, guides).some(there)
+    part = Round.reached(drawing.scene, points, guides)
     results = drawing.evaluate(part.points, part.guides).results
+    there = np.zeros(len(next(iter(points.values()))), dtype=bool)
     there[part.places] = sound(part, drawing, results, gaps(part, drawing, results))
     return {name: np.where(there, z, np.nan) for name, z in points.items()}
 
@@ -89,13 +85,11 @@ def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any
     least = {kind: NOTHING * size for kind, size in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():
-            numbers = each(truth[kind][name])
+            group, numbers = kind_of(kind).group, each(truth[kind][name])
             true = numbers[0].value if len(numbers) == 1 else numbers[0].value + 1j * numbers[1].value
-            size = np.full(n, least[kind_of(kind).group] / weight(drawing, kind))
             besides = _read_from(scene, truth, kind, name), sliding(scene, truth, kind, name)
-            for number in (*(number.size for number in numbers), *besides):
-                size = np.maximum(size, number)
-            group = kind_of(kind).group
+            sizes = np.full(n, least[group] / weight(drawing, kind)), *(number.size for number in numbers), *besides
+            size = np.max(np.broadcast_arrays(*sizes), axis=0)
             apart[group] = np.maximum(apart[group], np.abs(value - true) / size)
     return apart
 

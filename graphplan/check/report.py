@@ -52,8 +52,7 @@ class Report:
     def _largest(self, part: str) -> dict[str, Any]:
         found: dict[str, Any] = {}
         for kind in (*MOTION, FORCES):
-            values = [number.beside(part) for reading, named in self.numbers.items() if kind_of(reading).group == kind
-                      for vector in named.values() for number in vector]
+            values = [number.beside(part) for reading, _, number in self._all if kind_of(reading).group == kind]
             if values or (kind == FORCES and self.forces is not None):
                 found[kind] = max(values, default=0)
         return found

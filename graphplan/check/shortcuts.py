@@ -19,7 +19,7 @@ from itertools import combinations
 
 from graphplan.kernel.kinds import Movement
 from graphplan.kernel.program import Step
-from graphplan.mechanism.model import Mass, Scene
+from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import N_PLAN
@@ -113,17 +113,13 @@ class Replacement:
 
 def replacements(scene: Scene) -> Iterator[Replacement]:
     """For each link with mass and inertia whose centre lies between two of its joints, what replacing it would cost."""
-    masses = scene.loads.masses if scene.loads else {}
-    for link, mass in masses.items():
-        joints = [point for point in scene.links[link] if point in scene.joints and point != mass.centre]
-        if mass.mass and mass.inertia:
-            yield from _between(scene, link, mass, joints)
-
-
-def _between(scene: Scene, link: str, mass: Mass, joints: list[str]) -> Iterator[Replacement]:
     places = {name: (float(x), float(y)) for name, (x, y) in scene.points.items()}
-    radius2 = float(mass.inertia / mass.mass * metre(scene.units) ** 2)
-    for A, B in combinations(joints, 2):
-        a, b = (math.dist(places[mass.centre], places[joint]) for joint in (A, B))
-        if a + b <= math.dist(places[A], places[B]) * (1 + STRAIGHT):
-            yield Replacement(link, (A, B), a * b / radius2 - 1)
+    for link, mass in (scene.loads.masses if scene.loads else {}).items():
+        if not mass.mass or not mass.inertia:
+            continue
+        radius2 = float(mass.inertia / mass.mass * metre(scene.units) ** 2)
+        joints = [point for point in scene.links[link] if point in scene.joints and point != mass.centre]
+        for A, B in combinations(joints, 2):
+            a, b = (math.dist(places[mass.centre], places[joint]) for joint in (A, B))
+            if a + b <= math.dist(places[A], places[B]) * (1 + STRAIGHT):
+                yield Replacement(link, (A, B), a * b / radius2 - 1)

@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import hand_at
+from graphplan.accuracy.hand import hand as hand_of
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, OPENING, POINT
@@ -52,7 +52,7 @@ def draw(drawing: Construction, where: Mapping[str, PlanFrame], pencil: Pencil, 
          wrong: Mapping[int, Mistake] | None = None) -> Drawn:
     """The construction drawn by a hand; `wrong` says what some steps become, of the values drawn before."""
     rng = np.random.default_rng(seed)
-    hand = hand_at(drawing, lambda panel: 1 / abs(where[panel].unit), pencil)
+    hand = hand_of(drawing, lambda panel: 1 / abs(where[panel].unit), pencil)
     drawn: list[Any] = []
     for step in drawing.drawn.steps:
         try:

@@ -52,39 +52,10 @@ def _crossing(a: complex, b: complex, c: complex, d: complex) -> complex:
     return a + u * (w.conjugate() * v).imag / (u.conjugate() * v).imag
 
 
-def _parallel_bars(p: Places, d: float) -> Places:
-    return {"K": p["A"] - _along(abs(p["A"] - p["K"]), p["B"] - p["L"], d)}
-
-
-def _dead_centre(p: Places, d: float) -> Places:
-    half = (p["C"] - p["A"]) / 2
-    return {"B": p["A"] + half * (1.1 + 1j * d)}
-
-
 def _on_the_line_of_poles(p: Places, d: float) -> Places:
     Q = _crossing(p["K"], p["A"], p["L"], p["B"])
     R = _crossing(p["M"], p["D"], p["N"], p["E"])
     return {"C": Q + (R - Q) * (0.45 + 1j * d)}
-
-
-def _no_relative_velocity(p: Places, d: float) -> Places:
-    return {"C": p["B"] - _along(abs(p["B"] - p["C"]), p["A"] - p["O"], d)}
-
-
-def _joints_coincide(p: Places, d: float) -> Places:
-    return {"B": p["A"] + d * (p["B"] - p["A"])}
-
-
-def _long_rocker(p: Places, d: float) -> Places:
-    return {"C": p["B"] + (p["C"] - p["B"]) / max(d, 1e-300)}
-
-
-def _short_crank(p: Places, d: float) -> Places:
-    return {"O": p["A"] + d * (p["O"] - p["A"])}
-
-
-def _pole_of_a_ring(p: Places, d: float) -> Places:
-    return {"E": p["F"] + _along(abs(p["E"] - p["F"]), p["G"] - p["D"], d)}
 
 
 def _slot_across_the_crank(p: Places, d: float) -> Places:
@@ -94,16 +65,20 @@ def _slot_across_the_crank(p: Places, d: float) -> Places:
 
 DEGENERACIES = (
     Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic",
-               _parallel_bars),
+               lambda p, d: {"K": p["A"] - _along(abs(p["A"] - p["K"]), p["B"] - p["L"], d)}),
     Degeneracy("pole at infinity", "FE turned towards DG: the relative pole of links 2 and 5 goes far away",
-               "class-four", _pole_of_a_ring),
-    Degeneracy("dead centre", "B brought to the line AC: coupler and rocker stretched", "four-bar", _dead_centre),
+               "class-four", lambda p, d: {"E": p["F"] + _along(abs(p["E"] - p["F"]), p["G"] - p["D"], d)}),
+    Degeneracy("dead centre", "B brought to the line AC: coupler and rocker stretched", "four-bar",
+               lambda p, d: {"B": p["A"] + (p["C"] - p["A"]) / 2 * (1.1 + 1j * d)}),
     Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", _on_the_line_of_poles),
     Degeneracy("no relative velocity", "the rocker turned parallel to the crank: the coupler moves straight on",
-               "four-bar", _no_relative_velocity),
+               "four-bar", lambda p, d: {"C": p["B"] - _along(abs(p["B"] - p["C"]), p["A"] - p["O"], d)}),
     Degeneracy("no turning", "the slot turned square to the crank: guide and Coriolis vector stand still",
                "slotted-link", _slot_across_the_crank),
-    Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic", _joints_coincide),
-    Degeneracy("long rocker", "the rocker 1/d times as long", "four-bar", _long_rocker),
-    Degeneracy("short crank", "the crank d times as long", "four-bar", _short_crank),
+    Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic",
+               lambda p, d: {"B": p["A"] + d * (p["B"] - p["A"])}),
+    Degeneracy("long rocker", "the rocker 1/d times as long", "four-bar",
+               lambda p, d: {"C": p["B"] + (p["C"] - p["B"]) / max(d, 1e-300)}),
+    Degeneracy("short crank", "the crank d times as long", "four-bar",
+               lambda p, d: {"O": p["A"] + d * (p["O"] - p["A"])}),
 )

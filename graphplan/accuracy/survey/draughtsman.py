@@ -11,7 +11,7 @@ from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.preference import Form, forms
+from graphplan.accuracy.preference import forms
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, grouped
 from graphplan.mechanism.model import Scene
 from graphplan.methods.styles import MOTION_PLANS
@@ -38,30 +38,26 @@ class Draft:
     why: str = ""
 
 
-def drafts(scene: Scene, pencil: Pencil, long: bool = True, paper: str = PAPER) -> list[Draft]:
+def drafts(scene: Scene, pencil: Pencil, long: bool = True) -> list[Draft]:
     """Every form of a scene, those on the front marked; without `long` loaded scenes are not drawn strictly."""
-    found = list(_drawn(scene, pencil, long, paper))
+    found = list(_drawn(scene, pencil, long))
     best = front([(one.operations, one.error) for one in found if one.operations is not None and one.error])
     return [replace(one, front=(one.operations, one.error) in best) for one in found]
 
 
-def _drawn(scene: Scene, pencil: Pencil, long: bool, paper: str) -> Iterator[Draft]:
+def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
     for tools in (SQUARES, STRICT):
         for plan in MOTION_PLANS:
             if tools == STRICT and scene.loads is not None and not long:
-                yield Draft(scene.name, "every method", plan, tools, paper, None, None, why=LONG)
+                yield Draft(scene.name, "every method", plan, tools, PAPER, None, None, why=LONG)
                 continue
-            for form in forms(scene, pencil, plan=plan, strict=tools == STRICT, paper=paper):
-                yield _draft(scene, form, plan, tools, paper)
-
-
-def _draft(scene: Scene, form: Form, plan: str, tools: str, paper: str) -> Draft:
-    """One form's place on the board."""
-    one = form.drafted
-    if one is None:
-        return Draft(scene.name, form.name, plan, tools, paper, None, None, why=str(form.refusal))
-    why = "" if one.error else "every result is nothing"
-    return Draft(scene.name, form.name, plan, tools, paper, one.operations, one.error or None, why=why)
+            for form in forms(scene, pencil, plan=plan, strict=tools == STRICT, paper=PAPER):
+                one, place = form.drafted, (scene.name, form.name, plan, tools, PAPER)
+                if one is None:
+                    yield Draft(*place, None, None, why=str(form.refusal))
+                else:
+                    yield Draft(*place, one.operations, one.error or None,
+                                why="" if one.error else "every result is nothing")
 
 
 def front(places: Sequence[tuple[int, float]]) -> list[tuple[int, float]]:
@@ -73,8 +69,7 @@ def front(places: Sequence[tuple[int, float]]) -> list[tuple[int, float]]:
     return best
 
 
-MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up",
-           "poles": "diamond"}
+MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
 FRONT = Look(INK, width=0.25)
@@ -89,9 +84,8 @@ REMARKS = (
 def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     """The chart of these drafts, drawn with a pencil."""
     panels = tuple(_panel(scene, of) for scene, of in grouped(rows, "scene").items())
-    remarks = REMARKS.format(paper=rows[0].paper if rows else "", pencil=pencil)
-    return Chart("The draughtsman: operations against pencil error", remarks, panels,
-                 6, (44.0, 36.0), tuple(_key()))
+    remarks = REMARKS.format(paper=PAPER, pencil=pencil)
+    return Chart("The draughtsman: operations against pencil error", remarks, panels, 6, (44.0, 36.0), tuple(_key()))
 
 
 def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:

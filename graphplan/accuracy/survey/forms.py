@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import groupby
-from typing import Any
 
 import numpy as np
 
@@ -91,28 +90,19 @@ def _constructed(scene: Scene, form: str) -> Construction:
 def _measured(scene: Scene | None, form: str, scales: Scales | GraphplanError, pencil: Pencil,
               fault: str) -> tuple[dict[str, float], str]:
     """What a form is worth in one pose by each measure that there is, and why one is missing."""
-    values = dict[str, float]()
     if scene is None:
-        return values, fault
+        return {}, fault
+    values, why = dict[str, float](), ""
     try:
         drawing = _constructed(scene, form)
         values[ROUNDING] = growth_of_rates(drawing)
         if isinstance(scales, GraphplanError):
             raise scales
-        values[PENCIL] = _error(drawing, scales, pencil)
+        results = first_order(drawing, hand(drawing, scales.of, pencil), scales)
+        values[PENCIL] = max((result.relative or 0.0 for result in results), default=0.0)
     except GraphplanError as refusal:
-        return _finite(values), refusal.lines[0]
-    return _finite(values), ""
-
-
-def _finite(values: dict[str, Any]) -> dict[str, float]:
-    return {measure: value for measure, value in values.items() if np.isfinite(value)}
-
-
-def _error(drawing: Construction, scales: Scales, pencil: Pencil) -> float:
-    """The largest expected error of any result beside the largest of its kind, at these scales."""
-    results = first_order(drawing, hand(drawing, scales, pencil), scales)
-    return max((result.relative for result in results if result.relative is not None), default=0.0)
+        why = refusal.lines[0]
+    return {measure: value for measure, value in values.items() if np.isfinite(value)}, why
 
 
 ANY = "any method"

@@ -113,16 +113,13 @@ REMARKS = (
 def picture(rows: Sequence[Stage]) -> Chart:
     """The chart of these stages."""
     times = SubChart("time", Axis("links"), Axis("time, in single poses of four links solved"), tuple(
-        _times(look, [row for row in rows if row.stage == stage]) for stage, look in LOOKS.items()))
+        Series(look, tuple((row.links, row.time) for row in rows if row.stage == stage),
+               tuple(((row.links, row.low), (row.links, row.high)) for row in rows if row.stage == stage))
+        for stage, look in LOOKS.items()))
     counts = sorted({(row.links, row.steps) for row in rows})
     steps = SubChart("size of the program", Axis("links"), Axis("steps"), (Series(STEPS, tuple(counts)),))
     return Chart("Growth with the number of links", REMARKS, (times, steps), 2, (120.0, 90.0),
                  (*((_told(rows, stage), look) for stage, look in LOOKS.items()), (_steps(counts), STEPS)))
-
-
-def _times(look: Look, rows: Sequence[Stage]) -> Series:
-    return Series(look, tuple((row.links, row.time) for row in rows),
-                  tuple(((row.links, row.low), (row.links, row.high)) for row in rows))
 
 
 def _told(rows: Sequence[Stage], stage: str) -> str:

@@ -7,7 +7,7 @@ scene's own, enlarged by up to a fiftieth: as good a mechanism each, and other r
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from functools import cached_property, partial
@@ -88,11 +88,11 @@ class Setting:
         """What is true in the sampled poses."""
         return [truth(placed(self.scene, pose)) for pose in self.sampled]
 
-    def given(self, drawing: Construction, lift: Callable[[float], Any]) -> list[dict[str, dict[str, Any]]]:
-        """The coordinates of the sampled poses, as a construction is given them."""
-        names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
-        return [{name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
-                for pose in self.sampled]
+
+def _given(drawing: Construction, lift: Callable[[Any], Any], pose: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The coordinates of a pose, or of arrays of poses, as a construction is given them."""
+    names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
+    return {name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
 
 
 def measures(scene: Scene, compiled: bool = True) -> Iterator[Measure]:
@@ -102,7 +102,8 @@ def measures(scene: Scene, compiled: bool = True) -> Iterator[Measure]:
     for key, made in _offered(setting, compiled):
         try:
             run = made()
-            errors[key] = _error(setting, run)
+            found = run.call()
+            errors[key] = max(error_of(run.read(found, j), true) for j, true in enumerate(setting.truths))
             runs[key] = run
         except GraphplanError as refusal:
             yield Measure(scene.name, *key, None, None, None, None, refusal.lines[0])
@@ -111,40 +112,30 @@ def measures(scene: Scene, compiled: bool = True) -> Iterator[Measure]:
         yield Measure(scene.name, *key, middle, low, high, errors[key])
 
 
-def _error(setting: Setting, run: Run) -> float:
-    """The largest error in the sampled poses."""
-    found = run.call()
-    return max(error_of(run.read(found, j), true) for j, true in enumerate(setting.truths))
-
-
 def _offered(setting: Setting, compiled: bool) -> Iterator[tuple[Key, Callable[[], Run]]]:
     """Everything that is measured: the solver's runs, then those of every form."""
     for name, solver in SOLVERS.items():
         yield ("", "", name), partial(solver, setting)
     for form, plan, drawn in forms(setting.scene):
         for name, arithmetic in ARITHMETICS.items():
-            if isinstance(drawn, GraphplanError):
-                yield (form, plan, name), partial(_refused, drawn)
-            elif name == COMPILED and not compiled:
-                yield (form, plan, name), partial(_refused, Refused(COMPILED, "compiling takes seconds a form",
-                                                                    "name the scene with --scenes"))
-            else:
-                yield (form, plan, name), partial(arithmetic, setting, drawn)
+            left_out = name == COMPILED and not compiled
+            yield (form, plan, name), partial(_drawn, partial(arithmetic, setting), drawn, left_out)
 
 
-def _refused(refusal: GraphplanError) -> Run:
-    raise refusal
+def _drawn(arithmetic: Callable[[Construction], Run], drawn: Construction | GraphplanError, left_out: bool) -> Run:
+    """An arithmetic at work on a form; fails where the form is refused, and where it takes too long."""
+    if isinstance(drawn, GraphplanError):
+        raise drawn
+    if left_out:
+        raise Refused(COMPILED, "compiling takes seconds a form", "name the scene with --scenes")
+    return arithmetic(drawn)
 
 
 def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanError]]:
     """The programs to which all methods lead, on both kinds of plan, by the methods' names; or why there is none."""
     for plan in MOTION_PLANS:
-        for names, one in led_to(partial(_constructed, scene, plan), lambda drawing: drawing.program):
+        for names, one in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
             yield called(names), plan, one
-
-
-def _constructed(scene: Scene, plan: str, method: str) -> Construction:
-    return construct(scene, method=method, plan=plan)
 
 
 # ---- the construction's arithmetics ----------------------------------------------------------------------------
@@ -155,10 +146,9 @@ def _each(one: Callable[[Any], Any], poses: Sequence[Any], read: Callable[[Any],
     return Run(lambda: [one(pose) for pose in poses], SAMPLED, lambda found, j: read(found[j]))
 
 
-def _walked(domain: Callable[[], Domain], lift: Callable[[float], Any], setting: Setting,
-            drawing: Construction) -> Run:
+def _walked(domain: Callable[[], Domain], lift: Callable[[float], Any], setting: Setting, drawing: Construction) -> Run:
     """The rules, one pose after the other."""
-    return _each(lambda numbers: drawing.read(domain(), numbers), setting.given(drawing, lift))
+    return _each(lambda pose: drawing.read(domain(), pose), [_given(drawing, lift, pose) for pose in setting.sampled])
 
 
 def _replayed(setting: Setting, drawing: Construction) -> Run:
@@ -168,8 +158,7 @@ def _replayed(setting: Setting, drawing: Construction) -> Run:
 
 def _by_rules(setting: Setting, drawing: Construction) -> Run:
     """The rules, on arrays of all poses."""
-    names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
-    given = {name: {"x": z.real.copy(), "y": z.imag.copy()} for name, z in setting.points.items() if name in names}
+    given = _given(drawing, np.copy, setting.points)
     return Run(lambda: drawing.read(Arrays(), given), POSES, partial(_pairs_at, setting))
 
 
@@ -196,7 +185,7 @@ def _enclosed(setting: Setting, drawing: Construction) -> Run:
         raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
     from graphplan.kernel.numbers.enclosures import Enclosures, precision
 
-    given = setting.given(drawing, Fraction)
+    given = [_given(drawing, Fraction, pose) for pose in setting.sampled]
 
     def call() -> list[Results]:
         with precision(DIGITS_IN_BITS):
@@ -249,9 +238,9 @@ def _solved_exactly(setting: Setting) -> Run:
 
 
 SOLVERS: dict[str, Callable[[Setting], Run]] = {
-    SOLVER: _solved, LAPACK: _solved_at_once, EXACT_SOLVER: _solved_exactly,
-}
+    SOLVER: _solved, LAPACK: _solved_at_once, EXACT_SOLVER: _solved_exactly}
 
+# ---- the picture ------------------------------------------------------------------------------------------------
 
 SHOWN = ("alt-eight-link", "class-four", "shaper")  # by themselves, where they are among the scenes
 PROVEN = 1e-20  # errors below this are those of enclosures
@@ -272,18 +261,12 @@ def picture(rows: Sequence[Measure]) -> Chart:
     """The chart of these measures."""
     scenes = grouped(rows, "scene")
     shown = [scene for scene in scenes if scene in SHOWN] or list(scenes)[:1]
-    panels = [SubChart(scene, TIME, ERROR, tuple(_alone(scenes[scene]))) for scene in shown]
+    panels = [SubChart(scene, TIME, ERROR, tuple(
+        Series(look(row), ((row.time, _level(row.error)),)) for row in scenes[scene]
+        if row.time is not None and row.error is not None)) for scene in shown]
     if len(scenes) > 1:
         panels.append(SubChart(f"median of {len(scenes)} scenes", TIME, ERROR, tuple(_median(rows))))
-    return Chart("The machine: time against error", REMARKS, tuple(panels), 2,
-                 (140.0, 85.0), tuple(_key()))
-
-
-def _alone(rows: Iterable[Measure]) -> Iterable[Series]:
-    """Each measure of a scene as a mark."""
-    for row in rows:
-        if row.time is not None and row.error is not None:
-            yield Series(look(row), ((row.time, _level(row.error)),))
+    return Chart("The machine: time against error", REMARKS, tuple(panels), 2, (140.0, 85.0), tuple(_key()))
 
 
 def _median(rows: Sequence[Measure]) -> Iterable[Series]:

@@ -122,10 +122,10 @@ REMARKS = (
 
 def picture(rows: Sequence[Sample]) -> Chart:
     """The chart of these samples."""
-    about = {degeneracy.name: degeneracy.what for degeneracy in DEGENERACIES}
+    about = {way.name: way.what for way in DEGENERACIES}
     panels = tuple(_panel(f"{name} – {about[name]}", of) for name, of in grouped(rows, "degeneracy").items())
-    return Chart("Stability: error near the places where methods fail", REMARKS, panels,
-                 3, (116.0, 70.0), tuple(_key()))
+    return Chart("Stability: error near the places where methods fail", REMARKS, panels, 3, (116.0, 70.0),
+                 tuple(_key()))
 
 
 def _panel(title: str, rows: Sequence[Sample]) -> SubChart:

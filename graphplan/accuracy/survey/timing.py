@@ -6,24 +6,17 @@ import math
 from collections.abc import Callable, Mapping
 from statistics import quantiles
 from time import perf_counter
-from typing import NamedTuple, TypeVar
+from typing import TypeVar
 
 ROUNDS = 5
 LONG_ENOUGH = 2e-3  # seconds: shorter runs are repeated within one measurement
 
 Key = TypeVar("Key")
-
-
-class Spread(NamedTuple):
-    """The median of some measurements, between their quartiles."""
-
-    low: float
-    middle: float
-    high: float
+Quartiles = tuple[float, float, float]  # the middle one is the median
 
 
 def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
-           rounds: int = ROUNDS) -> dict[Key, Spread]:
+           rounds: int = ROUNDS) -> dict[Key, Quartiles]:
     """The time of each run for one of the things that it does, over that of the run `unit` in the same round.
 
     Reads each run with how many things it does; every run is called once beforehand, to warm up.
@@ -37,9 +30,10 @@ def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
     return {name: spread(values) for name, values in found.items()}
 
 
-def spread(values: list[float]) -> Spread:
+def spread(values: list[float]) -> Quartiles:
     """The quartiles of some numbers."""
-    return Spread(*quantiles(values, n=4, method="inclusive")) if len(values) > 1 else Spread(*values * 3)
+    low, middle, high = quantiles(values, n=4, method="inclusive") if len(values) > 1 else values * 3
+    return low, middle, high
 
 
 def spent(run: Callable[[], object], repeats: int = 1) -> float:

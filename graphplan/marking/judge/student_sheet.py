@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.accuracy.hand import Hand, hand_at
+from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
@@ -127,7 +127,7 @@ class StudentSheet:
     @cached_property
     def hand(self) -> Hand:
         """The hand that draws it at the scales of the sheet."""
-        return hand_at(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)
+        return hand(self.drawing, lambda panel: 1 / self.mm(panel), self.pencil)
 
     def frame(self, step: Step) -> PlanFrame:
         """Where the plan of a step lies."""

@@ -85,13 +85,9 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
     drawn = drawing.drawn
     crossings = [Crossing(drawn.number(step.index), drawn.text(step.index), crossing(step, drawing.values))
                  for step in drawn.steps if step.op.crossing]
-    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), _off_sheet(composition))
-
-
-def _off_sheet(composition: Composition) -> tuple[int, ...]:
-    """The steps whose points lie outside the paper of their plans."""
-    points = (drawn for drawn in composition.plates.steps if drawn.kind == POINT)
-    return tuple(point.number for point in points if not point.view.rect.holds(point.at))
+    points = (plate for plate in composition.plates.steps if plate.kind == POINT)
+    off_sheet = tuple(point.number for point in points if not point.view.rect.holds(point.at))
+    return Cost(counts(drawn), len(drawn) - drawn.givens, tuple(crossings), off_sheet)
 
 
 @dataclass(frozen=True)

@@ -45,7 +45,7 @@ CHARTS = {
     "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
         scene, compiled=named or scene.name == BIG)),
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
-    "stability": Survey("Sample", lambda module: module.everything(), "{0.degeneracy}"),
+    "stability": Survey("Sample", lambda module: module.samples(*module.DEGENERACIES), "{0.degeneracy}"),
     "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
     "growth": Survey("Stage", lambda module: module.stages(), "{0.links} links"),
 }

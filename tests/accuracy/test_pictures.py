@@ -48,7 +48,7 @@ def test_every_mark_is_a_row_of_its_table() -> None:
         (40.0, 3.0), (40.0, 2.0), (90.0, 2.0), (90.0, 1.0), (95.0, 1.0))
     assert "(1 not drawn)" in chart.panels[0].title
     assert marks(machine.picture(MEASURES)) == 3
-    samples = list(stability.samples(DEGENERACIES[2], (1.0, 1e-3, 0.0)))
+    samples = list(stability.samples(DEGENERACIES[2], distances=(1.0, 1e-3, 0.0)))
     assert marks(stability.picture(samples)) == len(samples)
 
 

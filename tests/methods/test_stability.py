@@ -22,7 +22,7 @@ DISTANCES = (1.0, 3e-1, 3e-2, 3e-3, 3e-4, 1e-5, 1e-7, 1e-9, 1e-12, 1e-15, 0.0)
 @pytest.mark.parametrize("degeneracy", DEGENERACIES, ids=lambda degeneracy: str(degeneracy.name))
 def test_the_default_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) -> None:
     """Towards each special pose the default choice loses no more than the mechanism, or says that it is singular."""
-    for sample in samples(degeneracy, DISTANCES):
+    for sample in samples(degeneracy, distances=DISTANCES):
         if sample.method == "chosen by the pose":
             assert sample.roundings is None or sample.roundings <= MOST
             assert sample.error is not None or "singular" in sample.why
@@ -31,7 +31,7 @@ def test_the_default_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) 
 def test_parallel_bars_have_no_auxiliary_point_and_lose_nothing() -> None:
     """With the bars turned parallel by degrees down to nothing, naming a form changes the drawing and no number."""
     bars = DEGENERACIES[0]
-    for sample in samples(bars, tuple(10.0**-k for k in range(17))):
+    for sample in samples(bars, distances=tuple(10.0**-k for k in range(17))):
         assert sample.roundings is not None
         assert sample.roundings <= MOST
 

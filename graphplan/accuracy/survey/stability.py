@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
+from itertools import product
 from typing import Any
 
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
@@ -50,9 +51,9 @@ class Sample:
         return None if self.error is None else self.error / (EPSILON * self.condition)
 
 
-def samples(degeneracy: Degeneracy, distances: tuple[float, ...] = DISTANCES) -> Iterator[Sample]:
-    """Every method at every distance from a special pose."""
-    for d in distances:
+def samples(*degeneracies: Degeneracy, distances: tuple[float, ...] = DISTANCES) -> Iterator[Sample]:
+    """Every method at every distance from special poses."""
+    for degeneracy, d in product(degeneracies, distances):
         scene = degeneracy.at(d)
         truth = exact(scene)
         for name, choices in METHODS.items():
@@ -91,12 +92,6 @@ def error_of(results: dict[str, dict[str, Any]], truth: Any) -> float:
                    for ours, true in zip(value, known[name], strict=True)), default=0)
         worst = max(worst, float(gap / largest) if largest else 0.0)
     return worst
-
-
-def everything() -> Iterator[Sample]:
-    """All degeneracies, methods and distances."""
-    for degeneracy in DEGENERACIES:
-        yield from samples(degeneracy)
 
 
 MOST = 100  # roundings of the mechanism's own condition that the default may lose

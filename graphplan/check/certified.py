@@ -18,8 +18,7 @@ from typing import Any
 from graphplan.check.arithmetics import enclosures
 from graphplan.check.compared import drawn_sizes, each, weight
 from graphplan.check.json_results import data
-from graphplan.check.opinion import Opinion, opinion
-from graphplan.check.report import Report
+from graphplan.check.report import Opinion, Report, opinion
 from graphplan.check.trusted import first_sound, report
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, precision

@@ -11,7 +11,7 @@ import numpy as np
 
 from graphplan.check.arithmetics import FLOATS
 from graphplan.check.compared import CLOSE, NOTHING, compared, drawn_sizes, each, plain, sliding, weight
-from graphplan.check.opinion import by_part, opinion
+from graphplan.check.report import by_part, opinion
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction

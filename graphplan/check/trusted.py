@@ -17,8 +17,7 @@ from typing import Any, TypeVar
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, enclosures
 from graphplan.check.compared import compared, printed, rounded
-from graphplan.check.opinion import Opinion, opinion
-from graphplan.check.report import Report
+from graphplan.check.report import Opinion, Report, opinion
 from graphplan.errors import ConstructionError, Refused, SingularPose, by_name
 from graphplan.kernel.kinds import Movement, Primitive
 from graphplan.kernel.numbers import Domain

@@ -48,8 +48,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.check.curves import asking, curves, quantities
-    from graphplan.check.cycle import cycle
+    from graphplan.check.cycle import asking, curves, cycle, quantities
 
     if (options.start is None) != (options.end is None):
         raise Refused("range", "only one of --from and --to is given", "both, or neither for a full turn")

@@ -12,10 +12,9 @@ import pytest
 
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.survey import forms
-from graphplan.accuracy.survey.binary import binary, truth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts, front
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
-from graphplan.accuracy.survey.machine import ARITHMETICS, COMPILED, LAPACK, SOLVERS, Measure, measures
+from graphplan.accuracy.survey.machine import ARITHMETICS, COMPILED, LAPACK, SOLVERS, Measure, binary, measures, truth
 from graphplan.accuracy.survey.picture import table
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load

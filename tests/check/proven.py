@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from fractions import Fraction
 
-from graphplan.check.opinion import by_part
-from graphplan.check.report import Report
+from graphplan.check.report import Report, by_part
 from graphplan.mechanism.model import Scene
 from graphplan.solver import reactions, solve
 

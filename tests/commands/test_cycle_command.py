@@ -13,8 +13,7 @@ import numpy as np
 import pytest
 
 import graphplan as gp
-from graphplan.check.curves import asking, curves, quantities
-from graphplan.check.cycle import cycle
+from graphplan.check.cycle import asking, curves, cycle, quantities
 from graphplan.commands import main
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction

@@ -8,7 +8,7 @@ scene's own, enlarged by up to a fiftieth: as good a mechanism each, and other r
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from importlib.util import find_spec
@@ -17,7 +17,6 @@ from typing import Any
 import numpy as np
 
 from graphplan.accuracy.preference import called, led_to
-from graphplan.accuracy.survey.binary import binary, placed, truth
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
 from graphplan.accuracy.survey.stability import error_of
 from graphplan.accuracy.survey.timing import ratios, spread
@@ -25,7 +24,7 @@ from graphplan.errors import GraphplanError, Refused
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Find, Motion, Pair, Scene, Slide
 from graphplan.methods.construct import construct
 from graphplan.methods.construction import Construction
 from graphplan.methods.styles import MOTION_PLANS
@@ -35,6 +34,7 @@ from graphplan.solver import Rates, poses, solve
 POSES = 4096  # at once
 SAMPLED = 5
 LARGER = 1.02
+BITS = 256  # of enclosures that stand for the truth: some 70 digits
 DIGITS_IN_BITS = 164  # 30 digits, with bits to spare as `solve --digits` takes
 
 SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
@@ -136,6 +136,62 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Construction | GraphplanErro
     for plan in MOTION_PLANS:
         for names, one in led_to(partial(construct, scene, plan=plan), lambda drawing: drawing.program):
             yield called(names), plan, one
+
+
+# ---- scenes in the binary numbers that a machine holds: each float is taken as the fraction that it is ----------
+
+
+def binary(scene: Scene) -> Scene:
+    """The motion of a scene in binary fractions: velocities and accelerations of the points asked for, or of all."""
+    joints = scene.find.velocity or scene.joints
+    driven = scene.with_drives(drive.driven_at(*_pair(drive.rates)) for drive in scene.drives)
+    found = replace(driven, irrational=(), placements={}, loads=None,
+                    find=Find(joints, scene.find.acceleration or joints),
+                    motions={name: Motion(_pair(m.velocity), _pair(m.acceleration))
+                             for name, m in scene.motions.items()})
+    return placed(found, {})
+
+
+def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
+    """A binary scene with some points elsewhere; guides through two points turn with them."""
+    points: dict[str, Pair] = {name: _pair(at) for name, at in scene.points.items()}
+    points |= {name: (Fraction(z.real), Fraction(z.imag)) for name, z in places.items()}
+
+    def direction(slide: Slide) -> tuple[Fraction, Fraction]:
+        if slide.through is None:
+            return _pair(slide.direction)
+        (ax, ay), (bx, by) = (_pair(points[name]) for name in slide.through)
+        return bx - ax, by - ay
+
+    return scene.posed(points, direction)
+
+
+def truth(scene: Scene) -> Rates:
+    """What is true of a binary scene: in fractions, or beyond fifty digits where a root is irrational.
+
+    Fails with `Refused` where that would need enclosures and they are not installed, with `SingularPose` as `solve`.
+    """
+    try:
+        return solve(scene, exact=True)
+    except Refused:
+        if find_spec("flint") is None:
+            raise
+    from graphplan.check.arithmetics import bounded_rates, enclosures
+    from graphplan.kernel.numbers.enclosures import precision
+
+    with precision(BITS):
+        rates = bounded_rates(scene, enclosures(BITS))
+        return replace(rates, velocity=_middles(rates.velocity), acceleration=_middles(rates.acceleration))
+
+
+def _middles(vectors: dict[str, Any]) -> dict[str, Pair]:
+    """Enclosed vectors as the fractions in their middles."""
+    return {name: (x.middle, y.middle) for name, (x, y) in vectors.items()}
+
+
+def _pair(pair: Pair) -> tuple[Fraction, Fraction]:
+    x, y = (Fraction(float(number)) for number in pair)
+    return x, y
 
 
 # ---- the construction's arithmetics ----------------------------------------------------------------------------

@@ -59,9 +59,11 @@ def _read(path: Path, suffix: str, panels: Collection[str], frames: Frames, size
         raise Refused(f"{path}", f"reading {suffix[1:].upper()} needs {package}", f"pip install 'graphplan[{extra}]'")
     match suffix:
         case ".csv":
-            return _table(path, panels)
+            from graphplan.marking.tables.reader import read_csv
+
+            return read_csv(path, panels)
         case ".toml":
-            from graphplan.marking.tables.points import read_toml
+            from graphplan.marking.tables.reader import read_toml
 
             return read_toml(path, panels)
         case ".svg":
@@ -76,20 +78,3 @@ def _read(path: Path, suffix: str, panels: Collection[str], frames: Frames, size
             from graphplan.marking.files.geogebra import read_ggb
 
             return read_ggb(path)
-
-
-def _table(path: Path, panels: Collection[str]) -> Submission:
-    """Measured points or results: the names of the columns tell."""
-    from graphplan.marking.tables.table_rows import columns
-
-    names = columns(path)
-    if {"mark", "x", "y"} <= set(names):
-        from graphplan.marking.tables.points import read_table
-
-        return read_table(path, panels)
-    if "quantity" in names:
-        from graphplan.marking.tables.results import read_results
-
-        return read_results(path)
-    raise Refused(f"{path}", "its first line names no columns that are read",
-                  "mark,x,y for measured points or quantity,of,x,y,unit for results")

@@ -1,4 +1,4 @@
-"""The result table filled in by a student: vectors by components or by size and angle, single numbers.
+"""Results as a student states them: vectors by components or by size and angle, single numbers.
 
 Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`; here they become the scene's own.
 """
@@ -8,10 +8,8 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
-from pathlib import Path
 
-from graphplan.marking.tables.table_rows import TableRow, rows
-from graphplan.marking.traces import Number, Submission
+from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
 from graphplan.mechanism.units import KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
 from graphplan.methods.kinds import KINDS
@@ -20,32 +18,12 @@ ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "ome
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
 
-def read_results(path: Path) -> Submission:
-    """The numbers of a table with the columns quantity, of and unit, and x and y, size and angle, or value."""
-    return Submission(path.name, numbers=tuple([found for row in rows(path) if (found := _number(row))]))
-
-
-def _number(row: TableRow) -> Number | None:
-    """What a row says; None where it is not filled in."""
-    x, polar, value = row.numbers("x", "y"), row.numbers("size", "angle"), row.numbers("value")
-    given = [found for found in (x, polar and turned(*polar), value) if found]
-    if not given:
-        return None
-    if len(given) > 1:
-        raise row.fault("the result is given twice", "x and y, or size and angle, or value")
-    try:
-        return entry(row["quantity"], row["of"], given[0], row["unit"])
-    except ValueError as error:
-        raise row.fault(str(error), _do(row["quantity"])) from None
-
-
 def entry(quantity: str, of: str, value: Sequence[float], unit: str) -> Number:
     """One result, checked.
 
     Fails with `ValueError` where there is no such quantity, or its unit or number of components is another.
     """
-    name = " ".join(quantity.casefold().split())
-    kind = ALSO.get(name, name)
+    kind = _kind(quantity)
     if kind not in KINDS:
         raise ValueError(f"{quantity!r} is no quantity")
     if len(value) != (1 if KINDS[kind].single else 2):
@@ -62,10 +40,14 @@ def turned(size: float, angle: float) -> tuple[float, float]:
     return size * math.cos(math.radians(angle)), size * math.sin(math.radians(angle))
 
 
-def _do(quantity: str) -> str:
+def _kind(quantity: str) -> str:
+    name = " ".join(quantity.casefold().split())
+    return ALSO.get(name, name)
+
+
+def wanted(quantity: str) -> str:
     """What would be right for this quantity."""
-    name = quantity.casefold()
-    kind = ALSO.get(name, name)
+    kind = _kind(quantity)
     if kind not in KINDS:
         return f"one of {', '.join(KINDS)}"
     parts = "value" if KINDS[kind].single else "x and y, or size and angle"
@@ -81,9 +63,8 @@ def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
 
 
 BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
-    **{name: (float(size), (1, 0, 0)) for name, size in METRES.items()},
-    **{name: (float(size), (-1, 2, 1)) for name, size in KILOGRAMS.items()},
-    **{name: (float(size), (0, 0, 1)) for name, size in NEWTONS.items()},
+    **{name: (float(size), powers) for known, powers in ((METRES, (1, 0, 0)), (KILOGRAMS, (-1, 2, 1)),
+                                                         (NEWTONS, (0, 0, 1))) for name, size in known.items()},
     "kp": (float(NEWTONS["kgf"]), (0, 0, 1)), "MN": (1e6, (0, 0, 1)), "daN": (10.0, (0, 0, 1)),
     "s": (1.0, (0, 1, 0)), "sec": (1.0, (0, 1, 0)), "ms": (1e-3, (0, 1, 0)), "min": (60.0, (0, 1, 0)),
     "h": (3600.0, (0, 1, 0)), "km": (1000.0, (1, 0, 0)), "dm": (0.1, (1, 0, 0)),
@@ -102,14 +83,13 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
     """
     size, powers = 1.0, [0, 0, 0]
     for name, power in _factors(written):
-        if name not in BASES:
-            raise ValueError(f"{written!r} is no unit that is known")
         one, bases = BASES[name]
         size *= one**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
     if tuple(powers) != dimension[:3]:
         raise ValueError(f"{written!r} is no such unit as {example(dimension)}")
-    return size / _scene(dimension, units)
+    force = float(NEWTONS[units.force]) ** dimension.force  # the scene's; its moments are in forces times metres
+    return size / (force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length)
 
 
 def _factors(written: str) -> list[tuple[str, int]]:
@@ -120,7 +100,7 @@ def _factors(written: str) -> list[tuple[str, int]]:
     for place, part in enumerate(written.translate(RAISED).split("/")):
         for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()")):
             fits = FACTOR.fullmatch(piece)
-            if fits is None:
+            if fits is None or fits[1] not in BASES:
                 raise ValueError(f"{written!r} is no unit that is known")
             found.append((fits[1], int(fits[2] or 1) * (-1 if place else 1)))
     return found
@@ -129,9 +109,3 @@ def _factors(written: str) -> list[tuple[str, int]]:
 def example(dimension: Dimension) -> str:
     """Such a unit, as a student may write it."""
     return dimension.unit(Units()).replace("*", "·")
-
-
-def _scene(dimension: Dimension, units: Units) -> float:
-    """The scene's unit of this dimension in metres, seconds and newtons; moments are in its forces times metres."""
-    force = float(NEWTONS[units.force]) ** dimension.force
-    return force if dimension == MOMENT else force * float(METRES[units.length]) ** dimension.length

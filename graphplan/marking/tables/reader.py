@@ -1,0 +1,272 @@
+"""What a student measured and computed, from tables in text: marks by their coordinates in mm on his own sheet, and
+results; as CSV, as spreadsheets and editors of any country write it, or as TOML."""
+
+from __future__ import annotations
+
+import cmath
+import csv
+import math
+import tomllib
+from collections import defaultdict
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.files.curves import SHORT, circle, ring
+from graphplan.marking.files.safe import MB, TRACES, Budget, number, on_paper, text
+from graphplan.marking.spelling import spelled
+from graphplan.marking.tables.results import entry, turned, wanted
+from graphplan.marking.traces import Number, PlanFrame, Spot, Submission, Trace
+
+LARGEST_CSV, LARGEST_TOML = 4 * MB, MB // 2
+DOTS = 3000  # in a line of TOML, or as many squared: the time that dotted keys take grows so
+LONGEST = 40  # characters of a mark's name
+COARSEST = 1.0  # mm, to which anybody can measure; with a blur without bounds any mark would pass
+TABLES = {"marks": POINT, "lines": LINE, "circles": CIRCLE}
+SHAPES = {POINT: "[x, y]", LINE: "[[x1, y1], [x2, y2]]", CIRCLE: "[x, y, r], or points along its rim, three at least"}
+
+
+def read_csv(path: Path, panels: Collection[str]) -> Submission:
+    """Measured points, with the columns mark, x and y, and also x2 and y2, r, panel and precision; or results, with the
+    columns quantity, of and unit, and x and y, size and angle, or value. Comments begin with #."""
+    return _CsvReader(path, panels).read()
+
+
+def read_toml(path: Path, panels: Collection[str]) -> Submission:
+    """The marks, lines, circles, frames and results of a TOML file."""
+    written = text(path, LARGEST_TOML)
+    if sum(line.count(".") ** 2 for line in written.splitlines()) > DOTS**2:
+        raise Refused(f"{path}", "its lines have too many dots", "a line for each mark")
+    try:
+        tables = tomllib.loads(written)
+    except RecursionError:
+        raise Refused(f"{path}", "tables or lists are nested too deeply", "[marks] with A = [x, y]") from None
+    except ValueError as error:
+        raise Refused(f"{path}", f"this is no TOML: {error}", "text that follows toml.io") from None
+    return _TomlReader(path, panels).read(tables)
+
+
+def _short(panel: str) -> str:
+    """A plan's name as it is compared: `Mechanism plan`, `mechanism`."""
+    return " ".join(panel.casefold().split()).removesuffix(" plan")
+
+
+class _Reader:
+    """One file; what is checked alike however it is written. `where` is an entry's place in it."""
+
+    def __init__(self, path: Path, panels: Collection[str]):
+        self.path, self.panels = path, {_short(panel): panel for panel in panels}
+
+    def fault(self, where: str, why: str, do: str) -> Refused:
+        shown = "".join([char if char.isprintable() else " " for char in where[:80]])
+        return Refused(f"{self.path}: {shown}", why, do)
+
+    def number(self, where: str, value: Any) -> float:
+        if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
+            raise self.fault(where, "this is no number", "a decimal number such as 12.5")
+        return float(value)
+
+    def length(self, where: str, value: Any) -> float:
+        found = self.number(where, value)
+        if not on_paper(found):
+            raise self.fault(where, f"{found:g} mm is on no sheet of paper", "millimetres as measured")
+        return found
+
+    def pair(self, where: str, value: Any) -> Spot:
+        if not isinstance(value, list) or len(value) != 2:
+            raise self.fault(where, "this is no point", "[x, y] in mm")
+        return self.length(where, value[0]), self.length(where, value[1])
+
+    def precision(self, where: str, blur: float, of: str = "") -> float:
+        if not 0 <= blur <= COARSEST:
+            raise self.fault(where, f"{of}{blur:g} mm is none of a ruler", f"0 to {COARSEST:g} mm")
+        return blur
+
+    def label(self, where: str, name: str, why: str) -> str:
+        label = spelled(name)
+        if len(label) > LONGEST or not label.isprintable():
+            raise self.fault(where, f"{why} no name of a mark", "its letters, such as v_b")
+        return label
+
+    def panel(self, where: str, name: str, do: str = "one of them") -> str:
+        """The plan that is meant, or nothing where none is named."""
+        if name.strip() and _short(name) not in self.panels:
+            known = ", ".join(self.panels.values())
+            raise self.fault(where, f"the construction has no plan {name.strip()[:40]!r}, but {known}", do)
+        return self.panels[_short(name)] if name.strip() else ""
+
+    def spots(self, where: str, kind: str, value: Any, fault: Refused) -> tuple[Spot, ...]:
+        """Where a mark lies, by its coordinates, a circle's with the radius, or by those of several spots."""
+        if not isinstance(value, list) or not value:
+            raise fault
+        if not isinstance(value[0], list):
+            numbers = [self.length(where, part) for part in value]
+            if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= SHORT:
+                return ring((numbers[0], numbers[1]), numbers[2])
+            value = [numbers] if kind == POINT else []
+        spots = [self.pair(where, spot) for spot in value]
+        good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT, CIRCLE: _bent(spots)}
+        if not good[kind]:
+            raise fault
+        return tuple(spots)
+
+    def result(self, where: str, quantity: str, of: str, value: Sequence[float], unit: str, do: str) -> Number:
+        try:
+            return entry(quantity, of, value, unit)
+        except ValueError as error:
+            raise self.fault(where, str(error), do) from None
+
+
+def _bent(spots: list[Spot]) -> bool:
+    """Whether spots show a circle by their first, middle and last, by which it is measured."""
+    found = circle(spots[0], spots[len(spots) // 2], spots[-1]) if len(spots) >= 3 else None
+    return found is not None and found[1] >= SHORT
+
+
+class _CsvReader(_Reader):
+    """Reads rows by the names in the first one; empty rows are left out."""
+
+    separator = ","
+
+    def read(self) -> Submission:
+        lines = text(self.path, LARGEST_CSV).splitlines()
+        Budget(self.path, TRACES, "lines").spend(len(lines))
+        said = [(f"line {i}", line) for i, line in enumerate(lines, 1) if line.strip() and line.lstrip()[0] != "#"]
+        self.separator = next((mark for mark in "\t;" if said and mark in said[0][1]), ",")
+        cells = self._cells(said)
+        where, first = next(cells, ("", []))
+        header = [cell.casefold() for cell in first]
+        if twice := [name for name in header if name and header.count(name) > 1]:
+            raise self.fault(where, f"two columns are called {twice[0][:40]!r}", "each name once")
+        rows = self._rows(header, cells)
+        if {"mark", "x", "y"} <= set(header):
+            traces = [trace for where, row in rows if (trace := self._marked(where, row))]
+            return Submission(self.path.name, tuple(traces), shows=_shown(traces))
+        if "quantity" in header:
+            numbers = [found for where, row in rows if (found := self._result(where, row))]
+            return Submission(self.path.name, numbers=tuple(numbers))
+        raise Refused(f"{self.path}", "its first line names no columns that are read",
+                      "mark,x,y for measured points or quantity,of,x,y,unit for results")
+
+    def _cells(self, lines: Iterable[tuple[str, str]]) -> Iterator[tuple[str, list[str]]]:
+        """The cells of each row that says something, with its place."""
+        for where, line in lines:
+            try:
+                row = next(csv.reader([line], delimiter=self.separator, skipinitialspace=True))
+            except (csv.Error, StopIteration) as error:
+                raise self.fault(where, f"this is no row of a table ({error})",
+                                 "values with , ; or tabs between them") from None
+            if any(cells := [cell.strip() for cell in row]):
+                yield where, cells
+
+    def _rows(self, header: Sequence[str], rows: Iterable[tuple[str, list[str]]]
+              ) -> Iterator[tuple[str, Mapping[str, str]]]:
+        """The cells by their columns; nothing stands in a column that there is not."""
+        for where, cells in rows:
+            if any(cells[len(header) :]):
+                raise self.fault(where, f"it has {len(cells)} columns, the first line {len(header)}",
+                                 "as many; decimal commas need ; or tabs between columns")
+            yield where, defaultdict(str, zip(header, cells, strict=False))
+
+    def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[float]:
+        """The numbers in these columns; none where all are empty."""
+        found = []
+        for column in columns if any(row[column] for column in columns) else ():
+            try:
+                found.append(number(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
+            except ValueError as error:
+                raise self.fault(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
+        return found
+
+    def _marked(self, where: str, row: Mapping[str, str]) -> Trace | None:
+        """The mark in a row; None where it is not measured."""
+        at, end = self._numbers(where, row, "x", "y"), self._numbers(where, row, "x2", "y2")
+        radius, blur = self._numbers(where, row, "r"), self._numbers(where, row, "precision")
+        if not at:
+            return None
+        panel = self.panel(where, row["panel"], "one of them, or nothing")
+        label = self.label(where, row["mark"], "this is")
+        unsure = self.precision(where, blur[0] if blur else 0.0, "a precision of ")
+        kind = LINE if end else CIRCLE if radius else POINT
+        value = [] if end and radius else [at, end] if end else [*at, *radius]
+        fault = self.fault(where, "this is no mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in "
+                           f"mm that paper shows ({SHORT:g} at least)")
+        return Trace(kind, self.spots(where, kind, value, fault), label, panel, unsure)
+
+    def _result(self, where: str, row: Mapping[str, str]) -> Number | None:
+        """The result in a row; None where it is not filled in."""
+        x, value = self._numbers(where, row, "x", "y"), self._numbers(where, row, "value")
+        polar = self._numbers(where, row, "size", "angle")
+        given = [found for found in (x, polar and turned(*polar), value) if found]
+        if len(given) > 1:
+            raise self.fault(where, "the result is given twice", "x and y, or size and angle, or value")
+        quantity, do = row["quantity"], wanted(row["quantity"])
+        return self.result(where, quantity, row["of"], given[0], row["unit"], do) if given else None
+
+
+def _shown(traces: Iterable[Trace]) -> frozenset[str]:
+    """Points, and whatever else was measured."""
+    return frozenset({POINT, *(trace.kind for trace in traces)})
+
+
+class _TomlReader(_Reader):
+    """Reads tables by their names."""
+
+    def read(self, tables: Mapping[str, Any]) -> Submission:
+        known = [*TABLES, "precision", "results", "frames"]
+        if unknown := [key for key in tables if key not in known]:
+            raise self.fault(unknown[0], "there is no such entry", f"one of {', '.join(known)}")
+        self.blur = self.precision("precision", self.length("precision", tables.get("precision", 0.0)))
+        self.budget = Budget(self.path, TRACES, "marks")
+        traces = [trace for key, kind in TABLES.items()
+                  for trace in self._traces(key, kind, self._table(key, tables.get(key, {})), "")]
+        numbers = [number for kind, table in self._table("results", tables.get("results", {})).items()
+                   for number in self._results(kind, self._table(f"results.{kind}", table))]
+        frames = {self.panel("frames", panel): self._frame(f"frames.{panel}", table)
+                  for panel, table in self._table("frames", tables.get("frames", {})).items()}
+        shown = _shown(traces) if traces else frozenset()
+        return Submission(self.path.name, tuple(traces), tuple(numbers), shown, frames)
+
+    def _table(self, where: str, value: Any) -> Mapping[str, Any]:
+        if not isinstance(value, dict):
+            raise self.fault(where, "this is no table", f"[{where}] with an entry a line")
+        return value
+
+    def _traces(self, where: str, kind: str, table: Mapping[str, Any], panel: str) -> Iterable[Trace]:
+        """The entries of a table, and of the tables in it that are named after plans."""
+        for name, value in table.items():
+            self.budget.spend()
+            if isinstance(value, dict) and not panel:
+                yield from self._traces(f"{where}.{name}", kind, value, self.panel(where, name))
+            else:
+                at = f"{where}.{name}"
+                spots = self.spots(at, kind, value, self.fault(at, f"this is no {kind}", SHAPES[kind]))
+                yield Trace(kind, spots, self.label(where, name, "it has an entry that is"), panel, self.blur)
+
+    def _results(self, kind: str, table: Mapping[str, Any]) -> Iterable[Number]:
+        """The results of one kind: components, one number, or size and angle; `unit` is that of all."""
+        unit = table.get("unit", "")
+        for of, value in table.items():
+            where = f"results.{kind}.{of}"
+            self.budget.spend()
+            if of == "unit" and isinstance(value, str):
+                continue
+            polar = isinstance(value, dict) and set(value) == {"size", "angle"}
+            parts = [value["size"], value["angle"]] if polar else value if isinstance(value, list) else [value]
+            numbers = [self.number(where, part) for part in parts]
+            yield self.result(where, kind, of, turned(*numbers) if polar else numbers, str(unit),
+                              "such as A = [1.5, 2] with unit = \"m/s\"")
+
+    def _frame(self, where: str, table: Any) -> PlanFrame:
+        """Where a plan lies: its origin in mm, its scale in mm for one of its units, how far it is turned."""
+        entries = self._table(where, table)
+        if unknown := set(entries) - {"origin", "scale", "turn"}:
+            raise self.fault(where, f"there is no {min(unknown)}", "origin, scale and turn")
+        origin = self.pair(f"{where}.origin", entries.get("origin"))
+        scale = self.length(f"{where}.scale", entries.get("scale", 1.0))
+        turn = self.length(f"{where}.turn", entries.get("turn", 0.0))
+        if scale <= 0:
+            raise self.fault(f"{where}.scale", "a plan has a size", "mm for one unit of the plan")
+        return PlanFrame(complex(*origin), cmath.rect(scale, math.radians(turn)))

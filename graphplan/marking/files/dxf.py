@@ -17,7 +17,7 @@ from ezdxf.units import MM, conversion_factor
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, curved, full, pieces, reach
-from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
+from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
@@ -39,13 +39,12 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         reader = _DxfReader(path, document)
         reader.read(document.modelspace(), 0)
         reader.endless()
-        known = frames if reader.own and same_paper(reader.size, size) else {}
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
-    return drawing(path, reader.traces, reader.words, known)
+    return drawing(path, reader, frames, size)
 
 
 def _document(data: bytes) -> Any:
@@ -74,8 +73,10 @@ class _DxfReader:
 
     def __init__(self, path: Path, document: Any):
         self.path, self.own = path, OWN in document.appids
-        self.limits = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
+        corners = (document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX"))
+        (left, bottom), (right, top) = map(self._spot, corners)
+        self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.traces: list[Trace] = []
         self.words: list[Lettering] = []
         self.lines: list[tuple[complex, complex]] = []
@@ -125,12 +126,13 @@ class _DxfReader:
                 ends = entity.dxf.start_param, entity.dxf.end_param
                 sweep = (ends[1] - ends[0]) % math.tau or math.tau
                 at = [ends[0] + sweep * i / STEPS for i in range(STEPS + 1)]
-                yield from _one(curved([self._spot(vertex) for vertex in entity.vertices(at)]))
+                yield from filter(None, [curved([self._spot(vertex) for vertex in entity.vertices(at)])])
             case "LWPOLYLINE" | "POLYLINE":
                 yield from self._polyline(entity)
             case "SPLINE":
                 self.budget.spend(len(entity.control_points) + len(entity.fit_points))
-                yield from _one(curved([self._spot(v) for v in entity.construction_tool().approximate(STEPS)]))
+                spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(STEPS)]
+                yield from filter(None, [curved(spots)])
 
     def _arc(self, arc: Any) -> Trace:
         """An arc by its rim, also where it is seen from behind."""
@@ -158,37 +160,22 @@ class _DxfReader:
     def endless(self) -> None:
         """Lines without ends, as far as they lie beside the rest."""
         spots = [spot for trace in self.traces for spot in trace.spots]
-        for at, along in self.lines:
-            if ends := reach(at, along, spots):
-                self.traces.append(Trace(LINE, ends))
+        self.traces += [Trace(LINE, ends) for at, along in self.lines if (ends := reach(at, along, spots))]
 
     def _lettered(self, entity: Any) -> None:
         """Letters, by the place and the height that they have on paper."""
+        text = entity.plain_text().strip()
         if entity.dxftype() == "MTEXT":
-            text, high = entity.plain_text().strip(), entity.dxf.char_height * self.mm
-            column, row = (entity.dxf.attachment_point - 1) % 3 / 2, (entity.dxf.attachment_point - 1) // 3
-            x, y = self._spot(entity.dxf.insert)
-            place, part = (x, y - high * (1 - row / 2)), column
+            high, (row, column) = entity.dxf.char_height * self.mm, divmod(entity.dxf.attachment_point - 1, 3)
+            (x, y), lower, part = self._spot(entity.dxf.insert), 1 - row / 2, column / 2
         else:
-            text, high = entity.plain_text().strip(), entity.dxf.height * self.mm
-            align, first, second = entity.get_placement()
+            high, (align, first, second) = entity.dxf.height * self.mm, entity.get_placement()
             part = next((part for name, part in BASE_LINES.items() if align.name.endswith(name)), 0.0)
             x, y = self._spot(second if part and second is not None else first)
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
-            place = x, y - lower * high
         if high > 0 and "\n" not in text:
+            place = x, y - lower * high
             self.words.append(lettering(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
-
-    @property
-    def size(self) -> tuple[float, float]:
-        """The width and height of the sheet, in mm, which stay when something is drawn beyond it."""
-        (left, bottom, *_), (right, top, *_) = self.limits
-        return (right - left) * self.mm, (top - bottom) * self.mm
 
     def _spot(self, vector: Any) -> Spot:
         return vector[0] * self.mm, vector[1] * self.mm
-
-
-def _one(found: Trace | None) -> Iterator[Trace]:
-    if found is not None:
-        yield found

@@ -17,7 +17,7 @@ from ezdxf.units import MM, conversion_factor
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, curved, full, pieces, reach
-from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering
+from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
@@ -44,7 +44,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
-    return drawing(path, reader, frames, size)
+    return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
 
 
 def _document(data: bytes) -> Any:
@@ -75,7 +75,7 @@ class _DxfReader:
         self.path, self.own = path, OWN in document.appids
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         corners = (document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX"))
-        (left, bottom), (right, top) = map(self._spot, corners)
+        (left, bottom), (right, top) = (self._spot(corner) for corner in corners)
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.traces: list[Trace] = []
         self.words: list[Lettering] = []

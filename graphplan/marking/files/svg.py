@@ -1,39 +1,172 @@
 """Drawings in SVG, of Inkscape, GeoGebra or graphplan itself: points, lines and circles in mm, with their letters.
 
 What hides is not seen, and what is no drawing on a sheet of graphplan's own - paper, words, letters - is left out. The
-sheet's scene and sentences are not looked at.
+sheet's scene and sentences are not looked at. svgelements reads transforms and paths, as matrices and segments; it
+takes much for granted, so what it would pass over in silence is refused here.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+import re
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from pathlib import Path as File
-from typing import Any
+from typing import Any, NamedTuple
 from xml.etree.ElementTree import Element
 
-from svgelements import Circle, Ellipse, Matrix, Path, Polygon, Polyline, Rect, SimpleLine
+from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygon, Polyline, Rect, SimpleLine, Viewbox
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files.curves import DOT, curved, pieces
 from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
-from graphplan.marking.files.svg_space import (
-    Look,
-    Looks,
-    Viewport,
-    chains,
-    fitted,
-    inherited,
-    length,
-    paper,
-    path,
-    spot,
-    transform,
-    view_box,
-)
-from graphplan.marking.traces import Frames, Submission, Trace
+from graphplan.marking.traces import Frames, Spot, Submission, Trace
+
+MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+NUMBERS = re.compile(NUMBER)
+LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z%]*)\s*")
+PATH = re.compile(r"\s*(?:[Mm][-+\d.,eE\s]*[\d.](?:[MmZzLlHhVvCcSsQqTtAa]|[-+\d.,eE\s])*)?")
+PARTS = 8  # a curve by so many stretches
+RULE = re.compile(r"\.([\w-]+)\s*\{([^{}]*)\}")  # of a style sheet, by class alone
+INHERITED = ("stroke", "font-size", "text-anchor", "visibility")
+LOOKS = {*INHERITED, "display", "baseline-shift"}
+Look = Mapping[str, str]
+
+
+class Viewport(NamedTuple):
+    """The view that an element stands in by its size in user units, of which lengths may be parts."""
+
+    wide: float
+    high: float
+
+    def __call__(self, element: Element, key: str, otherwise: float = 0.0) -> float:
+        """A length of an element, along x or y by its attribute's name."""
+        return length(element.get(key), self.part(key), otherwise)
+
+    def part(self, key: str) -> float:
+        """What 100% of an attribute is."""
+        if key == "r":
+            return math.hypot(self.wide, self.high) / math.sqrt(2)
+        return self.high if "y" in key or key == "height" else self.wide
+
+
+def length(written: str | None, whole: float = 0.0, otherwise: float = 0.0) -> float:
+    """A length in user units, a part of the whole where it is a percentage.
+
+    Fails with `ValueError` where it is none.
+    """
+    if written is None or written.strip() == "auto":
+        return otherwise
+    found = LENGTH.fullmatch(written)
+    if found is None:
+        raise ValueError(f"{written[:40]!r} is no length")
+    sizes = {"": 1.0, "%": whole / 100, "em": 16.0, "rem": 16.0, "ex": 8.0} | {u: mm / MM["px"] for u, mm in MM.items()}
+    if (unit := found[2].lower()) not in sizes:
+        raise ValueError(f"{unit!r} is no unit of length")
+    return float(found[1]) * sizes[unit]
+
+
+def paper(root: Element) -> tuple[Matrix, Viewport, tuple[float, float]]:
+    """From the user units of the outermost element to mm of paper, y up from its lower edge; its view; its size in mm,
+    that of its view where it states none."""
+    box = view_box(root)
+    sides = box[2:] if box else (0.0, 0.0)
+    stated = (None if "%" in (root.get(key) or "") else root.get(key) for key in ("width", "height"))
+    wide, high = (length(written, otherwise=side) for written, side in zip(stated, sides, strict=True))
+    px = MM["px"]
+    onto = fitted(root, wide, high) * Matrix(px, 0, 0, -px, 0, px * high)
+    return onto, Viewport(*(sides if box else (wide, high))), (wide * px, high * px)
+
+
+def view_box(element: Element) -> tuple[float, ...] | None:
+    """The view box of an element; None where it has none, or an empty one."""
+    numbers = tuple(float(number) for number in NUMBERS.findall(element.get("viewBox", "")))
+    return numbers if len(numbers) == 4 and min(numbers[2:]) > 0 else None
+
+
+def fitted(element: Element, wide: float, high: float) -> Matrix:
+    """The view box of an element set into a window of this size, or of its own where a side is nothing."""
+    box = view_box(element)
+    return Matrix(Viewbox.viewbox_transform(0, 0, wide or box[2], high or box[3], *box, element.get(
+        "preserveAspectRatio"))) if box else Matrix()
+
+
+def transform(written: str | None) -> Matrix:
+    """A transform attribute.
+
+    Fails with `ValueError` where it is none.
+    """
+    try:
+        found = Matrix(written or "")
+        return Matrix(*(float(getattr(found, part)) for part in "abcdef"))
+    except (ValueError, TypeError, IndexError):
+        raise ValueError(f"{str(written)[:40]!r} is no transform") from None
+
+
+def spot(onto: Matrix, z: Any) -> Spot:
+    """Where a point falls on paper."""
+    x, y = float(z.real), float(z.imag)
+    return onto.a * x + onto.c * y + onto.e, onto.b * x + onto.d * y + onto.f
+
+
+def segments(data: str) -> Path:
+    """Path data as segments.
+
+    Fails with `ValueError` where they are none.
+    """
+    try:
+        if PATH.fullmatch(data):
+            return Path(data)
+    except (ValueError, TypeError, AttributeError, ArithmeticError):
+        pass
+    raise ValueError(f"{data.strip()[:20]!r} is no path")
+
+
+def chains(drawn: Path, onto: Matrix) -> Iterator[tuple[bool, list[Spot]]]:
+    """The chains of a path on paper, and whether curves join their spots: a new one wherever the pen is lifted, or goes
+    over from straight pieces to curves."""
+    parts = (part for part in drawn if not isinstance(part, Close) or part.start != part.end)
+    for smooth, group in groupby(parts, key=_curved):
+        chain = list(group)
+        if smooth is not None:
+            ends = [part.point(i / PARTS) if i < PARTS else part.end
+                    for part in chain for i in range(1 if smooth else PARTS, PARTS + 1)]
+            yield smooth, [spot(onto, end) for end in (chain[0].start, *ends)]
+
+
+def _curved(segment: Any) -> bool | None:
+    return None if isinstance(segment, Move) else not isinstance(segment, Line | Close)
+
+
+class Looks:
+    """How the elements of one document look: by their attributes, over them the style sheet's classes, over them their
+    style."""
+
+    def __init__(self, root: Element):
+        self.rules = {name: _declared(declared) for sheet in root.iter("style")
+                      for name, declared in RULE.findall(sheet.text or "")}
+
+    def of(self, element: Element) -> dict[str, str]:
+        """What is said of an element itself."""
+        look = dict(element.attrib)
+        for name in element.get("class", "").split():
+            look |= self.rules.get(name, {})
+        return look | _declared(element.get("style", ""))
+
+
+def inherited(look: Look, above: Look) -> Look:
+    """What an element hands on to those in it."""
+    return {**above, **{key: value for key in INHERITED if (value := look.get(key, "inherit")) != "inherit"}}
+
+
+def _declared(style: str) -> dict[str, str]:
+    parts = (part.partition(":") for part in style.split(";"))
+    return {name.strip(): value.strip() for name, _, value in parts if name.strip() in LOOKS}
+
 
 ANCHORS = {"middle": 0.5, "end": 1.0}
 SIZE = "16"  # px, unless it is said
@@ -60,10 +193,8 @@ class _Line:
 
 def words(element: Element, onto: Matrix, view: Viewport, look: Look, looks: Looks) -> Iterator[Lettering]:
     """The lines of a text element; `look` is what it has inherited, and its own."""
-    size, anchor = length(look.get("font-size", SIZE)), ANCHORS.get(look.get("text-anchor", ""), 0.0)
-    line = _Line(_at(element, view, 0j), size, anchor)
-    line.add(element.text, False)
-    lines = [line]
+    lines = [_begun(element, view, look, 0j)]
+    lines[0].add(element.text, False)
     for span in element:
         if span.tag == "tspan":
             _spanned(span, lines, view, look, looks, False)
@@ -74,15 +205,12 @@ def words(element: Element, onto: Matrix, view: Viewport, look: Look, looks: Loo
             yield lettering("".join(line.letters), spot(onto, line.at), size, line.anchor)
 
 
-def _spanned(span: Element, lines: list[_Line], view: Viewport, look: Look, looks: Looks,
-             low: bool) -> None:
+def _spanned(span: Element, lines: list[_Line], view: Viewport, look: Look, looks: Looks, low: bool) -> None:
     """A span: it goes on in the line, lower or not, or begins another at its own place."""
     own = looks.of(span)
     look = inherited(own, look)
-    size = length(look.get("font-size", SIZE))
     if span.get("x") is not None:
-        anchor = ANCHORS.get(look.get("text-anchor", ""), 0.0)
-        lines.append(_Line(_at(span, view, lines[-1].at), size, anchor))
+        lines.append(_begun(span, view, look, lines[-1].at))
     else:
         lines[-1].drop += length(_first(span.get("dy")), view.high)
     line = lines[-1]
@@ -94,9 +222,11 @@ def _spanned(span: Element, lines: list[_Line], view: Viewport, look: Look, look
         lines[-1].add(inner.tail, low)
 
 
-def _at(element: Element, view: Viewport, otherwise: complex) -> complex:
+def _begun(element: Element, view: Viewport, look: Look, otherwise: complex) -> _Line:
+    """The line that begins with an element."""
     x = length(_first(element.get("x")), view.wide, otherwise.real)
-    return complex(x, length(_first(element.get("y")), view.high, otherwise.imag))
+    at = complex(x, length(_first(element.get("y")), view.high, otherwise.imag))
+    return _Line(at, length(look.get("font-size", SIZE)), ANCHORS.get(look.get("text-anchor", ""), 0.0))
 
 
 def _first(written: str | None) -> str | None:
@@ -122,7 +252,6 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
-    reader.read()
     return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
 
 
@@ -138,28 +267,24 @@ class _Place:
 
 
 class _SvgReader:
-    """Walks one document."""
+    """Walks one document, and gathers what is drawn and written."""
 
     def __init__(self, path: File, root: Element):
-        self.path, self.root = path, root
+        self.path = path
         self.traces: list[Trace] = []
         self.words: list[Lettering] = []
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
         self.looks = Looks(root)
         self.budget, self.things = Budget(path, VISITS, "elements"), Budget(path, TRACES, "things drawn")
         self.letters = Budget(path, LETTERS, "letters of attributes and words")
-        self.size: tuple[float, float] = (0.0, 0.0)
         self.own = any(element.get("class") == "layer-paper" for element in root)
-
-    def read(self) -> None:
-        """Gather what is drawn and written."""
         try:
-            onto, view, self.size = paper(self.root)
-            place = _Place(onto, view, inherited(self.looks.of(self.root), {}))
-            for child in self.root:
+            onto, view, self.size = paper(root)
+            place = _Place(onto, view, inherited(self.looks.of(root), {}))
+            for child in root:
                 self._element(child, place)
         except (ValueError, OverflowError) as error:
-            raise Refused(f"{self.path}", str(error), "save the drawing anew") from None
+            raise Refused(f"{path}", str(error), "save the drawing anew") from None
 
     def _element(self, element: Element, place: _Place) -> None:
         """One element and all in it."""
@@ -181,17 +306,14 @@ class _SvgReader:
             self._group(element, here)
         elif element.tag == "use":
             self._copy(element, here)
-        elif here.look.get("visibility") not in ("hidden", "collapse"):
-            self._seen(element, here)
-
-    def _seen(self, element: Element, place: _Place) -> None:
-        """What is to be seen of an element; letters beside marks stand on layers of a sheet that are no drawing."""
-        if element.tag == "text":
+        elif here.look.get("visibility") in ("hidden", "collapse"):
+            return
+        elif element.tag == "text":  # letters beside marks stand on layers of a sheet that are no drawing
             self.budget.spend(sum(1 for _ in element.iter()))
             self.letters.spend(sum(map(len, element.itertext())))
-            self.words += words(element, place.onto, place.view, place.look, self.looks)
-        elif place.drawn:
-            self._shape(element, place)
+            self.words += words(element, here.onto, here.view, here.look, self.looks)
+        elif drawn:
+            self._shape(element, here)
 
     def _group(self, element: Element, place: _Place) -> None:
         if element.tag == "svg":
@@ -207,11 +329,8 @@ class _SvgReader:
         target = self.named.get(element.get("href", "").removeprefix("#"))
         if target is None:
             return
-        there = replace(place, onto=_shift(element, place.view) * place.onto)
-        if target.tag == "symbol":
-            self._group(target, there)
-        else:
-            self._element(target, there)
+        read = self._group if target.tag == "symbol" else self._element
+        read(target, replace(place, onto=_shift(element, place.view) * place.onto))
 
     def _shape(self, element: Element, place: _Place) -> None:
         """A shape's traces; without a stroke it is no more than a dot."""
@@ -230,7 +349,7 @@ def _shift(element: Element, view: Viewport) -> Matrix:
 def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
     """What a shape shows on paper; one as small as a dot shows where it is."""
     if element.tag == "path":
-        shape = path(element.get("d", ""))
+        shape = segments(element.get("d", ""))
     elif element.tag in CHAINS:
         shape = CHAINS[element.tag](points=element.get("points", ""))
     else:

@@ -6,8 +6,10 @@ What a file says of its size is read before anything is unpacked, so that a smal
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
+from contextlib import closing
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import cv2
 import numpy as np
@@ -15,9 +17,6 @@ from numpy.typing import NDArray
 
 from graphplan.errors import Refused
 from graphplan.marking.files.safe import MB, contents
-
-if TYPE_CHECKING:
-    from collections.abc import Iterator
 
 Grey = NDArray[np.uint8]
 Light = NDArray[np.float32]
@@ -91,16 +90,18 @@ def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
 
 def _pages(path: Path, data: bytes) -> Iterator[Grey]:
     """The pages of a document, each drawn in turn."""
-    pdfium = _pdfium(path)
+    try:
+        import pypdfium2 as pdfium
+    except ImportError as error:
+        raise Refused(f"{path}", "pages of a PDF are opened by pypdfium2, which is not installed",
+                      "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
     try:
         document = pdfium.PdfDocument(data)
     except pdfium.PdfiumError as error:
         raise Refused(f"{path}", "the document is broken, or locked by a password", DO) from error
-    try:
+    with closing(document):
         for number in range(min(len(document), PAGES)):
             yield _drawn(path, pdfium, document, number)
-    finally:
-        document.close()
 
 
 def _drawn(path: Path, pdfium: Any, document: Any, number: int) -> Grey:
@@ -115,15 +116,6 @@ def _drawn(path: Path, pdfium: Any, document: Any, number: int) -> Grey:
         return np.array(page.render(scale=scale, grayscale=True).to_numpy(), np.uint8).squeeze()
     except pdfium.PdfiumError as error:
         raise Refused(f"{path}", f"page {number + 1} is broken", DO) from error
-
-
-def _pdfium(path: Path) -> Any:
-    try:
-        import pypdfium2
-    except ImportError as error:
-        raise Refused(f"{path}", "pages of a PDF are opened by pypdfium2, which is not installed",
-                      "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
-    return pypdfium2
 
 
 def contrast(image: Grey, name: str) -> None:

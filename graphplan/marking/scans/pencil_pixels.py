@@ -114,20 +114,17 @@ class Ridges:
 def clear(found: Ridges, ink: Ink) -> Ridges:
     """Those that make lines for sure: strong, and with neighbours in a row; the paper's grain has none."""
     strong = found.only(found.strength > CLEAR)
-    column, row = np.rint(ink.pixels(strong.spots)).astype(int).T
-    high, wide = ink.dark.shape
-    column, row = np.clip(column, 0, wide - 1), np.clip(row, 0, high - 1)
-    marked = np.zeros((high, wide), np.uint8)
-    marked[row, column] = 1
+    cells = ink.cells(strong.spots)
+    marked = np.zeros(ink.dark.shape, np.uint8)
+    marked[cells] = 1
     _, which, sizes, _ = cv2.connectedComponentsWithStats(marked, connectivity=8)
-    return strong.only(sizes[which[row, column], cv2.CC_STAT_AREA] >= ROW * ink.scale)
+    return strong.only(sizes[which[cells], cv2.CC_STAT_AREA] >= ROW * ink.scale)
 
 
 def ridges(ink: Ink) -> Ridges:
     """Every crest that may be part of a pencil line."""
     smooth = np.asarray(cv2.GaussianBlur(ink.dark, (0, 0), WIDTH * ink.scale), np.float32)
-    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3) / 4.0
-                  for i, j in ((2, 0), (0, 2), (1, 1)))
+    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3) / 4.0 for i, j in ((2, 0), (0, 2), (1, 1)))
     bend = np.sqrt(((xx - yy) / 2) ** 2 + xy**2)
     strength = bend - (xx + yy) / 2  # minus the lesser eigenvalue
     strength[ink.hidden] = 0.0

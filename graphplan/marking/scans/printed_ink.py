@@ -13,7 +13,7 @@ from shapely import LinearRing, LineString
 
 from graphplan.marking.scans.image import Light
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.plates.pens import Pen, rgb
+from graphplan.sheet.plates.pens import rgb
 
 SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
 SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
@@ -64,33 +64,25 @@ def pieces(sheet: Sheet) -> Pieces:
 
 def _draw(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) -> None:
     """One item in ink; words are not drawn."""
+    fill, filled = item.pen.fill, tuple[Spot, ...]()
     match item:
-        case Polyline(spots=spots):
-            _stroke(canvas, item.pen, spots, False, height, scale)
         case Polygon(spots=spots):
-            _fill(canvas, item.pen, spots, height, scale)
-            _stroke(canvas, item.pen, spots, True, height, scale)
+            filled = spots
         case Circle(centre=centre, radius=radius):
-            rim = Arc(item.pen, item.layer, item.step, centre, radius, 0.0, 360.0).spots()
-            _fill(canvas, item.pen, rim, height, scale)
-            _stroke(canvas, item.pen, rim, True, height, scale)
+            filled = spots = Arc(item.pen, item.layer, item.step, centre, radius, 0.0, 360.0).spots()
+        case Polyline(spots=spots):
+            pass
         case Arc():
-            _stroke(canvas, item.pen, item.spots(), False, height, scale)
+            spots = item.spots()
         case Arrow(start=start, end=end):
-            _stroke(canvas, item.pen, (start, end), False, height, scale)
-            _fill(canvas, item.pen.filled(item.pen.colour), item.barbs, height, scale)
-
-
-def _stroke(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], closed: bool, height: float,
-            scale: float) -> None:
-    if pen.width:
-        cv2.polylines(canvas, [_pixels(spots, height, scale)], closed, _light(pen.colour),
-                      max(1, round(pen.width * scale)), cv2.LINE_AA, PARTS)
-
-
-def _fill(canvas: NDArray[np.uint8], pen: Pen, spots: tuple[Spot, ...], height: float, scale: float) -> None:
-    if pen.fill != "none":
-        cv2.fillPoly(canvas, [_pixels(spots, height, scale)], _light(pen.fill), cv2.LINE_AA, PARTS)
+            spots, filled, fill = (start, end), item.barbs, item.pen.colour
+        case _:
+            return
+    if filled and fill != "none":
+        cv2.fillPoly(canvas, [_pixels(filled, height, scale)], _light(fill), cv2.LINE_AA, PARTS)
+    if item.pen.width:
+        cv2.polylines(canvas, [_pixels(spots, height, scale)], spots == filled, _light(item.pen.colour),
+                      max(1, round(item.pen.width * scale)), cv2.LINE_AA, PARTS)
 
 
 def _pixels(spots: tuple[Spot, ...], height: float, scale: float) -> NDArray[np.int32]:

@@ -109,7 +109,7 @@ def row(found: Ridges, left: NDArray[np.intp], angle: float, shift: float) -> Cr
 def line(crests: CrestRow, stretch: Stretch) -> Trace:
     """A run of a row as its two ends; it is as unsure as its crests are rough, the less the longer it is."""
     on = crests.part(stretch)
-    slope, level = _line(crests.along[on], crests.off[on])
+    slope, level = np.polyfit(crests.along[on], crests.off[on], 1)
     ends = np.array([stretch.start, stretch.end])
     (x, y), (u, v) = crests.spots(ends, slope * ends + level).tolist()
     rough = float(np.std(crests.off[on] - slope * crests.along[on] - level))
@@ -120,15 +120,10 @@ def bends(crests: CrestRow, stretch: Stretch) -> bool:
     """Whether the crests of a run follow a bow rather than a line."""
     on = crests.part(stretch)
     along, off = crests.along[on] - crests.along[on].mean(), crests.off[on]
-    bow, (slope, level) = np.polyfit(along, off, 2), _line(along, off)
+    bow = np.polyfit(along, off, 2)
     sag = abs(bow[0]) * (stretch.long / 2) ** 2
-    return bool(sag > BENT and np.std(off - np.polyval(bow, along)) < BETTER * np.std(off - slope * along - level))
-
-
-def _line(along: NDArray[np.float64], off: NDArray[np.float64]) -> tuple[float, float]:
-    """Slope and level by least squares."""
-    slope, level = np.polyfit(along, off, 1)
-    return float(slope), float(level)
+    straight, bent = (np.std(off - np.polyval(fit, along)) for fit in (np.polyfit(along, off, 1), bow))
+    return bool(sag > BENT and bent < BETTER * straight)
 
 
 NEAR, ROUNDS = 0.35, 8  # mm from a rim in which crests are taken, and how often it may grow

@@ -28,86 +28,89 @@ from graphplan.marking.judge.findings import (
 from graphplan.marking.judge.score import GROUPS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import arranged, phrase, said
 from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue
 
+EACH = phrase("Each step is judged from the student's own earlier marks.")
 FIGURE, STATE = "figure", "state"  # the classes of cells: of numbers, and of verdicts
 
 
 @dataclass(frozen=True)
 class HtmlCell:
-    """A cell of a table, as HTML, with its class; one that is a `head` names its row."""
+    """A cell of a table, as HTML, with its class."""
 
     html: str
     look: str = ""
-    head: bool = False
 
-    @property
-    def text(self) -> str:
-        """The cell as an element."""
+    def element(self, head: bool = False) -> str:
+        """The cell as an element; one that is a `head` names its row."""
         look = f' class="{self.look}"' if self.look else ""
-        return f'<th scope="row"{look}>{self.html}</th>' if self.head else f"<td{look}>{self.html}</td>"
+        return f'<th scope="row"{look}>{self.html}</th>' if head else f"<td{look}>{self.html}</td>"
+
+
+Rows = Iterable[tuple[str, Sequence[HtmlCell]]]  # each with its class; the first cell of a row names it
 
 
 def marked(judgement: Judgement, score: Score, sheets: Sequence[Sheet]) -> str:
     """The page of a judgement, with its overlay, in the tongue of its sheet."""
-    return _Report(judgement, score).page(sheets)
+    report = _Report(judgement.composition.plans.tongue, judgement, score)
+    return report.page(f"{judgement.drawing.scene.title}: {judgement.name}", report.body(sheets))
 
 
-def page(tongue: Tongue, title: str, body: Iterable[str]) -> str:
-    """A whole page; the body is HTML."""
-    parts = {"language": tongue.code, "title": escape(title), "body": "\n".join(body)}
-    text = files(__package__).joinpath("report_page.html").read_text("utf-8")
-    return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
-
-
-def table(caption: str, heads: Sequence[str], rows: Iterable[tuple[str, Sequence[HtmlCell]]]) -> Iterator[str]:
-    """A table with its caption and heads, all escaped already; each row has a class, and its first cell names it."""
-    yield f'<div class="wide"><table><caption>{caption}</caption>'
-    yield "<thead><tr>" + "".join(map(_head, heads)) + "</tr></thead><tbody>"
-    for look, cells in rows:
-        first, *others = cells
-        yield f'<tr class="{look}">' + "".join(cell.text for cell in (replace(first, head=True), *others)) + "</tr>"
-    yield "</tbody></table></div>"
-
-
-def _head(text: str) -> str:
-    """The head of a column; one without words heads nothing."""
-    return f'<th scope="col">{text}</th>' if text else "<td></td>"
+def class_list(found: Classroom, tongue: Tongue) -> str:
+    """The page of a class, in this tongue."""
+    report = _ClassList(tongue, found)
+    return report.page(found.title, report.body())
 
 
 @dataclass(frozen=True)
-class _Report:
+class _HtmlPage:
+    """A page in a tongue."""
+
+    tongue: Tongue
+
+    def say(self, text: str) -> str:
+        """Words as HTML."""
+        return escape(self.tongue(text))
+
+    def page(self, title: str, body: Iterable[str]) -> str:
+        """The whole page; the body is HTML."""
+        parts = {"language": self.tongue.code, "title": escape(title), "body": "\n".join(body)}
+        text = files(__package__).joinpath("report_page.html").read_text("utf-8")
+        return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
+
+    def table(self, title: str, caption: str, heads: Sequence[str], rows: Rows) -> Iterator[str]:
+        """A table under its title, with its caption and heads; a head without words heads nothing."""
+        columns = (f'<th scope="col">{self.say(head)}</th>' if head else "<td></td>" for head in heads)
+        yield f"<h2>{self.say(title)}</h2>"
+        yield f'<div class="wide"><table><caption>{self.say(caption)}</caption>'
+        yield "<thead><tr>" + "".join(columns) + "</tr></thead><tbody>"
+        for look, cells in rows:
+            yield f'<tr class="{look}">' + "".join(cell.element(not i) for i, cell in enumerate(cells)) + "</tr>"
+        yield "</tbody></table></div>"
+
+
+@dataclass(frozen=True)
+class _Report(_HtmlPage):
     """One judgement in words."""
 
     judgement: Judgement
     score: Score
 
     @cached_property
-    def tongue(self) -> Tongue:
-        return self.judgement.composition.plans.tongue
-
-    @cached_property
     def names(self) -> tuple[str, ...]:
         return tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
-
-    def say(self, text: str) -> str:
-        """Words as HTML."""
-        return escape(self.tongue(text))
 
     def set(self, text: str) -> str:
         """Words as HTML, with the names of marks set as on the sheet."""
         runs = sentence_runs(self.tongue(text), self.names)
         return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
 
-    def page(self, sheets: Sequence[Sheet]) -> str:
-        scene = self.judgement.drawing.scene
-        return page(self.tongue, f"{scene.title}: {self.judgement.name}", self._body(sheets))
-
-    def _body(self, sheets: Sequence[Sheet]) -> Iterator[str]:
+    def body(self, sheets: Sequence[Sheet]) -> Iterator[str]:
+        """What stands on the page."""
         scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first else ""
         yield f"<h1>{escape(scene.title)}</h1>"
         yield f'<p class="source">{escape(self.judgement.name)}</p>'
@@ -125,8 +128,7 @@ class _Report:
         told = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
         told.append((said("in all, of 100"), self.score.total))
         rows = [("", (HtmlCell(self.say(name)), HtmlCell(f"{percent:.0f}", FIGURE))) for name, percent in told]
-        yield f"<h2>{self.say(said('Score'))}</h2>"
-        yield from table(self.say(said("What was earned, of 100.")), ("", self.say(said("Score"))), rows)
+        yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
@@ -136,9 +138,7 @@ class _Report:
         givens = self.judgement.drawing.drawn.givens
         rows = [(verdict.state, self._step(verdict)) for verdict in self.judgement.verdicts
                 if verdict.step >= givens or verdict.state != UNSEEN]
-        yield f"<h2>{self.say(said('Steps'))}</h2>"
-        yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
-                         [self.say(head) for head in heads], rows)
+        yield from self.table(said("Steps"), EACH(), heads, rows)
 
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
@@ -170,16 +170,14 @@ class _Report:
         heads = (said("Result"), said("handed in"), said("true"), said("Verdict"), OFF(), ALLOWED(),
                  said("Likely mistake"))
         rows = [(verdict.state, self._number(verdict)) for verdict in self.judgement.numbers]
-        yield f"<h2>{self.say(said('Results'))}</h2>"
-        yield from table(self.say(said("In the units of the scene.")), [self.say(head) for head in heads], rows)
+        yield from self.table(said("Results"), said("In the units of the scene."), heads, rows)
 
     def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
-        told: Said | str = verdict.mistake or ""
         return (
             HtmlCell(self.set(quantity(verdict))), HtmlCell(escape(written(verdict.number)), FIGURE),
             HtmlCell(figures(verdict.true), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
             HtmlCell(digits(verdict.off, FIGURES), FIGURE), HtmlCell(digits(verdict.tolerance, FIGURES), FIGURE),
-            HtmlCell(self.set(told)),
+            HtmlCell(self.set(verdict.mistake or "")),
         )  # fmt: skip
 
 
@@ -195,21 +193,11 @@ LONGEST = 16.0  # em: the longest bar
 # ---- the report of a class ------------------------------------------------------------------------------------------
 
 
-def class_list(found: Classroom, tongue: Tongue) -> str:
-    """The page of a class, in this tongue."""
-    return page(tongue, found.title, _ClassList(found, tongue).body())
-
-
 @dataclass(frozen=True)
-class _ClassList:
+class _ClassList(_HtmlPage):
     """One class in words."""
 
     found: Classroom
-    tongue: Tongue
-
-    def say(self, text: str) -> str:
-        """Words as HTML."""
-        return escape(self.tongue(text))
 
     def body(self) -> Iterator[str]:
         """What stands on the page."""
@@ -225,9 +213,7 @@ class _ClassList:
     def _drawings(self) -> Iterator[str]:
         heads = (said("Drawing"), said("Score"), said("First wrong step"), said("Likely mistake"), said("Verdict"))
         rows = [("" if one.guilty is None else "wrong", self._row(one)) for one in self.found.marked]
-        yield f"<h2>{self.say(said('Drawings'))}</h2>"
-        yield from table(self.say(said("Each step is judged from the student's own earlier marks.")),
-                         [self.say(head) for head in heads], rows)
+        yield from self.table(said("Drawings"), EACH(), heads, rows)
 
     def _row(self, one: Marked) -> tuple[HtmlCell, ...]:
         return (
@@ -238,10 +224,9 @@ class _ClassList:
 
     def _unread(self) -> Iterator[str]:
         if self.found.unread:
-            yield f"<h2>{self.say(NOT_JUDGED())}</h2>"
             rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
-            yield from table(self.say(said("Files that could not be read, or show no such drawing.")),
-                             (self.say(said("Drawing")), self.say(said("Reason"))), rows)
+            yield from self.table(NOT_JUDGED(), said("Files that could not be read, or show no such drawing."),
+                                  (said("Drawing"), said("Reason")), rows)
 
     def _bars(self, head: str, counts: Mapping[str, int]) -> Iterator[str]:
         """Counts as a table with a bar for each; nothing if there are none."""
@@ -251,6 +236,5 @@ class _ClassList:
         rows = [("", (HtmlCell(name), HtmlCell(str(count), FIGURE),
                       HtmlCell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
                 for name, count in counts.items()]
-        yield f"<h2>{self.say(head)}</h2>"
-        yield from table(self.say(said("How many drawings, of {0}.", len(self.found.marked))),
-                         ("", self.say(said("Drawings")), ""), rows)
+        caption = said("How many drawings, of {0}.", len(self.found.marked))
+        yield from self.table(head, caption, ("", said("Drawings"), ""), rows)

@@ -29,8 +29,7 @@ def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
     return file.getvalue()
 
 
-def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results,
-            faults: Mapping[int, str]) -> bytes:
+def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> bytes:
     """numpy's .npz: `travel`, complex arrays such as `point A`, `velocity A`, real ones such as `omega 3`.
 
     `fault_pose` and `fault_why` say which poses have no results, and why.

@@ -22,9 +22,9 @@ from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.layout.paper import COLUMN, inside, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
-from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked

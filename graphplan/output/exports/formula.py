@@ -22,6 +22,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.numbers.floats import ZERO
 from graphplan.kernel.tape.record import LEAVES, Symbols, Tape, operands
+from graphplan.sheet.lettering.lettering import GREEK, Run, Runs
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.view import View
 
@@ -132,3 +133,25 @@ def operations(sqrt: str, absolute: str, sign: str) -> dict[str, str]:
     """The operations as nearly every language writes them."""
     return {"+": "({} + {})", "-": "({} - {})", "*": "({} * {})", "/": "({} / {})", "neg": "(-{})",
             "sqrt": sqrt, "abs": absolute, "sign": sign}
+
+
+# ---- letters in the mathematics of TeX, as GCLC and LaTeX set them, and words as LaTeX takes them -------------------
+
+SIGNS = {sign: rf"\{name} " for name, sign in GREEK.items() if name != "upsilon"} | {"′": "'", "″": "''"}
+SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+                                                      "\\": r"\textbackslash{}"}  # fmt: skip
+
+
+def formulated(runs: Runs) -> str:
+    """Lettering as a formula: subscripts in braces, Greek letters by name."""
+    return "".join(map(_run, runs))
+
+
+def _run(run: Run) -> str:
+    said = "".join(SIGNS.get(char, char) for char in run.text).strip()
+    return f"_{{{said}}}" if run.level < 0 else said
+
+
+def spelled(words: str) -> str:
+    """Words with the characters escaped that LaTeX would take for commands."""
+    return "".join(SPECIAL.get(char, char) for char in words)

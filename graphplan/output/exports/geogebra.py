@@ -1,8 +1,9 @@
 """The construction as a GeoGebra file: free points of the pose, everything else by commands that depend on them.
 
-A step is written by GeoGebra's own commands where its marks allow it (geogebra_commands.py), else by its formula. Only
-what GeoGebra 4.0 and its successors share is used. In the construction protocol the caption of each object is its
-sentence; every plan begins with a breakpoint.
+A step is written by GeoGebra's own commands where its marks allow it, else by its formula. Crossings of circles are
+laid off to the side that is declared, so they stay on it when points are dragged: GeoGebra numbers its intersections,
+but not by side. Only what GeoGebra 4.0 and its successors share is used. In the construction protocol the caption of
+each object is its sentence; every plan begins with a breakpoint.
 """
 
 from __future__ import annotations
@@ -14,15 +15,97 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.output.exports.geogebra_commands import number, written
-from graphplan.output.exports.walk import BACK, FRONT, Elements
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
+from graphplan.output.exports.formula import Language, formula, operations
+from graphplan.output.exports.walk import BACK, FRONT, Elements, at_home, parameters, turned_back
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Spot
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
+
+DEEPEST = 3  # operations within each other: GeoGebra 4.0 takes twice as long to read each one more
+CENTRES = "Vector[{centre0}, {centre1}]"
+APART = "Distance[{centre0}, {centre1}]"
+ALONG = f"({APART}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {APART})"  # on the line of centres, to the chord
+
+# The command of each movement, and its inputs: {k} is what lengths from another plan are multiplied by, {sign} that of
+# the side declared, {dx} and {dy} are in mm; {centre0} and {radius0} are those of the circle {0}.
+COMMANDS = {
+    Movement.RULED: ("Line", "{0}", "{1}"),
+    Movement.GUIDED: ("Line", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.PARALLEL: ("Line", "{1}", "{0}"),
+    Movement.PERPENDICULAR: ("OrthogonalLine", "{1}", "{0}"),
+    Movement.BISECTED: ("LineBisector", "{0}", "{1}"),
+    Movement.MET: ("Intersect", "{0}", "{1}"),
+    Movement.OPENED: ("Distance", "{0}", "{1}"),
+    Movement.STRUCK: ("Circle", "{0}", "{k} * {1}"),
+    Movement.HALVED: ("Midpoint", "{0}", "{1}"),
+    Movement.DROPPED: ("Intersect", "{0}", "OrthogonalLine[{1}, {0}]"),
+    Movement.LAID_OFF: ("Translate", "{2}", "{k} * Vector[{0}, {1}]"),
+    Movement.TURNED: ("Translate", "{2}", "{k} * OrthogonalVector[Vector[{0}, {1}]]"),
+    Movement.LAID_BY_COMPONENTS: ("Translate", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.CUT: ("Translate", "Intersect[{0}, OrthogonalLine[{centre1}, {0}]]",
+                   "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]"),
+    Movement.ARCS_MET: ("Translate", f"Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]",
+                        f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]"),
+}  # fmt: skip
+
+
+def number(value: float) -> str:
+    """A number as GeoGebra reads it: in its eyes a small e is a letter."""
+    text = repr(float(value)).upper()
+    return f"({text})" if value < 0 else text
+
+
+LANGUAGE = Language(number, operations("sqrt({})", "abs({})", "If[abs({0}) <= {2} * ({1}), 0, sgn({0})]"))
+PLACE = ("x({0})", "y({0})")
+LINES = ("x(Intersect[{0}, OrthogonalLine[(0, 0), {0}]])", "y(Intersect[{0}, OrthogonalLine[(0, 0), {0}]])",
+         "x(Direction[{0}])", "y(Direction[{0}])")
+RESULTS = {
+    POINT: ("", ("({0}, {1})",)),
+    LINE: ("Line", ("({0}, {1})", "Vector[({2}, {3})]")),
+    OPENING: ("", ("{0}",)),
+    CIRCLE: ("Circle", ("({0}, {1})", "{2}")),
+}
+
+
+def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[Terms, str, list[str]]:
+    """The numbers that a mark needs, by label, and its command with its inputs; without a name an expression."""
+    movement = drawn.step.op.movement
+    if movement in COMMANDS and at_home(drawn):
+        name, *inputs = COMMANDS[movement]
+        told = {name: number(value) for name, value in parameters(drawn).items()}
+        for place, arg in enumerate(drawn.args):
+            if arg.kind == CIRCLE:
+                told[f"centre{place}"], told[f"radius{place}"] = _circle(arg, labels)
+        told["sign"] = "-" if turned_back(drawn) else ""
+        return (), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs]
+    read = [_coordinates(arg, labels) for arg in drawn.args]
+    found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
+    name, texts = RESULTS[drawn.kind]
+    return found.terms, name, [text.format(*found.results) for text in texts]
+
+
+def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:
+    """The centre and the radius of a circle: the marks that it was struck with, where they are as large here."""
+    if circle.step.op.movement is Movement.STRUCK and at_home(circle):
+        centre, opening = (labels[arg] for arg in circle.args)
+        factor = parameters(circle)["k"]
+        return centre, opening if factor == 1 else f"({number(factor)} * {opening})"
+    return f"Center[{labels[circle]}]", f"Radius[{labels[circle]}]"
+
+
+def _coordinates(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> list[str]:
+    """An operand of a formula by its coordinates."""
+    if drawn.kind == CIRCLE:
+        centre, radius = _circle(drawn, labels)
+        return [*(text.format(centre) for text in PLACE), radius]
+    return [text.format(labels[drawn]) for text in {POINT: PLACE, LINE: LINES, OPENING: ("{0}",)}[drawn.kind]]
+
+
+# ---- the file --------------------------------------------------------------------------------------------------------
 
 WIDE, HIGH = 1400, 900  # pixels of the drawing pad
 TYPES = {POINT: "point", LINE: "line", OPENING: "numeric", CIRCLE: "conic"}
@@ -234,3 +317,6 @@ def _empty(parent: Element, name: str, **attributes: object) -> None:
 
 def _said(value: object) -> str:
     return str(value).lower() if isinstance(value, bool) else repr(value) if isinstance(value, float) else str(value)
+
+
+Terms = Sequence[tuple[str, str]]

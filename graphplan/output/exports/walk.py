@@ -14,10 +14,10 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import LINE, Movement
 from graphplan.phrases import said
+from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plate import Plate, Plates
 
 SAFE = string.ascii_letters + string.digits

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
@@ -62,14 +62,6 @@ def values(scene: Scene, tongue: Tongue, page: Page) -> dict[str, str]:
         "number": str(page.number), "of": str(page.of),
         **{f"sheet.{name}": getattr(sheet, name) for name in ("owner", "number", "date", "drawn_by", "approved_by")},
     }  # fmt: skip
-
-
-class TitleBlock(Protocol):
-    """A title block of one scene; its width follows from the frame and the columns of words, its height from that."""
-
-    def width(self, frame: Rect, pitch: float) -> float: ...
-    def height(self, wide: float) -> float: ...
-    def items(self, rect: Rect, page: Page) -> Iterator[Item]: ...
 
 
 def stroke(start: Spot, end: Spot, wide: bool = False) -> Polyline:
@@ -298,3 +290,6 @@ class GostBlock:
             place = Rect(x + left, y + low, x + right, y + high)
             what = cell.field or cell.words
             yield from filled(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)
+
+
+TitleBlock = IsoBlock | GostBlock  # its width follows from the frame and the pitch of columns, its height from that

@@ -101,16 +101,12 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
         fitting = [composition for composition in tried if not composition.oversized]
         if good and fitting:
             best = max(fitting, key=lambda c: c.score)
-            if given.k_s or _legible(plans, best.views, name):
+            if given[0] or _legible(plans, best.views, name):
                 return best
     if best is None:
-        raise _too_large(tried) if tried else _too_small(paper)
+        raise _too_large(tried) if tried else Refused(
+            f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
     return best
-
-
-def _too_small(paper: str | None) -> Refused:
-    """The refusal of paper that has no room for the words."""
-    return Refused(f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
 
 
 def _too_large(tried: Sequence[Composition]) -> Refused:
@@ -144,11 +140,12 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    k_s = given.k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))
+    k_s, told = given
+    k_s = k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))
     most = {p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]}
     multiples: dict[str, Fraction] = {p: min(most[q] for q in most if q.twin == p.twin) for p in most}  # comparable
     drawing, names = plans.drawing, plans.drawing.scene.units
-    scales = Scales(k_s, drawing.kappa, names.length, multiples | given.multiples, float(drawing.phi), names.force,
+    scales = Scales(k_s, drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
                     drawing.scene.sheet.convention)  # fmt: skip
     boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
     views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
@@ -174,21 +171,14 @@ def _shortest(plans: Plans) -> float:
 
 
 ROUNDING = 1e-9  # of a scale: closer than this two are one
+GivenScales = tuple[float | None, dict[str, Fraction]]
 
 
 # ---- scales that the scene gives: they hold whatever room there is, or are refused ----------------------------------
 
 
-@dataclass(frozen=True)
-class GivenScales:
-    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one."""
-
-    k_s: float | None
-    multiples: dict[str, Fraction]
-
-
 def given_scales(plans: Plans) -> GivenScales:
-    """The scales that a scene gives for its sheet.
+    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one.
 
     All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
     plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
@@ -196,7 +186,7 @@ def given_scales(plans: Plans) -> GivenScales:
     k_s = _mechanism_scale(plans.drawing)
     multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
     _check_force_plans(plans)
-    return GivenScales(k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None})
+    return k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None}
 
 
 def _mechanism_scale(drawing: Construction) -> float | None:
@@ -238,14 +228,14 @@ def _check_force_plans(plans: Plans) -> None:
 
 
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-            pencil: Deviations | None = None, tongue: Tongue | None = None) -> Composition:
+            tongue: Tongue | None = None) -> Composition:
     """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
 
     Without a tongue it speaks that of the scene's sheet.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    return Composer(drawing, paper, check, tongue).compose(pencil)
+    return Composer(drawing, paper, check, tongue).compose()
 
 
 class Composer:

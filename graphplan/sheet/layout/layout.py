@@ -14,9 +14,9 @@ from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.scales import Scales, times
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Text
-from graphplan.sheet.plates.picture import picture
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS

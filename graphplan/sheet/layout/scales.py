@@ -13,15 +13,16 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.mechanism.units import METRES
-from graphplan.phrases import Said, arranged, joined, said, unit
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, unit
 from graphplan.sheet.plates.pens import FORCES
 
 VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
+SPEED = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
+SHARPNESS = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
 WHOLE = tuple(m * 10**n for n in range(12) for m in (1, 2, 3, 5))
 MULTIPLES = (*(Fraction(1, m) for m in reversed(WHOLE)), *map(Fraction, WHOLE[1:]))
@@ -91,30 +92,23 @@ class Scales:
 
     def said(self, panel: str, kinds: set[str]) -> list[Said]:
         """The scales of a panel with their units; `kinds` are the kinds of vector drawn on it."""
-        tell = self._drawn if self.convention == "drawn" else self._real
-        return list(tell(panel, kinds))
-
-    def _real(self, panel: str, kinds: set[str]) -> Iterator[Said]:
-        """What a millimetre stands for."""
-        if panel not in self.multiples:
-            yield joined(("k_s =", digits(self.k_s), unit(f"{self.length}/mm")), " ")
+        told = [] if panel in self.multiples else [self._static("s", self.k_s, self.length)]
         if kinds & VELOCITIES:
-            yield said("k_v = {0} {1} per mm", digits(self.speed(panel)), unit(f"{self.length}/s"))
+            told.append(self._moving(SPEED, self.speed(panel), f"{self.length}/s"))
         if kinds & ACCELERATIONS:
-            yield said("k_a = {0} {1} per mm", digits(self.acceleration(panel)), unit(f"{self.length}/s²"))
-        if kinds & FORCES:
-            yield joined(("k_F =", digits(self.force(panel)), unit(f"{self.unit}/mm")), " ")
+            told.append(self._moving(SHARPNESS, self.acceleration(panel), f"{self.length}/s²"))
+        return [*told, self._static("F", self.force(panel), self.unit)] if kinds & FORCES else told
 
-    def _drawn(self, panel: str, kinds: set[str]) -> Iterator[Said]:
-        """How many millimetres stand for one."""
-        if panel not in self.multiples:
-            yield joined(("mu_s =", digits(1 / self.k_s), unit(f"mm/{self.length}")), " ")
-        if kinds & VELOCITIES:
-            yield said("mu_v = {0} mm per {1}", digits(1 / self.speed(panel)), unit(f"{self.length}/s"))
-        if kinds & ACCELERATIONS:
-            yield said("mu_a = {0} mm per {1}", digits(1 / self.acceleration(panel)), unit(f"{self.length}/s²"))
-        if kinds & FORCES:
-            yield joined(("mu_F =", digits(1 / self.force(panel)), unit(f"mm/{self.unit}")), " ")
+    def _static(self, letter: str, scale: float, of: str) -> Said:
+        """What a millimetre stands for, or how many stand for one."""
+        if self.convention == "drawn":
+            return joined((f"mu_{letter} =", digits(1 / scale), unit(f"mm/{of}")), " ")
+        return joined((f"k_{letter} =", digits(scale), unit(f"{of}/mm")), " ")
+
+    def _moving(self, words: tuple[Phrase, Phrase], scale: float, of: str) -> Said:
+        """The same of a rate, by the words for the one and for the other."""
+        drawn = self.convention == "drawn"
+        return words[drawn](digits(1 / scale if drawn else scale), unit(of))
 
     @property
     def ratio(self) -> Said:

@@ -1,4 +1,4 @@
-"""The letters of a plan: marks, loci, vectors, and the numbers of marks that have no letter."""
+"""One plan in its window, with its letters: marks, loci, vectors, and the numbers of marks that have no letter."""
 
 from __future__ import annotations
 
@@ -12,9 +12,11 @@ from graphplan.kernel.program import Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import SMALL, Wish
+from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
-from graphplan.sheet.plates.display import Spot
+from graphplan.sheet.plates.display import Item, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import around, corner
 from graphplan.sheet.plates.plate import Plate
@@ -27,6 +29,19 @@ NUMBERED = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends
 STRUCK = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
 
 Span = tuple[Spot, Spot]
+
+
+def picture(plate: Plate) -> list[Item]:
+    """The items of a plan, with the mechanism if it is its plan, and the letters that avoid them; in no order."""
+    items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
+    marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
+    if plate.panel == MECHANISM:
+        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
+        letters = mechanism.letters().items()
+        joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in letters]
+        wishes = [*joints, *mechanism.wishes(), *wishes]
+        marks += list(mechanism.spots.values())
+    return items + placed(wishes, items, marks, plate.view.rect)
 
 
 @dataclass(frozen=True)

@@ -44,14 +44,14 @@ Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty w
 
 
 def vectors(what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off,
-            beside: float = 0.0, spoken: Callable[[str], str] = str) -> Table:
+            beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
     """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
 
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     found = {name: (*values[name], math.hypot(*values[name])) for name in order if name in values}
-    return _table(head, found, max(largest_size(values), beside), off, spoken)
+    return _table(head, found, max(largest_size(values), largest_size(beside)), off, spoken)
 
 
 def scalars(what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off) -> Table:

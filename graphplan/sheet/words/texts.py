@@ -16,17 +16,7 @@ from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Cell, TextRow
-from graphplan.sheet.words.tables import (
-    ROUNDING,
-    Deviations,
-    Table,
-    joined_tables,
-    largest_size,
-    narrow,
-    rows,
-    scalars,
-    vectors,
-)
+from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
 
 HEADING = 3.0
 RESULTS = "results"  # the layer of what is read when all is drawn
@@ -122,7 +112,7 @@ class Words:
         speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
         one, two = (vectors(what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
-                            largest_size(self.values.get(beside, {})), spoken)
+                            self.values.get(beside, {}), spoken)
                     for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
         return one, two
 

@@ -186,10 +186,5 @@ def _has(char: str) -> bool:
 @lru_cache(maxsize=4096)
 def _width(words: str, bold: bool) -> float:
     """How long words are, beside the size of their letters."""
-    return sum(_advance(char, bold) for char in words)
-
-
-@lru_cache(maxsize=1024)
-def _advance(char: str, bold: bool) -> float:
-    """How far it is from a letter to the next, beside their size."""
-    return float(_face(bold).load_char(ord(char)).linearHoriAdvance / 65536 / EM)
+    face = _face(bold)
+    return sum(float(face.load_char(ord(char)).linearHoriAdvance / 65536 / EM) for char in words)

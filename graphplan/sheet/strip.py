@@ -21,7 +21,7 @@ from graphplan.sheet.frames.title import STRIP, Page
 from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.layout.paper import COLUMN, inside, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.lettering.lettering import SIZE, sentence_runs
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
@@ -29,7 +29,8 @@ from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.selection import inked
 from graphplan.sheet.plates.view import View, least, plan_box, plan_scale, view
-from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
+from graphplan.sheet.words.rows import LEADING, TextRow, lettered
+from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
@@ -156,20 +157,21 @@ class Strip:
             level -= row.height
             yield from lettered([(row, x, level + row.size * (LEADING - 1))])
 
+    @cached_property
+    def words(self) -> Words:
+        return _StepWords(self.plans)
+
     def _lines(self, group: list[Step]) -> list[TextRow]:
         """The steps of a picture in words."""
-        drawn, rows = self.plans.drawing.drawn, list[TextRow]()
-        names = tuple(step.name for step in drawn.steps if step.name)
-        for step in group:
-            told = sentence_runs(self.plans.tongue(drawn.sentence(step.index)), names)
-            lines = wrap(told, SIZE, self.size[0] - INDENT)
-            rows += [self._row(step, runs, i == 0) for i, runs in enumerate(lines)]
-        return rows
+        drawn, wide = self.plans.drawing.drawn, self.size[0]
+        return [row for step in group for row in self.words.paragraph(
+            drawn.sentence(step.index), wide, step.index, str(drawn.number(step.index)))]
 
-    def _row(self, step: Step, runs: Runs, first: bool) -> TextRow:
-        number = sentence_runs(str(self.plans.drawing.drawn.number(step.index)))
-        head = (Cell(INDENT - 1.6, number, "end"),) if first else ()
-        return TextRow((*head, Cell(INDENT, runs)), step=step.index)
+
+class _StepWords(Words):
+    """Paragraphs that hang nearer to their numbers."""
+
+    indent = INDENT
 
 
 def crowded(items: Iterable[Item]) -> bool:

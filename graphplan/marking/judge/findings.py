@@ -216,17 +216,17 @@ class Remarks(Words):
         return replace(super()._heading(text, size, gap, step), keep=1)
 
     def _verdict(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
-        yield from self._said(judgement.name, wide)
-        yield from self._said(opinion(judgement), wide)
-        yield from self._said(arranged("{0:capital}.", counted(judgement)), wide)
+        yield from self.paragraph(judgement.name, wide)
+        yield from self.paragraph(opinion(judgement), wide)
+        yield from self.paragraph(arranged("{0:capital}.", counted(judgement)), wide)
 
     def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))
         for state in (RIGHT, FOLLOWS, WRONG, None):
             told = NOT_NEEDED() if state is None else STATES[state]()
             yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
-        yield from self._said(said("Grey: the true drawing. Ellipses: where a point may be, after the student's own "
-                                   "earlier marks. Dashed: where a wrong mark should be."), wide)
+        yield from self.paragraph(said("Grey: the true drawing. Ellipses: where a point may be, after the student's "
+                                       "own earlier marks. Dashed: where a wrong mark should be."), wide)
 
     def _score(self, score: Score) -> Iterator[TextRow]:
         if score.total is None:
@@ -248,7 +248,7 @@ class Remarks(Words):
         yield from rows(table)
         for one in judgement.numbers:
             if one.state == WRONG:
-                yield from self._said(miss(one), wide)
+                yield from self.paragraph(miss(one), wide)
 
     def _wrong(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
@@ -258,10 +258,10 @@ class Remarks(Words):
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
             sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.step), remark(judgement, verdict))
-            yield from self._said(sentence, wide, verdict.step, called(drawn, verdict.step).short)
+            yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.step).short)
         for state in (MISSING, UNSEEN):
             if told := lacking(judgement, state):
-                yield from self._said(arranged("{0:capital}: {1}.", STATES[state](), told), wide)
+                yield from self.paragraph(arranged("{0:capital}: {1}.", STATES[state](), told), wide)
 
     def _runs(self, text: str) -> Runs:
         return sentence_runs(self.plans.tongue(text), self.names)

@@ -59,7 +59,7 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
             for arg, texts in zip(drawn.args, coordinates, strict=True)]  # fmt: skip
     value = drawn.step.op.rule(domain, *read, **drawn.step.params)
     told = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
-    return _TapeText(domain.tape, told, language, term, deepest).formula()
+    return _written(domain.tape, told, language, term, deepest)
 
 
 def _similar(drawn: DrawnStep) -> bool:
@@ -99,34 +99,25 @@ def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
     return [*at, window.scale * d.sqrt(value[-1], "not-rational", "a length is never imaginary")]
 
 
-class _TapeText:
-    """Writes what stands on a tape."""
-
-    def __init__(self, tape: Tape, told: Sequence[int], language: Language, term: str, deepest: float):
-        self.tape, self.told, self.language, self.term, self.deepest = tape, told, language, term, deepest
-        self.needed = tape.needed(told)
-        self.uses = Counter(place for entry in self.needed for place in operands(tape.entries[entry]))
-        self.texts: dict[int, str] = {}
-        self.depth: dict[int, int] = {}
-        self.terms: list[tuple[str, str]] = []
-
-    def formula(self) -> Formula:
-        for place in self.needed:
-            self.texts[place] = self._text(place)
-        return Formula(tuple(self.terms), tuple(self.texts[place] for place in self.told))
-
-    def _text(self, place: int) -> str:
-        op, *rest = self.tape.entries[place]
-        self.depth[place] = 0
+def _written(tape: Tape, told: Sequence[int], language: Language, term: str, deepest: float) -> Formula:
+    """What stands on a tape, written out as far as what is told needs it."""
+    needed = tape.needed(told)
+    uses = Counter(place for entry in needed for place in operands(tape.entries[entry]))
+    texts, depth, terms = dict[int, str](), dict[int, int](), list[tuple[str, str]]()
+    for place in needed:
+        op, *rest = tape.entries[place]
+        depth[place] = 0
         if op in LEAVES:
-            return self.language.number(rest[0]) if op == "constant" else str(rest[0])
-        said = self.language.written[op].format(*(self.texts[arg] for arg in rest), self.language.number(ZERO))
-        deep = 1 + max(self.depth[arg] for arg in rest)
-        if not self.term or (self.uses[place] < 2 and deep < self.deepest):
-            self.depth[place] = deep
-            return said
-        self.terms.append((f"{self.term}{len(self.terms) + 1}", said))
-        return self.terms[-1][0]
+            texts[place] = language.number(rest[0]) if op == "constant" else str(rest[0])
+            continue
+        text = language.written[op].format(*(texts[arg] for arg in rest), language.number(ZERO))
+        deep = 1 + max(depth[arg] for arg in rest)
+        if term and (uses[place] > 1 or deep >= deepest):
+            texts[place] = f"{term}{len(terms) + 1}"
+            terms.append((texts[place], text))
+        else:
+            texts[place], depth[place] = text, deep
+    return Formula(tuple(terms), tuple(texts[place] for place in told))
 
 
 def operations(sqrt: str, absolute: str, sign: str) -> dict[str, str]:

@@ -38,11 +38,11 @@ class Task(Words):
         scene = self.drawing.scene
         yield self._heading(said("Given"))
         for sentence in data(scene):
-            yield from self._said(sentence, wide)
+            yield from self.paragraph(sentence, wide)
         asked = list(question(scene, self.values))
         yield from [self._heading(said("To find"))] if asked else []
         for sentence in asked:
-            yield from self._said(sentence, wide)
+            yield from self.paragraph(sentence, wide)
 
     def _numbered(self, row: TextRow) -> TextRow:
         """The row with a box to tick before its number."""
@@ -55,8 +55,8 @@ class Task(Words):
         used = {step.op.instrument for step in steps}
         yield self._heading(said("Hints"))
         named = joined(name() for instrument, name in INSTRUMENTS.items() if instrument in used)
-        yield from self._said(said("Instruments: {0}.", named), wide)
-        yield from self._said(said("Steps of the solution: {0}.", len(steps)), wide)
+        yield from self.paragraph(said("Instruments: {0}.", named), wide)
+        yield from self.paragraph(said("Steps of the solution: {0}.", len(steps)), wide)
 
     # ---- the table to fill -----------------------------------------------------------------------------------------
 

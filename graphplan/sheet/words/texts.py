@@ -56,7 +56,7 @@ class Words:
         found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
-    def _said(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
+    def paragraph(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         """A paragraph, hanging from its number."""
         indent = self.indent if number else 0.0
         lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent)
@@ -77,7 +77,7 @@ class Words:
         drawn, told = self.drawing.drawn, set[str]()
         yield self._heading(said("Construction"))
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
-        yield from self._said(said("Given, on the mechanism plan: {0}.", given), wide)
+        yield from self.paragraph(said("Given, on the mechanism plan: {0}.", given), wide)
         panel = ""
         for step in drawn.steps[drawn.givens :]:
             if step.panel != panel:
@@ -85,7 +85,7 @@ class Words:
                 yield self._heading(said("On the {0}", step.panel.words), SIZE, 1.2, step.index)
             sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
             told.add(step.why)
-            yield from self._said(sentence, wide, step.index, str(drawn.number(step.index)))
+            yield from self.paragraph(sentence, wide, step.index, str(drawn.number(step.index)))
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))
@@ -122,27 +122,27 @@ class Words:
         tables = ForceTables(self.drawing, self.values, pencil, self.plans.tongue)
         yield from rows(tables.reactions())
         for sentence in tables.seats():
-            yield from self._said(sentence, wide)
+            yield from self.paragraph(sentence, wide)
         yield from rows(tables.balance())
 
     def _errors(self, wide: float, told: str) -> Iterator[TextRow]:
         if told:
             yield self._heading(said("Drawing errors"))
-            yield from self._said(told, wide)
+            yield from self.paragraph(told, wide)
 
     def _check(self, wide: float) -> Iterator[TextRow]:
         if self.check:
             yield self._heading(said("Check"))
             parts = joined(joined((WORDS[kind], _within(float(gap))), " ") for kind, gap in self.check.items())
-            yield from self._said(said("Largest difference from the analytic solver, beside the number's own "
+            yield from self.paragraph(said("Largest difference from the analytic solver, beside the number's own "
                                        "size: {0}.", parts), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Method and forms"))
         for kind, ways in self.drawing.method.items():
-            yield from self._said(arranged("{0:capital}: {1}.", WORDS[kind], joined(ways)), wide)
+            yield from self.paragraph(arranged("{0:capital}: {1}.", WORDS[kind], joined(ways)), wide)
         for form in self.drawing.brief_forms:
-            yield from self._said(form, wide)
+            yield from self.paragraph(form, wide)
 
 
 def _within(gap: float) -> str:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, Form, primitive
+from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, primitive
 from graphplan.kernel.primitives import apart, dot, vector
 
 
@@ -42,15 +43,11 @@ def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     return k[0] + s * u[0], k[1] + s * u[1]
 
 
-def _half(turned: bool) -> Form:
+def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> Any:
     """Half the vector by similar triangles, on the way to the pole or, `turned`, to another point of the link."""
-
-    def drawn(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
-        D, T1 = (s.quarter(B, P, B), s.quarter(B, T, B)) if turned else (P, T)
-        half = s.meet(s.parallel(s.side(R, D), T1), s.side(B, R), name="K")
-        return s.transfer(half, B, s.transfer(half, B, b))
-
-    return drawn
+    D, T1 = (s.quarter(B, P, B), s.quarter(B, T, B)) if turned else (P, T)
+    half = s.meet(s.parallel(s.side(R, D), T1), s.side(B, R), name="K")
+    return s.transfer(half, B, s.transfer(half, B, b))
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
@@ -59,8 +56,8 @@ def _half(turned: bool) -> Form:
            claims=(("along", (1, 2), (1, 0)), ("coriolis", 0, 1, 2, 3, 4)), fails=("points-coincide",),
            source="Ozols 1974, 5-3, fig. 5-24", weighed=True, forms={
                "nothing to draw": lambda s, P, B, T, R, b: b if s.one(B, T) or s.one(B, R) else None,
-               "at the pair": _half(turned=False),
-               "at another point of the guide's link": _half(turned=True)})
+               "at the pair": partial(_half, turned=False),
+               "at another point of the guide's link": partial(_half, turned=True)})
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
     u = apart(d, B, P, "the pole of the guide lies in the pair")

@@ -8,6 +8,7 @@ the right value. A form that is not for this pose gives nothing; where a vector 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, LINE, POINT, SET_SQUARES, Form, Movement, primitive
@@ -38,38 +39,28 @@ def _erected(s: Any, l: Any, P: Any, X: Any, *, left: bool = True) -> Any:
     return s.line(*ends) if left else s.line(*reversed(ends))
 
 
-def _arcs(start: Callable[..., Any]) -> Form:
-    def drawn(s: Any, l: Any, P: Any) -> Any:
-        X = start(s, l, P)
-        return None if X is None else _erected(s, l, P, X)
-
-    return drawn
+def _arcs(start: Callable[..., Any], s: Any, l: Any, P: Any) -> Any:
+    X = start(s, l, P)
+    return None if X is None else _erected(s, l, P, X)
 
 
-def _mirrored(side: str) -> Form:
+def _mirrored(side: str, s: Any, l: Any, P: Any) -> Any:
     """The perpendicular through P and its mirror image, by arcs through P about two points of the line."""
-
-    def drawn(s: Any, l: Any, P: Any) -> Any:
-        points = s.points_on(l)
-        if s.lies_on(P, l) or len(points) < 2 or s.one(points[0], points[-1]):
-            return None
-        one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
-        image = s.circles_meet(one, two, side=side)
-        return s.line(image, P) if side == "right" else s.line(P, image)
-
-    return drawn
+    points = s.points_on(l)
+    if s.lies_on(P, l) or len(points) < 2 or s.one(points[0], points[-1]):
+        return None
+    one, two = (s.circle(X, s.opening(X, P)) for X in (points[0], points[-1]))
+    image = s.circles_meet(one, two, side=side)
+    return s.line(image, P) if side == "right" else s.line(P, image)
 
 
-def _rhombus(start: Callable[..., Any], side: str) -> Form:
-    def drawn(s: Any, l: Any, P: Any) -> Any:
-        X = start(s, l, P)
-        if X is None or s.lies_on(P, l):
-            return None
-        o = s.opening(X, P)
-        Y = s.line_meets_circle(l, s.circle(X, o), way="on")
-        return s.line(P, s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side))
-
-    return drawn
+def _rhombus(start: Callable[..., Any], side: str, s: Any, l: Any, P: Any) -> Any:
+    X = start(s, l, P)
+    if X is None or s.lies_on(P, l):
+        return None
+    o = s.opening(X, P)
+    Y = s.line_meets_circle(l, s.circle(X, o), way="on")
+    return s.line(P, s.circles_meet(s.circle(P, o), s.circle(Y, o), side=side))
 
 
 def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
@@ -83,7 +74,7 @@ def _two_perpendiculars(s: Any, l: Any, P: Any) -> Any:
            claims=(("on", 1), ("parallel", 0)), movement=Movement.PARALLEL, afar=(0,),
            described="the parallel to {0} through {1}", forms={
                "the line itself": lambda s, l, P: l if s.lies_on(P, l) else None,
-               **{f"rhombus on the {side}{words}": _rhombus(start, side)
+               **{f"rhombus on the {side}{words}": partial(_rhombus, start, side)
                   for words, start in STARTS for side in ("left", "right")},
                "two perpendiculars": _two_perpendiculars})
 def parallel(d: Any, l: Any, P: Any) -> Any:
@@ -94,8 +85,8 @@ def parallel(d: Any, l: Any, P: Any) -> Any:
 @primitive((LINE, POINT), LINE, SET_SQUARES, "Through {1} draw {out} perpendicular to {0}.",
            claims=(("on", 1), ("perpendicular", 0)), movement=Movement.PERPENDICULAR, afar=(0,),
            described="the perpendicular to {0} through {1}", forms={
-               **{f"mirror image on the {side}": _mirrored(side) for side in ("right", "left")},
-               **{"arcs" + words: _arcs(start) for words, start in STARTS}})
+               **{f"mirror image on the {side}": partial(_mirrored, side) for side in ("right", "left")},
+               **{"arcs" + words: partial(_arcs, start) for words, start in STARTS}})
 def perpendicular(d: Any, l: Any, P: Any) -> Any:
     """The perpendicular to a line through a point, running a quarter turn counter-clockwise of it."""
     return -l[1], l[0], l[1] * P[0] - l[0] * P[1]

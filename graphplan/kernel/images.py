@@ -7,6 +7,7 @@ pose; how the same thing is drawn is the matter of its forms. Names such as "Q" 
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
@@ -20,33 +21,25 @@ def _turned(u: Any, turn: str) -> Any:
 # ---- figures in proportion -------------------------------------------------------------------------------------------
 
 
-def _ray(way: str) -> Form:
+def _ray(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """Intercept theorem on a ray of its own, square to PQ, as A, B and C may lie along PQ (Ozols 1974, 5-2)."""
-
-    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-        if s.way(A, B, C) != way:
-            return None
-        PQ = s.side(P, Q)
-        ray = s.perpendicular(PQ, P)
-        B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
-        C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
-        return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
-
-    return drawn
+    if s.way(A, B, C) != way:
+        return None
+    PQ = s.side(P, Q)
+    ray = s.perpendicular(PQ, P)
+    B1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, B)), way="on")
+    C1 = s.line_meets_circle(ray, s.circle(P, s.opening(A, C)), way=way)
+    return s.meet(s.parallel(s.side(B1, Q), C1), PQ)
 
 
-def _on_the_link(way: str) -> Form:
+def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """On AB itself, with PQ laid off square to it: nothing longer than AB or PQ is drawn."""
-
-    def drawn(s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
-        if s.way(A, B, C) != way:
-            return None
-        ray = s.perpendicular(s.side(A, B), A)
-        Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
-        P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)
-        return s.line_meets_circle(s.line(P, Q), s.circle(P, s.opening(A, P1)), way=way)
-
-    return drawn
+    if s.way(A, B, C) != way:
+        return None
+    ray = s.perpendicular(s.side(A, B), A)
+    Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
+    P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)
+    return s.line_meets_circle(s.line(P, Q), s.circle(P, s.opening(A, P1)), way=way)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,
@@ -55,10 +48,10 @@ def _on_the_link(way: str) -> Form:
            fails=("points-coincide",), forms={
                "at an end": lambda s, A, B, C, P, Q:
                    P if s.one(A, C) or s.one(P, Q) else Q if s.one(B, C) else None,
-               "ray": _ray("on"),
-               "ray, beyond": _ray("back"),
-               "on the link": _on_the_link("on"),
-               "on the link, beyond": _on_the_link("back")})
+               "ray": partial(_ray, "on"),
+               "ray, beyond": partial(_ray, "back"),
+               "on the link": partial(_on_the_link, "on"),
+               "on the link, beyond": partial(_on_the_link, "back")})
 def divide(d: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> Any:
     """The point of PQ that divides it as C divides AB; A, B, C lie on one line."""
     u = apart(d, A, B)
@@ -194,14 +187,10 @@ def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, 
 # ---- false position --------------------------------------------------------------------------------------------------
 
 
-def _ordinates(carry: str) -> Form:
+def _ordinates(carry: str, s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The errors of the trials, as ordinates over their points."""
-
-    def drawn(s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
-        E1, E2 = (getattr(s, carry)(s.foot(l, Z), Z, A) for l, Z, A in ((l1, Z1, A1), (l2, Z2, A2)))
-        return s.meet(s.side(A1, A2), s.side(E1, E2))
-
-    return drawn
+    E1, E2 = (getattr(s, carry)(s.foot(l, Z), Z, A) for l, Z, A in ((l1, Z1, A1), (l2, Z2, A2)))
+    return s.meet(s.side(A1, A2), s.side(E1, E2))
 
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
@@ -211,8 +200,8 @@ def _ordinates(carry: str) -> Form:
            method="false position", forms={
                "a trial that fits": lambda s, A1, A2, Z1, l1, Z2, l2:
                    A1 if s.lies_on(Z1, l1) else A2 if s.lies_on(Z2, l2) else None,
-               "errors as ordinates": _ordinates("transfer"),
-               "errors as ordinates, turned": _ordinates("quarter")})
+               "errors as ordinates": partial(_ordinates, "transfer"),
+               "errors as ordinates, turned": partial(_ordinates, "quarter")})
 def false_position(d: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, l2: Any) -> Any:
     """The point of A1A2 for which Z falls on its line, from the errors of two trials; both lines are parallel."""
     u = apart(d, A1, A2, "both trials begin in one point")

@@ -7,9 +7,10 @@ dividing by an arm.
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Form, Movement, primitive
+from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, primitive
 from graphplan.kernel.primitives import apart, cross, dot, size, vector
 
 NO_ARM = "the two points coincide: there is no arm"
@@ -118,18 +119,14 @@ def _aimed(d: Any, y: Any, z: Any, X: Any) -> Any:
     return u
 
 
-def _similar_triangles(one: float, two: float) -> Form:
+def _similar_triangles(one: float, two: float, s: Any, y: Any, z: Any, X: Any) -> Any:
     """Two similar triangles between the lines: their third corners lie on a line to where the lines meet."""
-
-    def drawn(s: Any, y: Any, z: Any, X: Any) -> Any:
-        far = s.clear_of(X)
-        if far is None:
-            return None
-        P, R, P2 = s.pick(y, X, far, ratio=one), s.pick(z, X, far, ratio=one / 3), s.pick(y, X, far, ratio=two)
-        R2 = s.meet(s.parallel(s.line(P, R), P2), z)
-        return s.line(X, s.meet(s.parallel(s.line(P, X), P2), s.parallel(s.line(R, X), R2)))
-
-    return drawn
+    far = s.clear_of(X)
+    if far is None:
+        return None
+    P, R, P2 = s.pick(y, X, far, ratio=one), s.pick(z, X, far, ratio=one / 3), s.pick(y, X, far, ratio=two)
+    R2 = s.meet(s.parallel(s.line(P, R), P2), z)
+    return s.line(X, s.meet(s.parallel(s.line(P, X), P2), s.parallel(s.line(R, X), R2)))
 
 
 @primitive((LINE, LINE, POINT), LINE, STRAIGHTEDGE, "Through {2} draw {out} to where {0} meets {1}.",
@@ -137,8 +134,8 @@ def _similar_triangles(one: float, two: float) -> Form:
            source="Rosenauer 1939, No. 14: the auxiliary points Q, R, for forces", method="auxiliary points", forms={
                "along one of them": lambda s, y, z, X: y if s.lies_on(X, y) else z if s.lies_on(X, z) else None,
                "auxiliary point": lambda s, y, z, X: s.line(s.meet(y, z, name="Q"), X),
-               "similar triangles": _similar_triangles(0.15, 0.5),
-               "similar triangles, backwards": _similar_triangles(-0.15, -0.5)})
+               "similar triangles": partial(_similar_triangles, 0.15, 0.5),
+               "similar triangles, backwards": partial(_similar_triangles, -0.15, -0.5)})
 def towards(d: Any, y: Any, z: Any, X: Any) -> Any:
     """The line from where two lines meet through a third point; parallel to both where they meet nowhere."""
     u = _aimed(d, y, z, X)

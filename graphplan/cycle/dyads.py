@@ -124,8 +124,7 @@ def dyad(linkage: Linkage, part: tuple[str, ...]) -> Dyad | None:
 def _pairs(linkage: Linkage, link: str, others: tuple[str, ...]) -> list[Hinge]:
     """The pairs of a link with some others."""
     return [Hinge(pair.letter, pair.at, next(other for other in pair.links if other != link), direction(pair))
-            if isinstance(pair, Slide) else Hinge(pair.letter, pair.at)
-            for pair in linkage.pairs(link, others)]
+            if isinstance(pair, Slide) else Hinge(pair.letter, pair.at) for pair in linkage.pairs(link, others)]
 
 
 class _Sketch:

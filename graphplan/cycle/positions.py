@@ -77,8 +77,7 @@ class Placing:
 
     def __init__(self, linkage: Linkage):
         self.linkage = linkage
-        self.drawn = [None if linkage.special(part) else _driven(linkage, part) or _constructed(linkage, part)
-                      for part in linkage.parts]
+        self.drawn = [None if linkage.special(part) else _drawn(linkage, part) for part in linkage.parts]
 
     def poses(self, travel: Array) -> Array | None:
         """The poses at these travels as :mod:`linkage` has them, nan where one cannot be drawn; none if a part is not.
@@ -158,8 +157,8 @@ class _Body:
             placed.points[point] += at
 
 
-def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
-    """A link driven alone: turned about a joint with what is placed, or shifted along a slide on it."""
+def _drawn(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
+    """A link driven alone, turned about a joint with what is placed or shifted along a slide on it; or a plain dyad."""
     link = part[0]
     pairs, drives = linkage.pairs(link, linkage.carriers(part)), linkage.drives(part)
     if [len(part), len(drives), len(pairs)] == [1, 1, 1]:
@@ -167,7 +166,8 @@ def _driven(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
         if isinstance(pair, Slide if drive.slides else Revolute):
             (other,) = {*drive.links} - {link}
             return _Driven(linkage, link, pair, other, pace if drive.link == link else -pace)
-    return None
+    plain = dyad(linkage, part)
+    return _Constructed(linkage, part, plain) if plain else None
 
 
 class _Driven:
@@ -192,12 +192,6 @@ class _Driven:
         if other != FRAME:
             turn *= placed.turn[other]
         self.body.put(placed, placed.points[self.pair.at], turn)
-
-
-def _constructed(linkage: Linkage, part: tuple[str, ...]) -> Placer | None:
-    """A plain dyad."""
-    plain = dyad(linkage, part)
-    return _Constructed(linkage, part, plain) if plain else None
 
 
 class _Constructed:

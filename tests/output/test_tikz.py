@@ -16,7 +16,8 @@ from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, loose, programs
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.tikz import tikz, tkz_euclide
+from graphplan.output.exports.tikz import tikz
+from graphplan.output.exports.tkz import tkz_euclide
 from graphplan.output.exports.walk import identifiers
 from graphplan.sheet.plates.plate import Plates
 

@@ -191,8 +191,7 @@ def test_a_command_loads_no_more_than_it_needs() -> None:
     assert done.stderr.split() == ["[]", "[]"], done.stderr
 
 
-FORCES = ("methods.forces", "check.forces",
-          "solver.statics", "solver.virtual_power", "solver.friction")
+FORCES = ("methods.forces", "check.forces", "solver.statics", "solver.friction")
 
 
 @pytest.mark.parametrize(("scene", "touched"), [("four-bar", False), ("jaanimets-10", True)])

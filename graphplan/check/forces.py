@@ -10,6 +10,7 @@ from typing import Any
 
 from graphplan.check.arithmetics import Bounds, independent_facts
 from graphplan.check.compared import Results, plain
+from graphplan.mechanism.elimination import transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
@@ -19,11 +20,10 @@ from graphplan.methods import kinds
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce
 from graphplan.methods.results import balances
-from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, held
 from graphplan.solver.friction import Frictional, delivered, efficiency, leaning, with_friction
 from graphplan.solver.rates import Rates
-from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants, without
+from graphplan.solver.statics import Reactions, acting, asked, repeating, resultants
 from graphplan.solver.statics import read as read_forces
 
 # ---- the solver between bounds --------------------------------------------------------------------------------------
@@ -39,8 +39,8 @@ def bounded_reactions(scene: Scene, motion: Rates, by: Bounds, stated: Iterable[
               for fact in facts]
     solve = by.solve(transpose([equations.rows[i] for i in kept], equations.width), scales)
     values = dict(zip(kept, solve(right), strict=True))
-    told = without([values.get(i, 0) for i in range(len(equations.facts))], repeating(equations))
-    return read_forces(equations, told, motion)
+    told = (values.get(i, 0) for i in range(len(equations.facts)))
+    return read_forces(equations, told, repeating(equations), motion)
 
 
 def rubbed(smooth: Reactions, rounds: int, by: Bounds) -> Reactions:

@@ -72,8 +72,7 @@ def opinion(scene: Scene, by: Arithmetic) -> Opinion:
         return Opinion(known, rates)
     from graphplan.check.forces import bounded_reactions, rubbed
     from graphplan.solver.friction import with_friction
-    from graphplan.solver.statics import reactions
-    from graphplan.solver.virtual_power import power
+    from graphplan.solver.statics import power, reactions
 
     if isinstance(by, Exact):
         return Opinion(known, rates, reactions(scene, exact=True),

@@ -23,10 +23,9 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.mechanism.fine import across
 from graphplan.mechanism.model import FRAME, Drive, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turning
-from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.pairs.revolute import Revolute, across
 from graphplan.mechanism.structure import structure
 
 Array = Any

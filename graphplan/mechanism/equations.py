@@ -3,24 +3,26 @@
 Made from what the pairs state. Each moving link has three freedoms (the velocity of its point at the origin, and its
 turning), each revolute joint of moving links two, so that a joint of many links favours none of them. Where a
 coefficient needs coordinates, chance gives them: what holds for points in general position is what the graph says.
+
+In which order motion passes, and what must be solved together: each equation is given one freedom to determine (a
+matching); a thing then depends on all others in the equations of its freedoms; things that depend on each other in a
+ring are solved together. Nothing here recurses: chains are long.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from random import Random
 from typing import Any, NamedTuple
 
+from graphplan.mechanism.elimination import PRIME
 from graphplan.mechanism.model import FRAME, Balance, Scene
 from graphplan.mechanism.pairs.drives import DrivenPoint
-from graphplan.mechanism.pairs.pair import Condition, KinematicPair, Statement
+from graphplan.mechanism.pairs.pair import KinematicPair, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
-
-PRIME = 2**61 - 1
-"""Coefficients are residues of this prime: exact, of one size, and a chance zero all but impossible."""
 
 PIN = ""
 """The pin of a joint, apart from all its links."""
@@ -40,16 +42,6 @@ class Equation(NamedTuple):
 
     terms: dict[Unknown, Any]
     fact: Statement
-
-    @property
-    def condition(self) -> Condition:
-        """The condition by its name."""
-        return self.fact.condition
-
-    @property
-    def links(self) -> tuple[str, ...]:
-        """The links that it binds."""
-        return tuple(link for link in (self.fact.link, self.fact.on) if link not in (FRAME, PIN))
 
 
 @dataclass(frozen=True)
@@ -90,6 +82,10 @@ class System:
         return tuple(links + joints)
 
     @cached_property
+    def _free(self) -> frozenset[Unknown]:
+        return frozenset(self.unknowns)
+
+    @cached_property
     def equations(self) -> tuple[Equation, ...]:
         """All equations: of the pairs, of the drives or the balances."""
         loads, scene = self.posed.loads, self.posed
@@ -106,7 +102,7 @@ class System:
         place = {(link, point): i for i, (link, point) in enumerate(
             (link, point) for link in scene.moving for point in scene.links[link])}
         linked = sorted(pins, key=lambda equation: place[equation.fact.link, equation.fact.at])
-        return tuple(equation for equation in (*linked, *others) if equation.condition not in dropped)
+        return tuple(equation for equation in (*linked, *others) if equation.fact.condition not in dropped)
 
     def _pinned(self, joint: Revolute) -> Revolute:
         """A joint with a pin of its own, or where its motion is given one of the frame."""
@@ -116,7 +112,6 @@ class System:
 
     def _stated(self, pairs: Iterable[KinematicPair | Balance]) -> Iterator[Equation]:
         """What these pairs state, as equations."""
-        free = frozenset(self.unknowns)
         for pair in pairs:
             for fact in pair.states(self.posed):
                 terms: dict[Unknown, Any] = {}
@@ -124,5 +119,78 @@ class System:
                 for body, sign in ((fact.link, 1), (fact.on, -1)):
                     thing = ("link", body) if body != PIN else ("joint", fact.at)
                     terms |= {(thing, way): sign * weight for way, weight in zip(WAYS, weights, strict=True)
-                              if weight and (thing, way) in free}
+                              if weight and (thing, way) in self._free}
                 yield Equation(terms, fact)
+
+
+# --- in which order motion passes ------------------------------------------------------------------------------------
+
+
+def stages(system: System) -> list[tuple[Thing, ...]]:
+    """The things that are solved together, those that others depend on first."""
+    owner = matching([tuple(equation.terms) for equation in system.equations])
+    depends: dict[Thing, dict[Thing, None]] = {thing: {} for thing, _ in system.unknowns}
+    for (thing, _), i in owner.items():
+        depends[thing].update((other, None) for other, _ in system.equations[i].terms if other != thing)
+    return list(rings({thing: tuple(others) for thing, others in depends.items()}))
+
+
+def matching(options: Sequence[Sequence[Unknown]]) -> dict[Unknown, int]:
+    """For as many equations as possible an unknown of their own: the unknowns, each with its equation."""
+    owner: dict[Unknown, int] = {}
+    waiting = list(range(len(options)))
+    while waiting:  # in one round nothing is visited twice, so each round costs one reading of the equations
+        seen: set[Unknown] = set()
+        left = [i for i in waiting if not _augment(i, options, owner, seen)]
+        if len(left) == len(waiting):
+            break
+        waiting = left
+    return owner
+
+
+def _augment(start: int, options: Sequence[Sequence[Unknown]], owner: dict[Unknown, int], seen: set[Unknown]) -> bool:
+    """Find equation `start` an unknown, moving others to free ones along a path of exchanges."""
+    path: list[tuple[int, Iterator[Unknown]]] = [(start, iter(options[start]))]
+    taken: list[Unknown] = []
+    while path:
+        unknown = next((u for u in path[-1][1] if u not in seen), None)
+        if unknown is None:
+            path.pop()
+            del taken[-1:]
+            continue
+        seen.add(unknown)
+        taken.append(unknown)
+        if unknown not in owner:
+            owner.update((u, i) for (i, _), u in zip(path, taken, strict=True))
+            return True
+        path.append((owner[unknown], iter(options[owner[unknown]])))
+    return False
+
+
+def rings(depends: Mapping[Thing, Sequence[Thing]]) -> Iterator[tuple[Thing, ...]]:
+    """The strongly connected components (Tarjan 1972), each after all that it depends on."""
+    index: dict[Thing, int] = {}
+    low: dict[Thing, int] = {}
+    stack: list[Thing] = []
+    done: set[Thing] = set()
+    for root in depends:
+        path = [] if root in index else [(root, iter(depends[root]))]
+        while path:
+            node, others = path[-1]
+            if node not in index:
+                index[node] = low[node] = len(index)
+                stack.append(node)
+            other = next((o for o in others if o not in done), None)
+            if other is None:
+                path.pop()
+                if path:
+                    low[path[-1][0]] = min(low[path[-1][0]], low[node])
+                if low[node] == index[node]:
+                    ring = tuple(stack[stack.index(node) :]) if stack[-1] != node else (node,)
+                    del stack[-len(ring) :]
+                    done.update(ring)
+                    yield ring
+            elif other in index:
+                low[node] = min(low[node], index[other])
+            else:
+                path.append((other, iter(depends[other])))

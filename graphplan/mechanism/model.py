@@ -14,20 +14,17 @@ from fractions import Fraction
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.directions import Written as Written
-from graphplan.mechanism.pairs.drives import Drive as Drive
-from graphplan.mechanism.pairs.drives import DrivenPoint
-from graphplan.mechanism.pairs.drives import Motion as Motion
-from graphplan.mechanism.pairs.drives import SlidingDrive as SlidingDrive
-from graphplan.mechanism.pairs.drives import TurningDrive as TurningDrive
-from graphplan.mechanism.pairs.pair import FRAME as FRAME
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement, Turning
-from graphplan.mechanism.pairs.pair import Condition as Condition
+from graphplan.mechanism.directions import Written
+from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
+from graphplan.mechanism.pairs.pair import FRAME, Along, Condition, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.pairs.sliding import Slide as Slide
-from graphplan.mechanism.plane import Number as Number
-from graphplan.mechanism.plane import Pair as Pair
-from graphplan.mechanism.units import Units as Units
+from graphplan.mechanism.pairs.sliding import Slide
+from graphplan.mechanism.plane import Number, Pair
+from graphplan.mechanism.units import Units
+
+__all__ = ["FRAME", "Balance", "Condition", "Drive", "Find", "Force", "Friction", "Loads", "Mass", "Moment", "Motion",
+           "Number", "Pair", "Placement", "Presentation", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units",
+           "Written"]
 
 
 @dataclass(frozen=True)

@@ -9,22 +9,24 @@ higher derivatives: the motion is continued as a power series, until a condition
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from decimal import Decimal, localcontext
+from fractions import Fraction
+from functools import cache, partial
 from random import Random
-from typing import Generic, NamedTuple, TypeVar
+from typing import Any, NamedTuple
 
+from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.equations import PIN, Equation, System, Thing, Unknown
-from graphplan.mechanism.fine import DIGITS, fine_pose
-from graphplan.mechanism.model import FRAME, Condition, Scene
+from graphplan.mechanism.model import FRAME, Balance, Condition, Scene, Slide
+from graphplan.mechanism.numerals import Reckoning, exactly, heading, is_exact, root
 from graphplan.mechanism.order import Key, by_name
 from graphplan.mechanism.pairs.pair import Attitude, Statement
-
-K = TypeVar("K", bound=Hashable)
+from graphplan.mechanism.pairs.revolute import across
+from graphplan.mechanism.placements import placed_by
 
 NOTHING = Decimal("1e-40")  # the coefficients are about 1, and good to twice as many digits and more
-
 ORDER = 4
 """How far the motion is continued: velocities, accelerations, and twice more for links that can all but move."""
 
@@ -47,47 +49,32 @@ def special(scene: Scene) -> Special:
     """The mechanism in its pose, its drives and given motions apart."""
     with localcontext(prec=DIGITS):
         system = System(*fine_pose(replace(scene, motions={}, redundant=())))
-        pairs, found = sorted(system.pairs, key=_order(scene)), Echelon[Unknown]()
-        redundant = tuple(equation.condition for equation in pairs if not found.add(equation.terms))
-        repeating = tuple(pairs[i].condition for i in sorted(found.repeated()))
+        pairs, found = _in_order(scene, system.pairs), _Echelon()
+        redundant = tuple(equation.fact.condition for equation in pairs if not found.add(equation.terms))
+        repeating = tuple(pairs[i].fact.condition for i in sorted(found.repeated()))
         freedoms = len(system.unknowns) - found.rank
         course = _Course(system.posed)
-        moves = _continues(course, found, pairs, system.unknowns)
+        moves = course.continues(found, pairs, system.unknowns)
         links = tuple(sorted(filter(course.starts, scene.moving), key=by_name))
         return Special(freedoms, links, moves, redundant, repeating)
 
 
-def _order(scene: Scene) -> Callable[[Equation], tuple[bool, bool, int, Key, bool, Key, str]]:
+def _in_order(scene: Scene, equations: Iterable[Equation]) -> list[Equation]:
     """The order in which conditions are taken in: of those that repeat each other the last is called redundant.
 
     Driven links come first, joints before slides, then links with many pairs; of one link its pairs with the frame.
     Nothing depends on the order in which the scene is written.
     """
-
     driven = {link for drive in scene.drives for link in drive.links} - {FRAME}
     fixed = {FRAME, *scene.links.get(FRAME, ())}
     pairs = Counter(link for pair in scene.binding for link in pair.links)
 
-    def key(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
-        link, on, way = equation.condition
+    def rank(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
+        link, on, way = equation.fact.condition
         return (link not in driven, way in ("across", "turn"), -pairs[link], by_name(link), on not in fixed,
                 by_name(on), way)
 
-    return key
-
-
-def _continues(course: _Course, found: Echelon[Unknown], pairs: Sequence[Equation],
-               unknowns: Iterable[Unknown]) -> bool:
-    """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
-    chance = Random(1909)
-    for _ in range(ORDER):
-        course.lengthen()
-        any_way = {unknown: Decimal(chance.randrange(-999, 999)) / 1000 for unknown in unknowns}
-        values = found.solve([-course.excess(equation.fact) for equation in pairs], any_way)
-        if values is None:
-            return False
-        course.settle(values)
-    return True
+    return sorted(equations, key=rank)
 
 
 class _Series:
@@ -122,6 +109,19 @@ class _Course:
         one, nothing = Decimal(1), Decimal(0)
         self._attitudes = {body: Attitude(*map(_Series, (nothing, nothing, one, nothing))) for body in bodies}
 
+    def continues(self, found: _Echelon, pairs: Sequence[Equation], unknowns: Iterable[Unknown]) -> bool:
+        """Whether the motion can be continued beyond its velocities, what is free going any way it likes."""
+        chance = Random(1909)
+        for _ in range(ORDER):
+            self.lengthen()
+            any_way = {unknown: Decimal(chance.randrange(-999, 999)) / 1000 for unknown in unknowns}
+            values = found.solve([-self.excess(equation.fact) for equation in pairs], any_way)
+            if values is None:
+                return False
+            for (body, way), value in values.items():
+                getattr(self._attitudes[body], "sin" if way == "turn" else way).terms[-1] = value
+        return True
+
     def lengthen(self) -> None:
         """Go on to the next order; a cosine follows from the sine of lower orders."""
         for x, y, cosine, sine in self._attitudes.values():
@@ -130,11 +130,6 @@ class _Course:
             cosine.terms.append(-squares / 2)
             for series in (x, y, sine):
                 series.terms.append(Decimal(0))
-
-    def settle(self, values: dict[Unknown, Decimal]) -> None:
-        """Enter the coefficients of this order."""
-        for (body, way), value in values.items():
-            getattr(self._attitudes[body], "sin" if way == "turn" else way).terms[-1] = value
 
     def starts(self, link: str) -> bool:
         """Whether a link has a velocity."""
@@ -150,29 +145,29 @@ class _Course:
         return left
 
 
-# --- echelon form in decimals: equations taken in one by one, and those found out that only repeat the ones before ----
+# --- echelon form in decimals: equations are taken in one by one, those that only repeat the others found out ---------
 
 
-class _Row(NamedTuple, Generic[K]):
+class _Row(NamedTuple):
     """What is left of an equation, its pivot (None if nothing is left), and how often each row before it was taken."""
 
-    terms: dict[K, Decimal]
-    pivot: K | None
+    terms: dict[Unknown, Decimal]
+    pivot: Unknown | None
     taken: dict[int, Decimal]
 
 
-class Echelon(Generic[K]):
+class _Echelon:
     """Equations brought to echelon form in the order in which they come, to be solved for any right-hand side."""
 
     def __init__(self) -> None:
-        self._rows: list[_Row[K]] = []
+        self._rows: list[_Row] = []
 
     @property
     def rank(self) -> int:
         """How many of the equations say something that those before them do not."""
         return sum(row.pivot is not None for row in self._rows)
 
-    def add(self, equation: Mapping[K, Decimal | int]) -> bool:
+    def add(self, equation: Mapping[Unknown, Decimal | int]) -> bool:
         """Take in one more equation; whether it says something new."""
         terms, taken = {k: Decimal(c) for k, c in equation.items()}, {}
         for i, row in enumerate(self._rows):
@@ -197,7 +192,7 @@ class Echelon(Generic[K]):
                 weights[k] = weights.get(k, Decimal(0)) - weights[i] * factor
         return {i for i, weight in weights.items() if abs(weight) > NOTHING}
 
-    def solve(self, right: Sequence[Decimal], chosen: Mapping[K, Decimal]) -> dict[K, Decimal] | None:
+    def solve(self, right: Sequence[Decimal], chosen: Mapping[Unknown, Decimal]) -> dict[Unknown, Decimal] | None:
         """The solution with chosen values of what is free; None where the right-hand side contradicts the equations."""
         sides: list[Decimal] = []
         for row, side in zip(self._rows, right, strict=True):
@@ -211,3 +206,77 @@ class Echelon(Generic[K]):
                 known = sum((c * values[k] for k, c in row.terms.items() if k != row.pivot), Decimal(0))
                 values[row.pivot] = (side - known) / row.terms[row.pivot]
         return values
+
+
+# --- the pose to a hundred digits: fine enough to tell special geometry from what only comes close to it --------------
+
+DIGITS = 100
+_BITS = 360
+_ONE = 1 << _BITS
+
+Place = tuple[Decimal, Decimal]
+
+
+def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
+    """A scene in its pose as it is written, unbalanced: points in reaches from the first one, directions of length 1;
+    and in which direction each moving link's joints are held."""
+    points = _points(scene)
+    with localcontext(prec=DIGITS):
+        first, *_ = points.values()
+        arms = {name: (_decimal(x - first[0]), _decimal(y - first[1])) for name, (x, y) in points.items()}
+        reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
+        places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
+        axes = {link: _unit(*map(Decimal, across(scene, link, places))) for link in scene.moving}
+        return scene.posed(places, lambda one: _guide(one, points)), False, axes
+
+
+def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
+    """Every point where its placement puts it; where arcs touch to a float's digits only, as the float that it is."""
+    known = {name: exactly(at) for name, at in scene.points.items()}
+    if is_exact(*scene.points.values()):
+        return known
+    try:
+        return known | {name: exactly(at) for name, at in placed_by(scene.placements, FINELY).items()}
+    except Misfit:
+        return known
+
+
+def _guide(slide: Slide | Balance, points: dict[str, tuple[Fraction, Fraction]]) -> Place:
+    written: Any = slide.direction if slide.written is None else vector(slide.written, points.__getitem__, FINELY)[:2]
+    x, y = exactly(written)
+    return _unit(_decimal(x), _decimal(y))
+
+
+def _unit(x: Decimal, y: Decimal) -> Place:
+    length = (x * x + y * y).sqrt()
+    return x / length, y / length
+
+
+def _decimal(number: Fraction) -> Decimal:
+    return Decimal(number.numerator) / number.denominator
+
+
+def _circular(degrees: Fraction) -> tuple[Fraction, Fraction]:
+    """Cosine and sine by their series, of an angle within an eighth of a turn."""
+    angle, power, order, sums = int(abs(degrees) * _pi() / 180 * _ONE), _ONE, 0, [0, 0]
+    while power:
+        sums[order % 2] += -power if order % 4 > 1 else power
+        order += 1
+        power = power * angle // _ONE // order
+    return Fraction(sums[0], _ONE), Fraction(sums[1] if degrees > 0 else -sums[1], _ONE)
+
+
+@cache
+def _pi() -> Fraction:
+    """Machin's formula."""
+    def arctan(inverse: int) -> int:
+        term, total, k = _ONE // inverse, 0, 1
+        while term:
+            total += term // k if k % 4 == 1 else -(term // k)
+            term, k = term // (inverse * inverse), k + 2
+        return total
+
+    return Fraction(16 * arctan(5) - 4 * arctan(239), _ONE)
+
+
+FINELY = Reckoning(partial(root, bits=_BITS), partial(heading, circular=_circular))

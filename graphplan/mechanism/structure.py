@@ -11,20 +11,18 @@ Source: Jaanimets (1966), sections 1-9; Artobolevsky's classes.
 
 from __future__ import annotations
 
-from collections import Counter, defaultdict
-from collections.abc import Iterator, Mapping
+from collections import Counter, defaultdict, deque
+from collections.abc import Collection, Iterator, Mapping
 from itertools import pairwise
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism.bracing import bracing
-from graphplan.mechanism.contours import loop_lengths
-from graphplan.mechanism.equations import System
+from graphplan.mechanism.equations import System, stages
 from graphplan.mechanism.model import FRAME, Drive, Scene
 from graphplan.mechanism.order import ordered_links
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.pairs.revolute import Revolute
-from graphplan.mechanism.transfer import stages
 from graphplan.phrases import Said, phrase, said
 
 _MODIFICATIONS = ("RRR", "RRP", "RPR", "PRP", "RPP")
@@ -115,15 +113,16 @@ def structure(scene: Scene) -> Structure:
 
 def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     """What kind of group these links form."""
-    body = _bodies(around, links)
+    body = around.bodies(links)
     bonds = tuple(around.bonds(links, body))
     bodies = dict.fromkeys([*body.values(), *(one for bond in bonds for one in bond.bodies)])
     outer = [bond for bond in bonds if len(bond.bodies) == 1]
     if len(bodies) == 1:
         held = len([bond for bond in outer if bond.kind != "T"])
         return Group(links, 1, held, "driving link") if around.driven(links) else Group(links, 0, held, "follower")
-    form = _form(outer, [bond for bond in bonds if len(bond.bodies) > 1])
-    if len(bodies) == 2 and form in _MODIFICATIONS:
+    first, *last = sorted((bond.kind for bond in outer), reverse=True)
+    form = "".join([first, *(bond.kind for bond in bonds if len(bond.bodies) > 1), *last])
+    if len(bodies) == 2 and form in _MODIFICATIONS:  # another form has a pair that special geometry has made redundant
         return Group(links, 2, 2, f"dyad {form} (modification {_MODIFICATIONS.index(form) + 1})")
     sides = _sides(bonds)
     real = len(bodies) + sum(bond.fictitious for bond in bonds)
@@ -131,36 +130,21 @@ def _group(around: _Surroundings, links: tuple[str, ...]) -> Group:
     return Group(links, sides, len(outer), "triad" if triad else f"class {roman(sides)} group")
 
 
-def _form(outer: list[_Bond], inner: list[_Bond]) -> str:
-    """The form of a dyad: outer, inner and outer pair; anything else where special geometry has made one redundant."""
-    first, *last = sorted((bond.kind for bond in outer), reverse=True)
-    return "".join([first, *(bond.kind for bond in inner), *last])
-
-
 def _sides(bonds: tuple[_Bond, ...]) -> int:
     """The number of sides of the largest contour, rigid or deformable."""
     pairs: dict[str, int] = defaultdict(int)
-    graph: dict[tuple[str, ...], set[tuple[str, ...]]] = defaultdict(set)
+    graph: dict[Node, set[Node]] = defaultdict(set)
     for i, bond in enumerate(bonds):
         for body in bond.bodies:
             pairs[body] += 1
-            path: list[tuple[str, ...]] = [("body", body), ("pair", str(i))]
-            if bond.fictitious:  # the link has a pair with each of the two
-                path = [("body", body), ("pair", str(i), body), ("fictitious", str(i))]
-            for one, other in pairwise(path):
+            if len(bond.bodies) < 2:  # an outer pair is in no loop
+                continue
+            fictitious = [("pair", i, body), ("fictitious", i)]  # the link has a pair with each of the two
+            for one, other in pairwise([("body", body), *(fictitious if bond.fictitious else [("pair", i)])]):
                 graph[one].add(other)
                 graph[other].add(one)
-    loops = loop_lengths({node: frozenset(others) for node, others in graph.items()})
-    return max(*pairs.values(), *(length // 2 for length in loops), 2)  # every other node of a loop is a link
-
-
-def _bodies(around: _Surroundings, links: tuple[str, ...]) -> dict[str, str]:
-    """For each link, the first link of the body that it forms with those that a drive at a common pair holds to it."""
-    body = {link: link for link in links}
-    for one, other in around.welds(links):
-        kept, lost = body[one], body[other]
-        body.update((link, kept) for link in links if body[link] == lost)
-    return body
+    loops = (length // 2 for length in loop_lengths(graph))  # every other node of a loop is a link
+    return max(*pairs.values(), *loops, 2)
 
 
 class _Surroundings:
@@ -190,13 +174,17 @@ class _Surroundings:
         return led or any(end == FRAME or self.stage[end] <= self.stage[links[0]] for drive in self._drives(links)
                           for end in set(drive.links) - set(links))
 
-    def welds(self, links: tuple[str, ...]) -> Iterator[tuple[str, str]]:
-        """The links of a group that a drive at their common pair makes one body."""
+    def bodies(self, links: tuple[str, ...]) -> dict[str, str]:
+        """For each link, the first link of the body that it forms with those that a drive at a common pair holds to it.
+        """
+        body = {link: link for link in links}
         for drive in self._drives(links):
             one, other = drive.links
             joined = drive.slides or set(self.scene.links.get(one, ())) & set(self.scene.links.get(other, ()))
             if joined and one in links and other in links:
-                yield one, other
+                kept, lost = body[one], body[other]
+                body.update((link, kept) for link in links if body[link] == lost)
+        return body
 
     def bonds(self, links: tuple[str, ...], body: Mapping[str, str]) -> Iterator[_Bond]:
         """The pairs of a group: its inner ones, and the outer ones with what moves already."""
@@ -222,6 +210,48 @@ class _Surroundings:
                 between = f"between {' '.join(pair.links)}"
                 yield from (_Bond(kind, (between, *([body[link]] if link in body else [])))
                             for kind, link in zip(pair.letter, pair.links, strict=True))
+
+
+# --- contours: the closed loops of a group, of which the largest gives its class -----------------------------------
+
+Node = Any
+Graph = Mapping[Node, Collection[Node]]
+"""Each node with its neighbours."""
+
+
+def loop_lengths(graph: Graph) -> list[int]:
+    """The numbers of edges of the loops in a smallest set of independent ones, shortest first (Horton 1987)."""
+    edges = {edge: i for i, edge in enumerate({frozenset((a, b)): None for a in graph for b in graph[a]})}
+    found: list[int] = []
+    independent: dict[int, int] = {}  # loops as sets of edges, in binary, by their highest edge
+    for length, loop in sorted(_candidates(graph, edges)):
+        while loop and loop.bit_length() in independent:
+            loop ^= independent[loop.bit_length()]
+        if loop:
+            independent[loop.bit_length()] = loop
+            found.append(length)
+    return found
+
+
+def _candidates(graph: Graph, edges: Mapping[frozenset[Node], int]) -> Iterator[tuple[int, int]]:
+    """From each branching node and each edge, the loop that two shortest paths close: length and edges."""
+    branching = [node for node in graph if len(graph[node]) > 2]
+    for root in branching or graph:
+        paths = {root: 0}
+        queue = deque([root])
+        while queue:
+            node = queue.popleft()
+            for other in graph[node]:
+                step = 1 << edges[frozenset((node, other))]
+                if other not in paths:
+                    paths[other] = paths[node] | step
+                    queue.append(other)
+        for edge, i in edges.items():
+            a, b = edge
+            if a in paths:
+                loop = paths[a] ^ paths[b] ^ (1 << i)
+                if loop:
+                    yield loop.bit_count(), loop
 
 
 def roman(number: int) -> str:

@@ -12,13 +12,12 @@ from graphplan.solver.rates import Rates, solve
 
 if TYPE_CHECKING:
     from graphplan.solver.friction import Frictional, with_friction
-    from graphplan.solver.statics import Reactions, reactions
-    from graphplan.solver.virtual_power import power
+    from graphplan.solver.statics import Reactions, power, reactions
 
 __all__ = ["Frictional", "Rates", "Reactions", "power", "reactions", "solve", "with_friction"]
 
-_FORCES = {"Frictional": "friction", "with_friction": "friction", "power": "virtual_power", "Reactions": "statics",
-           "reactions": "statics"}
+_FORCES = {"Frictional": "friction", "with_friction": "friction", "Reactions": "statics",
+           "power": "statics", "reactions": "statics"}
 
 
 def __getattr__(name: str) -> Any:

@@ -18,11 +18,11 @@ from itertools import chain
 from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused, by_name
+from graphplan.mechanism.elimination import Elimination, transpose
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.pairs.pair import Along, Rate, Side, Statement
 from graphplan.mechanism.plane import dot, less, times
-from graphplan.solver.elimination import Elimination, transpose
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 
+from graphplan.mechanism.elimination import transpose
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
-from graphplan.solver.elimination import transpose
 from graphplan.solver.equations import Equations, Row, held, moved
 
 _ROUNDING = 2.0**-44
@@ -98,7 +98,7 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
     right = [-value for value in statics.resultants(equations, statics.acting(scene, motion))]
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
     values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes)
-    return statics.read(equations, statics.without(values, statics.repeating(equations)), motion)
+    return statics.read(equations, values, statics.repeating(equations), motion)
 
 
 def _reach(equations: Equations) -> float:
@@ -153,19 +153,13 @@ def _lengths(matrix: Any, axis: int) -> Any:
 
 
 def _everywhere(solve: Callable[..., Any], *systems: Any) -> Any:
-    """What LAPACK gives in every pose, nan where it gives nothing."""
+    """What LAPACK gives in every pose, or in one; nan where it gives nothing."""
     try:
         return solve(*systems)
     except np.linalg.LinAlgError:
-        return np.array([_alone(solve, *pose) for pose in zip(*systems, strict=True)])
-
-
-def _alone(solve: Callable[..., Any], *system: Any) -> Any:
-    """The same in one pose."""
-    try:
-        return solve(*system)
-    except np.linalg.LinAlgError:
-        return np.full_like(system[-1], np.nan)
+        if np.ndim(systems[0]) == 2:
+            return np.full_like(systems[-1], np.nan)
+        return np.array([_everywhere(solve, *pose) for pose in zip(*systems, strict=True)])
 
 
 def _pair(z: Any) -> Any:

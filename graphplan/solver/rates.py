@@ -9,10 +9,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from graphplan.errors import SingularPose
+from graphplan.mechanism.elimination import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Rate, centripetal, slip, surplus
 from graphplan.mechanism.plane import dot, less, times
-from graphplan.solver.elimination import Elimination
 from graphplan.solver.equations import Equations, Solution, moved
 
 if TYPE_CHECKING:
@@ -92,22 +92,14 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
     return Rates(
         equations,
         velocity={p: first[link].at(equations.arm(link, p)) for p, link in carriers.items()},
-        acceleration={p: acceleration(equations, link, p, first, second) for p, link in carriers.items()},
+        acceleration={p: less(second[link].at(equations.arm(link, p)), centripetal(equations.side(link, p, first)))
+                      for p, link in carriers.items()},
         omega={link: first[link].turn for link in equations.columns},
         alpha={link: second[link].turn for link in equations.columns},
         slide_velocity={s.name: along(s, slip(*equations.sides(s, first))) for s in slides},
-        slide_acceleration={s.name: along(s, sliding(equations, s, first, second)) for s in slides},
+        slide_acceleration={s.name: along(s, less(slip(*equations.sides(s, second)),
+                                                  surplus(*equations.sides(s, first)))) for s in slides},
     )
-
-
-def acceleration(equations: Equations, link: str, p: str, first: dict[str, Rate], second: dict[str, Rate]) -> Pair:
-    """The acceleration of a point of a link."""
-    return less(second[link].at(equations.arm(link, p)), centripetal(equations.side(link, p, first)))
-
-
-def sliding(equations: Equations, slide: Slide, first: dict[str, Rate], second: dict[str, Rate]) -> Pair:
-    """The acceleration of the slide's point relative to the guide."""
-    return less(slip(*equations.sides(slide, second)), surplus(*equations.sides(slide, first)))
 
 
 def along(slide: Slide, vector: Pair) -> Pair:

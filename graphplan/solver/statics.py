@@ -7,17 +7,19 @@ balances in the place of the drives, are the system for the forces when they are
 
 from __future__ import annotations
 
-from collections.abc import Container, Iterable, Iterator, Sequence
+from collections.abc import Container, Iterable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import Any
 
 from graphplan.errors import Refused, SingularPose
-from graphplan.mechanism.model import FRAME, Force, Loads, Mass, Moment, Number, Pair, Scene
+from graphplan.mechanism.elimination import Elimination
+from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Moment, Number, Pair, Scene
 from graphplan.mechanism.pairs.pair import Along, Rate
 from graphplan.mechanism.plane import less, times, turned
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.solver.equations import Equations, Solution, bound, held, require_fractions
-from graphplan.solver.rates import Rates, bound_by, moved_by, solve
+from graphplan.solver.rates import Rates, bound_by, moved_by, solve, solved
 
 Load = Force | Moment
 
@@ -56,12 +58,7 @@ def equilibrium(equations: Equations, rates: Rates, exact: bool) -> Reactions:
     values, free = linear.solve(right), linear.free
     if values is None or (free and not equations.scene.redundant) or free & balanced(equations):
         raise not_held(equations, exact)
-    return read(equations, without(values, free), rates)
-
-
-def without(values: Iterable[Number], free: Container[int]) -> list[Number | None]:
-    """The unknowns, None in the place of those that are free."""
-    return [None if i in free else value for i, value in enumerate(values)]
+    return read(equations, values, free, rates)
 
 
 def repeating(equations: Equations) -> frozenset[int]:
@@ -87,12 +84,12 @@ def not_held(equations: Equations, exact: bool) -> SingularPose:
     return SingularPose(why, moved_by(equations, play))
 
 
-def read(equations: Equations, values: Sequence[Number | None], rates: Rates) -> Reactions:
+def read(equations: Equations, values: Iterable[Number], free: Container[int], rates: Rates) -> Reactions:
     """What the unknowns are: two for each pair, in the order of the facts, then one for each balance.
 
-    A pair with an unknown that equilibrium cannot tell, None, is left out.
+    A pair with an unknown that equilibrium leaves free is left out.
     """
-    scene, unknown = equations.scene, iter(values)
+    scene, unknown = equations.scene, (None if i in free else value for i, value in enumerate(values))
     unit, slides, balances = metre(scene.units), dict[str, tuple[Pair, Number]](), list[Pair | Number]()
     joints = {(joint.at, k): (next(unknown), next(unknown)) for joint in scene.revolutes for k in joint.links[1:]}
     for slide in scene.slides:
@@ -146,3 +143,49 @@ def weights(equations: Equations, load: Load) -> Rate:
     if isinstance(load, Moment):
         return Rate(0, 0, load.value * metre(equations.scene.units))
     return Along(load.on, FRAME, load.at, load.value, "held").weights(equations.arm(load.on, load.at))
+
+
+# --- the balances from the power equation alone: the third opinion, which knows no reactions --------------------------
+#
+# In any motion that the pairs allow they do no work, so loads and balances together have no power. Each drive in turn
+# gives one such motion, even of a mechanism at rest, and so one equation for the balances.
+
+
+def power(scene: Scene, exact: bool = False) -> tuple[Pair | Number, ...]:
+    """The scene's balances, each a moment (force * m) or a force, from the powers of its loads.
+
+    Fails as `reactions` does.
+    """
+    rates, units = solve(scene, exact), [unit(balance) for balance in asked(scene).balances]
+    loads, motions = acting(scene, rates), list(virtual(rates, exact))
+    system = Elimination([dict(enumerate(powers(rates, units, motion))) for motion in motions], len(units))
+    right = [-sum(powers(rates, loads, motion)) for motion in motions]
+    if exact:
+        require_fractions(scene, right)
+    rows, values = held(scene), system.solve(right)
+    if values is None or system.free or rows.ready(exact).free:
+        raise not_held(rows, exact)
+    found: Iterable[Number] = values if exact else map(float, values)
+    return tuple(times(v, one.value) if isinstance(one, Force) else v for v, one in zip(found, units, strict=True))
+
+
+def virtual(rates: Rates, exact: bool) -> Iterator[dict[str, Rate]]:
+    """For each drive the velocities of every link while this drive alone moves, at a unit rate."""
+    equations, zero = rates.equations, Fraction(0) if exact else 0.0
+    linear, first = equations.ready(exact), bound(equations.scene)
+    for drive in range(first, first + len(equations.scene.drives)):
+        right = [Fraction(i == drive) for i in range(len(equations.facts))]
+        yield equations.rates(solved(equations, linear, right), zero)
+
+
+def unit(balance: Balance) -> Load:
+    """The balance with a moment of 1, or with its direction as its force."""
+    if balance.direction is None:
+        return Moment(balance.link, Fraction(1))
+    return Force(balance.link, balance.at, balance.direction)
+
+
+def powers(rates: Rates, loads: Iterable[Load], motion: dict[str, Rate]) -> Iterator[Number]:
+    """The power of each load in a motion, in force * length/s."""
+    for load in loads:
+        yield sum(a * b for a, b in zip(weights(rates.equations, load), motion[load.on], strict=True))

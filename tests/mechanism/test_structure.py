@@ -12,9 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from graphplan.errors import SceneError
-from graphplan.mechanism.contours import loop_lengths
 from graphplan.mechanism.model import FRAME, Find, Motion, Scene, Slide, SlidingDrive, TurningDrive, Units
-from graphplan.mechanism.structure import mobility, roman, structure
+from graphplan.mechanism.structure import loop_lengths, mobility, roman, structure
 
 
 def chain(links: str, slides: str = "", drives: str = "1", motions: str = "") -> Scene:

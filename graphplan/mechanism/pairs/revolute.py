@@ -37,3 +37,10 @@ class Revolute(KinematicPair):
             axis, to = self.axes.get(link, X), link if link in self.axes else FRAME
             yield Along(link, pin, self.at, axis, "x", to=to)
             yield Along(link, pin, self.at, turned(axis), "y", to=to)
+
+
+def across(scene: Scene, link: str, places: Mapping[str, tuple[Any, Any]]) -> tuple[Any, Any]:
+    """Square to a link that is a bar between two joints; of any other link along x."""
+    joints = [places[point] for point in scene.links[link] if point in scene.joints]
+    (ax, ay), (bx, by) = joints if len(joints) == 2 else ((0, 0), (0, 0))
+    return (ay - by, bx - ax) if (ax, ay) != (bx, by) else (1, 0)

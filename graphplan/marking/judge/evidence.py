@@ -30,7 +30,7 @@ Value = tuple[float, ...]
 
 @dataclass(frozen=True)
 class KnownMarks:
-    """How far a drawing has been gone through: the values of its steps, and the slips still to come, or what they
+    """How far a drawing has been gone through: the values of its steps, and the mistakes still to come, or what they
     make."""
 
     values: Sequence[Any]

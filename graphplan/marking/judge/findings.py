@@ -100,8 +100,8 @@ def complaint(judgement: Judgement, verdict: Verdict) -> Said:
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
-    """The same without the step's own number; a slip of an earlier step that is not to be seen is told with its own,
-    and a line that is not to be seen is nowhere."""
+    """The same without the step's own number; a mistake at an earlier step that is not to be seen is told with its
+    own, and a line that is not to be seen is nowhere."""
     if verdict.mistake is not None and not math.isfinite(verdict.off):
         return verdict.mistake
     sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))

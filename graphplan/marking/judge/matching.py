@@ -1,8 +1,8 @@
 """One way through a construction beside a student's drawing: every step finds its trace, and is judged by it.
 
 Two drawings are kept: the student's own, which goes on from every mark as it was drawn, and the mended one, which
-goes on from where a wrong mark should have been. A later mark is right if it follows from either; so one slip is
-held against one step.
+goes on from where a wrong mark should have been. A later mark is right if it follows from either; so one mistake
+is held against one step.
 """
 
 from __future__ import annotations
@@ -35,8 +35,8 @@ ASTRAY = 60.0  # mm: no mark is sought further off
 
 @dataclass(frozen=True)
 class Match:
-    """What a step was taken for: its state, where it should have been, and the trace, or the slip that it must have
-    been, with how far off that is; and what that speaks for the way."""
+    """What a step was taken for: its state, where it should have been, and the trace, or the mistake that it must
+    have been, with how far off that is; and what that speaks for the way."""
 
     step: Step
     state: str
@@ -225,7 +225,7 @@ class Matching:
                            seen, seen if fits[-1] else mended)
 
     def mistake(self, mistake: Mistake) -> Matching:
-        """Take a slip for what was done at the next step: what is drawn where it leads, or a mark that is not to be
+        """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be
         seen, but from which others follow."""
         step, asked = self.next, self._asked(self.next)
         made = self.sheet.hand.slipped(step, mistake.value(self.sheet.domain, self.own), self.sheet.errors(step.index))

@@ -234,6 +234,11 @@ def _(at: Occasion) -> Iterable[Mistake]:
 @mistake("exchanged coordinates", phrase("coordinates exchanged, or of the wrong sign"), by(Movement.GIVEN))
 def _(at: Occasion) -> Iterable[Mistake]:
     x, y = (at.step.params[name] for name in "xy")
-    for told, (u, v) in ((said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
-                         (said("y has the wrong sign"), (x, -y))):
+    for told, (u, v) in exchanges(x, y):
         yield at.made(told, params={"x": u, "y": v})
+
+
+def exchanges(x: float, y: float) -> Sequence[tuple[Said, tuple[float, float]]]:
+    """What two coordinates are mistaken for."""
+    return [(said("x and y are exchanged"), (y, x)), (said("x has the wrong sign"), (-x, y)),
+            (said("y has the wrong sign"), (x, -y))]

@@ -42,13 +42,11 @@ class Register:
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
                  labels: Mapping[int, int]):
         self.drawing, self.scales, self.submission, self.pencil = drawing, composition.scales, submission, pencil
-        self.plan_of_step: Sequence[str] = Plans(drawing).plan_of_step
+        plans = Plans(drawing)
+        self.plan_of_step: Sequence[str] = plans.plan_of_step
+        self.panels: Sequence[str] = plans.panels
         self.labels, self.taken = labels, set(labels.values())
         self.values: tuple[Sequence[Any], ...] = (drawing.values,)
-
-    @property
-    def panels(self) -> Sequence[str]:
-        return Plans(self.drawing).panels
 
     def mechanism(self) -> Fit:
         """Where the mechanism lies; refused where its points are not found."""

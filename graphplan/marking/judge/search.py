@@ -32,7 +32,7 @@ DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side
 RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
 ROUGH = 0.6  # what is seen at a glance weighs as much less
 DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
-HOPELESS = -4.0  # the weight of what follows from a slip below which it is given up
+HOPELESS = -4.0  # the weight of what follows from a mistake below which it is given up
 Value = tuple[float, ...]
 Found = dict[int, int | Mistake]
 
@@ -127,7 +127,7 @@ class Search:
                 yield from self._others(matching, match)
             right = clear(match) and uses[match.place] == 1
             if not right and match.step.index not in matching.labels and not match.step.op.free:
-                yield from self._slips(matching, quick, match)
+                yield from self._mistakes(matching, quick, match)
 
     def _others(self, matching: Matching, match: Match) -> Iterator[Guess]:
         """The traces that fit a step as well as the one beside them that was taken; or that none of them is its."""
@@ -139,7 +139,7 @@ class Search:
         if step.op.gives == POINT:
             yield Guess(step.index, UNMARKED, ODDS - DOUBT, FIRST)
 
-    def _slips(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
+    def _mistakes(self, matching: Matching, quick: QuickScore, match: Match) -> Iterator[Guess]:
         """The mistakes that a step may be, those of the table and others: kinds are equally likely, and so is what is
         of one kind."""
         step = match.step
@@ -194,13 +194,13 @@ class QuickScore:
         self.own = [plain(value) for value in matching.own]
 
     def by(self, mistake: Mistake) -> float:
-        """What is won if a slip was made; less than everything where it could not be."""
+        """What is won if a mistake was made; less than everything where it could not be."""
         wrong = value_of(mistake.step, self.own, mistake)
         return -math.inf if wrong is None else self.gain(mistake.step, wrong)
 
-    def gain(self, slipped: Step, wrong: Value) -> float:
+    def gain(self, mistaken: Step, wrong: Value) -> float:
         """What is won if a step made this; less than everything where it is not there, or nothing follows from it."""
-        matching, at = self.matching, slipped.index
+        matching, at = self.matching, mistaken.index
         values, moved, dead = list(self.own), set[int](), set[int]()
         gain = seen = 0.0
         for arg in _strokes(matching, at):

@@ -140,7 +140,7 @@ class StudentSheet:
     @cached_property
     def _starts(self) -> list[int]:
         """Where the errors of each step begin: the hand's slips, then its trace's."""
-        counts = [len(mistakes) + SPOT_ERRORS for mistakes in self.hand.slips]
+        counts = [len(slips) + SPOT_ERRORS for slips in self.hand.slips]
         return np.concatenate(([0], np.cumsum(counts))).tolist()  # type: ignore[no-any-return]
 
     @cached_property
@@ -286,7 +286,7 @@ FAINT = {LINE: 2.5, CIRCLE: 2.0, POINT: 0.4}  # the same where it is seen only b
 FILED = {LINE: 8.0, CIRCLE: 7.0, POINT: 10.0}  # a mark of a file, in which nothing is there by chance
 GONE = {LINE: -4.0, CIRCLE: -3.0, POINT: -3.0}  # no mark, where one could be seen
 SHARED = 0.0  # a mark that was drawn for another step
-ASSUMED = -2.0  # a slip at a mark that is not to be seen itself
+ASSUMED = -2.0  # a mistake at a mark that is not to be seen itself
 HALF, WHOLE = 0.4, 0.8  # the share of a stroke that is hardly there, and that is as good as all
 
 

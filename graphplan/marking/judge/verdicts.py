@@ -22,7 +22,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
 from graphplan.marking.judge.matching import Match, Matching
-from graphplan.marking.judge.mistakes import MISTAKES, Mistake, mistakes
+from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
 from graphplan.marking.judge.student_sheet import PointResidual, Residual, apart, bound, plain
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG, Ellipse, NumberVerdict, Verdict
 from graphplan.marking.tables.results import in_scene_units
@@ -31,7 +31,7 @@ from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.scales import digits
 
-CLOSEST = 16  # how many slips are looked at closely
+CLOSEST = 16  # how many mistakes are looked at closely
 FARTHER, RARER = 4.0, 0.5  # what each step back in the drawing, and each place down the table, adds to a sum of squares
 READ = 2.0  # the error of a length read on paper, beside that of a pricked point: both its ends are read
 ROUNDED = 1e-3  # the part of a number that may be lost by rounding it
@@ -42,7 +42,7 @@ Key = tuple[str, str]
 
 @dataclass(frozen=True)
 class Suspect:
-    """A slip at a step that would lead to a wrong mark, and what it adds to the sum of squares."""
+    """A mistake at a step that would lead to a wrong mark, and what it adds to the sum of squares."""
 
     mistake: Mistake
     source: Step
@@ -50,7 +50,7 @@ class Suspect:
 
 
 def explained(matching: Matching, match: Match) -> Suspect | None:
-    """The slip that explains a wrong trace best, if one does."""
+    """The mistake that explains a wrong trace best, if one does."""
     step = match.step
     assert match.place is not None
     spots = matching.sheet.spots(step.index, matching.traces[match.place])
@@ -66,7 +66,7 @@ def explained(matching: Matching, match: Match) -> Suspect | None:
 
 
 def _closest(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
-    """The slips that lead nearest to what was drawn."""
+    """The mistakes that lead nearest to what was drawn."""
     floats, hand = [plain(value) for value in matching.own[:step.index]], matching.sheet.hand
     found: list[tuple[float, int, Suspect]] = []
     for suspect in _suspects(matching, step):
@@ -77,7 +77,7 @@ def _closest(matching: Matching, step: Step, spots: Any) -> list[Suspect]:
 
 
 def _suspects(matching: Matching, step: Step) -> Iterator[Suspect]:
-    """Every slip at the step, and at those before that cannot be seen."""
+    """Every mistake at the step, and at those before that cannot be seen."""
     order = {kind: place for place, kind in enumerate(MISTAKES)}
     for far, source in enumerate(_unseen(matching, step)):
         for mistake in mistakes(matching.sheet.drawing.drawn, source, matching.sheet.plan_of_step):
@@ -222,7 +222,7 @@ def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shif
 
 def _judged(matching: Matching, number: Number, own: Mapping[Key, Expected], true: Mapping[Key, tuple[float, ...]]
             ) -> NumberVerdict:
-    """The verdict on one number: right by the student's own drawing, after a slip if that is astray itself."""
+    """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
     value, key, chance = in_scene_units(number, matching.sheet.drawing.scene.units), (number.kind, number.of), \
         matching.chance
     expected, truth = own[key], true[key]
@@ -251,11 +251,10 @@ def _mistakes(value: Sequence[float], key: Key, own: Mapping[Key, Expected]
     yield "reversed", said("the sign is reversed"), tuple(-part for part in value), key
     if len(value) == 2:
         x, y = value
-        yield "turned the wrong way", said("the vector is a quarter turn off"), (y, -x), key
-        yield "turned the wrong way", said("the vector is a quarter turn off"), (-y, x), key
-        yield "exchanged coordinates", said("x and y are exchanged"), (y, x), key
-        yield "exchanged coordinates", said("x has the wrong sign"), (-x, y), key
-        yield "exchanged coordinates", said("y has the wrong sign"), (x, -y), key
+        for turned in ((y, -x), (-y, x)):
+            yield "turned the wrong way", said("the vector is a quarter turn off"), turned, key
+        for told, exchanged in exchanges(x, y):
+            yield "exchanged coordinates", told, exchanged, key
     for factor in FACTORS:
         told = said("the number is {0} times as large as it should be", digits(factor, 3))
         yield "wrong scale", told, tuple(part / factor for part in value), key

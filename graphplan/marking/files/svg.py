@@ -28,6 +28,7 @@ from graphplan.marking.traces import Frames, Spot, Submission, Trace
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBERS = re.compile(NUMBER)
+LONGEST = 7  # numerals of a path's command: an arc's
 LENGTH = re.compile(rf"\s*({NUMBER})\s*([a-zA-Z%]*)\s*")
 PATH = re.compile(r"\s*(?:[Mm][-+\d.,eE\s]*[\d.](?:[MmZzLlHhVvCcSsQqTtAa]|[-+\d.,eE\s])*)?")
 PARTS = 8  # a curve by so many stretches
@@ -333,7 +334,8 @@ class _SvgReader:
         read(target, replace(place, onto=_shift(element, place.view) * place.onto))
 
     def _shape(self, element: Element, place: _Place) -> None:
-        """A shape's traces; without a stroke it is no more than a dot."""
+        """A shape's traces; without a stroke it is no more than a dot. Numerals for too many are not read at all."""
+        Budget(self.things.path, TRACES, "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // LONGEST)
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
         for trace in _traces(element, place.onto, place.view):
             self.things.spend()

@@ -254,7 +254,7 @@ class _Taped:
         """Run it over the block."""
         known = [numbers for array in self.rules.known(placed) for numbers in (array.real, array.imag)]
         slots = placed.slots(self.points, self.links)
-        if self.blocks.run(known, [numbers for array, _ in slots for numbers in (array.real, array.imag)]):
+        if self.blocks.run(known, [numbers for array, _ in slots for numbers in (array.real, array.imag)]).size:
             self.rules.place(placed)
 
 

@@ -94,7 +94,7 @@ def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slic
         yield faults
 
 
-def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: slice) -> dict[Any, dict[str, Any]]:
+def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
     """The same arrays, for some of the poses."""
     return {key: {name: array[place] for name, array in named.items()} for key, named in arrays.items()}
 
@@ -109,26 +109,32 @@ def _errand(construction: Recorded, given: Coordinates, kinds: tuple[str, ...],
 
 def _stretch(construction: Recorded, given: Coordinates, results: Results, machine: bool) -> Faults:
     """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
-    faults: Faults = {}
     if not results:
-        return faults
+        return {}
     free = tuple((key, name) for key, numbers in given.items() for name in numbers)
     replay = replay_of(construction, free, tuple(results))
-    left = [slice(None)] if replay is None or not given else replay.run(given, results, machine)
-    for part in left:
-        _by_rules(construction, _cut(given, part), _cut(results, part), part.start or 0, faults)
-    return faults
+    if replay is None or not given:
+        return _by_rules(construction, given, results)
+    left = replay.run(given, results, machine)
+    if not left.size:
+        return {}
+    some = _cut(results, left)
+    faults = _by_rules(construction, _cut(given, left), some)
+    for kind, named in some.items():
+        for name, value in named.items():
+            results[kind][name][left] = value
+    return {int(left[pose]): why for pose, why in faults.items()}
 
 
-def _by_rules(construction: Recorded, given: Coordinates, results: Results, start: int, faults: Faults) -> None:
-    """Fill results by the rules themselves, which find the poses that cannot be drawn."""
-    domain, program = Arrays(), construction.program
+def _by_rules(construction: Recorded, given: Coordinates, results: Results) -> Faults:
+    """Fill results by the rules themselves, which find the poses that cannot be drawn; their faults, by place."""
+    domain, program, faults = Arrays(), construction.program, dict[int, str]()
     n = len(next(z for named in results.values() for z in named.values()))
 
     def note(step: Step) -> None:
         for code, why, bad in domain.faults:
             for pose in np.flatnonzero(np.broadcast_to(bad, (n,))):
-                faults.setdefault(start + int(pose), str(error_at(program, step, Undrawable(code, why))))
+                faults.setdefault(int(pose), str(error_at(program, step, Undrawable(code, why))))
         domain.faults.clear()
 
     with np.errstate(all="ignore"):
@@ -138,6 +144,7 @@ def _by_rules(construction: Recorded, given: Coordinates, results: Results, star
             value = found[kind][name]
             for row, number in [(z.real, value[0]), (z.imag, value[1])] if isinstance(value, tuple) else [(z, value)]:
                 row[:] = number
+    return faults
 
 
 def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any]) -> tuple[int, Coordinates]:

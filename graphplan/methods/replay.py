@@ -52,8 +52,8 @@ class Replay:
             return found
         return {kind: named for kind, named in self.construction.read(Floats(), given).items() if kind in self.told}
 
-    def run(self, given: Given, found: Results, machine: bool = False) -> list[slice]:
-        """Fill readings over n poses, vectors as complex numbers; the blocks of poses that are left to the rules."""
+    def run(self, given: Given, found: Results, machine: bool = False) -> Any:
+        """Fill readings over n poses, vectors as complex numbers; the places of those that are left to the rules."""
         if machine not in self._blocks:
             from graphplan.kernel.tape.blocks import Blocks
 

@@ -1,7 +1,8 @@
 """A tape as numpy calls on blocks of poses: blocks stay in the cache, and every number is written into a used place.
 
 A question is first asked of a whole block, by bounds: the least size of the value and the largest of what the scale is
-made from. Only where the bounds leave it open is the block handed back, to be asked pose by pose.
+made from. Only where the bounds leave it open is it asked of each pose of the block; the poses for which the answer is
+no are handed back, and the others are done.
 """
 
 from __future__ import annotations
@@ -13,14 +14,15 @@ import numpy as np
 
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import ZERO
-from graphplan.kernel.tape.record import LEAVES, Question, StatementWriter, Tape, compiled, operands, spoken
+from graphplan.kernel.tape.record import LEAVES, WRITTEN, Question, StatementWriter, Tape, compiled, operands, spoken
 
+NOWHERE = np.empty(0, np.intp)
 BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
          "sqrt": "sqrt", "sign": "sign"}
 BOUNDED = ("+", "-", "*", "neg", "abs")  # what is no larger than its operands' sizes make it
 HEAD = ("from numpy import absolute, add, divide, minimum, multiply, negative, sqrt, subtract",
-        "from graphplan.kernel.tape.blocks import largest, least, sign")
+        "from graphplan.kernel.tape.blocks import largest, least, refused, sign")
 
 
 class Blocks:
@@ -34,12 +36,13 @@ class Blocks:
         self._registers = writer.registers if writer else 0
         self._block = compiled(writer.text(), "block") if writer else loop(tape, inputs, outputs)
 
-    def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> list[slice]:
-        """Fill the outputs for n poses; the blocks that a question left open, whose outputs say nothing.
+    def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
+        """Fill the outputs for n poses; the places of those in which a rule fails, whose outputs say nothing.
 
-        Reads arrays of shape (n,), one for each input, and writes into those for each output.
+        Reads arrays of shape (n,), one for each input, and writes into those for each output. The places are an array
+        of whole numbers, mostly an empty one: each is a pose to be asked of the rules, and no other is.
         """
-        n, left = len(inputs[0]), []
+        n, left = len(inputs[0]), [NOWHERE]
         size = min(n, BLOCK)
         read, registers, told = ([np.empty(size) for _ in range(count)]
                                  for count in (len(inputs), self._registers, len(outputs)))
@@ -51,12 +54,20 @@ class Blocks:
                                              for arrays in (read, registers, told))
                 for numbers, array in zip(read, inputs, strict=True):  # they may stand among others, as real parts do
                     numbers[:] = array[part]
-                if self._block(read, told, registers):
-                    for output, numbers in zip(outputs, told, strict=True):
-                        output[part] = numbers
-                else:
-                    left.append(part)
-        return left
+                refused = self._block(read, told, registers)
+                for output, numbers in zip(outputs, told, strict=True):
+                    output[part] = numbers
+                if refused is not None:
+                    left.append(start + np.flatnonzero(refused))
+        return np.concatenate(left)
+
+
+def refused(before: Any, value: Any, scale: Any = None) -> Any:
+    """The poses in which a question fails, or one before it did: nonzero beside the scale? Without one: not negative?
+    """
+    size = np.absolute(value)
+    fails = value < 0.0 if scale is None else ~((ZERO * scale < size) & (size < np.inf))
+    return fails if before is None else before | fails
 
 
 def largest(numbers: Any) -> float:
@@ -79,7 +90,7 @@ def sign(value: Any, scale: Any, told: Any) -> None:
     told[:] = np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
 
 
-def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., bool]:
+def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., Any]:
     """A machine-code `block(inputs, outputs, registers)`, for numba: worth its compiling for millions of poses."""
     try:
         from numba import njit
@@ -87,13 +98,15 @@ def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[
         raise Refused("compiled", "numba is not installed", "pip install 'graphplan[numba]', or leave it out") from None
     reads = [f"v{place} = I[{k}][k]" for k, place in enumerate(inputs)]
     tells = [f"O[{k}][k] = {spoken(tape, place)}" for k, place in enumerate(outputs)]
-    body = "\n        ".join([*reads, *StatementWriter(tape, outputs, "return False").lines, *tells])
-    size = "I[0].size" if inputs else "O[0].size"
-    text = f"def block(I, O, R):\n    for k in range({size}):\n        {body}\n    return True"
+    body = "\n        ".join([*reads, "bad = False", *StatementWriter(tape, outputs, "bad = True").lines, *tells,
+                              "B[k] = bad"])
+    text = f"def block(I, O, B):\n    for k in range(B.size):\n        {body}"
     made = njit(error_model="numpy")(compiled(text, "block"))
 
-    def block(I: Sequence[Any], O: Sequence[Any], R: Sequence[Any]) -> bool:
-        return bool(made(tuple(I), tuple(O), ()))
+    def block(I: Sequence[Any], O: Sequence[Any], R: Sequence[Any]) -> Any:
+        bad = np.empty(len((*I, *O)[0]), bool)
+        made(tuple(I), tuple(O), bad)
+        return bad
 
     return block
 
@@ -117,12 +130,15 @@ class BlockWriter:
         self._write(sorted(self.marks))
 
     def text(self) -> str:
-        """What makes the function `block(inputs, outputs, registers)`: whether every question was answered."""
+        """What makes the function `block(inputs, outputs, registers)`: a mask of the poses in which a question fails.
+
+        None stands for no pose.
+        """
         counts = {"i": self.inputs, "o": self.outputs, "r": self.registers}
         unpack = [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {letter.upper()}"
                   for letter, count in counts.items() if count]
         copies = [f"o{k}[:] = {self._name(place)}" for k, place in self.copies]
-        body = [*unpack, *self.lines, *copies, "return True"]
+        body = [*unpack, "bad = None", *self.lines, *copies, "return bad"]
         return "\n".join([*HEAD, "\n    ".join(["def block(I, O, R):", *body])])
 
     def _leaf(self, place: int) -> bool:
@@ -179,14 +195,23 @@ class BlockWriter:
     # ---- questions --------------------------------------------------------------------------------------------
 
     def _ask(self, question: Question) -> None:
+        """The question by its bounds; where they leave it open, pose by pose."""
         value = self._name(question.value)
         if question.scale is None:
-            self.lines.append(f"if not minimum.reduce({value}) >= 0.0: return False")
+            self.lines.append(f"if not minimum.reduce({value}) >= 0.0: bad = refused(bad, {value})")
             return
         least = f"minimum.reduce({value})" if self._never_negative(question.value) else f"least({value})"
         if self.tape.is_constant(question.value):
             least = repr(abs(self.tape.entries[question.value][1]))
-        self.lines.append(f"if not {least} > {ZERO!r} * {self._bound(question.scale)}: return False")
+        self.lines.append(f"if not {least} > {ZERO!r} * {self._bound(question.scale)}: "
+                          f"bad = refused(bad, {value}, {self._each(question.scale)})")
+
+    def _each(self, place: int) -> str:
+        """An expression for a scale pose by pose."""
+        op, *args = self.tape.entries[place]
+        if op == "constant" or place in self.marks or op not in BOUNDED:
+            return self._name(place)
+        return WRITTEN[op].format(*map(self._each, args))
 
     def _leaves(self, place: int | None) -> Iterator[int]:
         """The numbers of the tape from which the size of a scale is bounded."""

@@ -20,7 +20,8 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
 
-AGREE = 1e-6  # beside the drawing's size: flat crossings lose digits, a wrong branch misses by far more
+AGREE = 1e-6  # beside the drawing's size: a form that loses more is none
+ROUNDED = 1e-12  # beside how far a form reaches: more than that sharp crossings do not lose
 SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
 FLOATS = Floats()
 
@@ -144,13 +145,15 @@ class Expander:
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
              form: str, allowed: float) -> Rating | None:
         """Draw a form without letters, in no more than the movements allowed; look at it, take it back."""
-        before, size, limit = len(self.board.steps), self.size, self._limit
+        before, sheet, limit = len(self.board.steps), self.sheet(args[op.where].step.panel), self._limit
         self._limit = min(limit, before + allowed)
         try:
             out: Mark | None = op.forms[form](FormBoard(self, None), *args, **params)
-            if out is None or not self._agrees(op, self.value(out), truth, size):
+            if out is None:
                 return None
-            return self._judge(form, before)
+            rating = self._judge(form, before)
+            serves = rating and self._agrees(op, self.value(out), truth, sheet, self._lost(sheet, before, rating))
+            return rating if serves else None
         except (Undrawable, ZeroDivisionError):
             return None
         except Outdone:
@@ -163,23 +166,30 @@ class Expander:
             for index in range(before, drawn):
                 self._made.pop(index, None)
 
-    @property
-    def size(self) -> float:
-        """How large the panel is that is drawn on: its sheet, or as far as its points reach."""
-        window = self.windows.get(self.panel, EVERYWHERE)
+    def sheet(self, panel: Panel) -> Window:
+        """The sheet of a panel; where there is none, as far as all points reach."""
+        window = self.windows.get(panel, EVERYWHERE)
         if math.isfinite(window.radius):
-            return window.radius
+            return window
         points = [self.values[s.index] for s in self.board.steps if s.op.gives == POINT and s.index < len(self.values)]
-        return max((math.hypot(*point) for point in points), default=1.0) or 1.0
+        return Window(window.centre, max((math.hypot(*point) for point in points), default=1.0) or 1.0)
 
-    def _agrees(self, op: Primitive, value: Any, truth: Any, size: float) -> bool:
-        """Whether a form gave the rule's value; `size` is the drawing's without the form's own marks."""
-        if op.gives == LINE:
-            centre = self.windows.get(self.panel, EVERYWHERE).centre
-            locus = op.claimed("locus") or op.claimed("concurrent")
-            return _line_gap(truth, value, centre, size) <= AGREE * size and (
-                bool(locus) or not _runs_against(truth, value))
-        return math.dist(value, truth) <= AGREE * size
+    def _agrees(self, op: Primitive, value: Any, truth: Any, sheet: Window, lost: float) -> bool:
+        """Whether a form gave the rule's value, but for a length that rounding may have lost on the sheet."""
+        if op.gives != LINE:
+            return math.dist(value, truth) <= lost
+        locus = op.claimed("locus") or op.claimed("concurrent")
+        return _line_gap(truth, value, *sheet) <= lost and (bool(locus) or not _runs_against(truth, value))
+
+    def _lost(self, sheet: Window, before: int, rating: Rating) -> float:
+        """How far off rounding may be in what a form has drawn: flat crossings and marks far away lose digits.
+
+        What is further off is another thing: a wrong branch, or a form for other poses. Small as it may be beside the
+        sheet, the next flat crossing makes it large.
+        """
+        reach = [math.hypot(*sheet.centre) + sheet.radius, *(
+            math.hypot(*self.values[step.index]) for step in self.board.steps[before:] if step.op.gives == POINT)]
+        return min(AGREE * sheet.radius, ROUNDED * max(reach) / max(rating.sharpest, ROUNDED))
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
@@ -229,16 +239,17 @@ class FormBoard(Verbs):
 
     def one(self, P: Mark, Q: Mark) -> bool:
         """Whether two points of a plan fall on one place."""
-        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q))
+        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q), P)
 
     def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
         """Whether PQ is as long as RS."""
-        return self._nothing(self.distance(P, Q) - self.distance(R, S))
+        gap = self.distance(P, Q) - self.distance(R, S)
+        return self._nothing(gap, P) and self._nothing(gap, R)
 
     def lies_on(self, P: Mark, l: Mark) -> bool:
         """Whether a point lies on a line of its plan."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
-        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b))
+        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P)
 
     def way(self, P: Mark, Q: Mark, R: Mark) -> str:
         """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
@@ -248,8 +259,9 @@ class FormBoard(Verbs):
     def distance(self, P: Mark, Q: Mark) -> float:
         return math.dist(self._expander.value(P), self._expander.value(Q))
 
-    def _nothing(self, length: float) -> bool:
-        return abs(length) <= SAME * self._expander.size
+    def _nothing(self, length: float, mark: Mark) -> bool:
+        """Whether a length is nothing beside the plan of a mark: another plan may be larger by any factor."""
+        return abs(length) <= SAME * self._expander.sheet(mark.step.panel).radius
 
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""

@@ -6,14 +6,19 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from random import Random
+from typing import Any
 
 import pytest
 
+from graphplan.accuracy.first_order import readings
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
 from graphplan.accuracy.survey.stability import error_of, exact, samples
 from graphplan.check.trusted import report
+from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load
+from graphplan.methods.construct import construct
+from graphplan.solver import solve
 
 MOST = 100  # roundings of the mechanism's own condition
 DISTANCES = (1.0, 3e-1, 3e-2, 3e-3, 3e-4, 1e-5, 1e-7, 1e-9, 1e-12, 1e-15, 0.0)
@@ -34,6 +39,17 @@ def test_parallel_bars_have_no_auxiliary_point_and_lose_nothing() -> None:
     for sample in samples(bars, distances=tuple(10.0**-k for k in range(17))):
         assert sample.roundings is not None
         assert sample.roundings <= MOST
+
+
+@pytest.mark.parametrize(("name", "d", "how"), [
+    ("dead centre", 1e-8, {}), ("dead centre", 1e-4, {"strict": True}), ("C on QR", 1e-6, {"plan": "polar"})])
+def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: dict[str, Any]) -> None:
+    """What is drawn near a special pose loses digits as the pose does: no small vector is left out of a large plan."""
+    scene = next(one for one in DEGENERACIES if one.name == name).at(d)
+    drawing, drawn = construct(scene, **how), dict[str, dict[str, Any]]()
+    for reading, _, value in readings(drawing, drawing.values, Floats()):
+        drawn.setdefault(reading.kind, {})[reading.of] = value
+    assert error_of(drawn, exact(scene)) <= 10 * MOST * 2.0**-52 * solve(scene).condition
 
 
 def posed(**moved: complex) -> Scene:

@@ -27,7 +27,6 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
-from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, joined, said
@@ -120,7 +119,7 @@ def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -
 
 def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, float]:
     """The largest value of each group of kinds; the places of slides' reactions are seen beside the mechanism."""
-    largest = {"place": extent(drawing.scene)}
+    largest = {"place": drawing.scene.extent}
     for reading, _, value in readings(drawing, values, Gradients(0)):
         group, arm = _group(drawing.scene, reading.kind)
         largest[group] = max(largest.get(group, 0.0), arm * math.hypot(*each(value)))
@@ -129,7 +128,7 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
 
 def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
-    return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(extent(scene), scene.units))
+    return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(scene.extent, scene.units))
 
 
 

@@ -25,7 +25,6 @@ from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.methods.motion.time_scale import extent
 from graphplan.solver import solve
 
 MOST = 10_000  # digits
@@ -122,7 +121,7 @@ class Certified(Report):
 
     def _beside(self, key: str) -> Fraction:
         """The largest value of what a key of the printed data names."""
-        if key in (plain := {"acts_at": Fraction(extent(self.scene)), "efficiency": Fraction(1)}):
+        if key in (plain := {"acts_at": Fraction(self.scene.extent), "efficiency": Fraction(1)}):
             return plain[key]
         kind = {"omega": kinds.OMEGA, "alpha": kinds.ALPHA, "moment": kinds.SLIDE_MOMENT}.get(key)
         return self._sizes[kind.group] / Fraction(weight(self.drawing, kind)) if kind else self._sizes[key]

@@ -14,7 +14,6 @@ from typing import Any, NamedTuple
 from graphplan.mechanism.model import Scene
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
-from graphplan.methods.motion.time_scale import extent
 from graphplan.solver.bounds import UP, Bounded
 
 NOTHING = 2.0**-64  # of the largest of a kind
@@ -61,7 +60,7 @@ def compared(drawing: Construction, ours: Results, theirs: Results,
     found: Numbers = {}
     for part, named in ours.items():
         if part in theirs:
-            scale = (extent(drawing.scene) if part == kinds.SLIDE_ARM
+            scale = (drawing.scene.extent if part == kinds.SLIDE_ARM
                      else largest[kinds.kind_of(part).group] / weight(drawing, part))
             least = scale if part in UNBOUNDED else NOTHING * scale
             found[part] = {
@@ -101,13 +100,13 @@ def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
 
 def drawn_sizes(drawing: Construction) -> dict[str, float]:
     """The numbers of each kind that are drawn as large as the mechanism."""
-    reach, unit = extent(drawing.scene), float(drawing.tempo.unit)
+    reach, unit = drawing.scene.extent, float(drawing.tempo.unit)
     return {kinds.VELOCITY: reach * unit, kinds.ACCELERATION: reach * unit**2, kinds.FORCES: reach / float(drawing.phi)}
 
 
 def weight(drawing: Construction, part: str) -> float:
     """Turnings count with what they make at the mechanism's extent, moments as the force that they are there."""
-    return float(kinds.kind_of(part).arm(extent(drawing.scene), drawing.scene.units))
+    return float(kinds.kind_of(part).arm(drawing.scene.extent, drawing.scene.units))
 
 
 def each(value: Any) -> tuple[Any, ...]:

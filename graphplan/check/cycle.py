@@ -22,7 +22,6 @@ from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION
-from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.panels import slide_named
 from graphplan.methods.styles import METHODS
 from graphplan.phrases import Said, said
@@ -112,7 +111,7 @@ def _construct(scene: Scene, **how: str) -> Construction:
 def _comes_back(scene: Scene) -> bool:
     """Whether every point is back in its place after a full turn of the first drive."""
     there = follow(scene, 2, (0.0, 360.0)).points
-    return all(abs(z[1] - z[0]) <= BACK * extent(scene) for z in there.values())
+    return all(abs(z[1] - z[0]) <= BACK * scene.extent for z in there.values())
 
 
 def _forms(drawing: Construction, method: str, plan: str, inertia: str) -> Iterator[tuple[str, Construction]]:

@@ -34,9 +34,9 @@ def check_use(scene: Scene, elsewhere: Collection[str], faults: Faults) -> None:
 
 def check_joints(scene: Scene, placed: Mapping[str, Pair], faults: Faults) -> None:
     """The joints of a moving link lie apart."""
-    joints = set(scene.joints) & placed.keys()
+    joints, links = set(scene.joints) & placed.keys(), ordered_links(scene)
     for link in scene.moving:
-        for a, b in combinations([point for point in ordered_links(scene)[link] if point in joints], 2):
+        for a, b in combinations([point for point in links[link] if point in joints], 2):
             if _coincide(placed[a], placed[b]):
                 instead = "joints that lie apart, or one name for both"
                 faults.add(f"links.{quoted(link)}", f"the joints {a} and {b} coincide", instead)
@@ -51,19 +51,19 @@ def _coincide(a: Pair, b: Pair) -> bool:
 
 def check_connections(scene: Scene, faults: Faults) -> None:
     """Every link hangs together with the frame, or with a point whose motion is given."""
-    joined = [{*pair.links} for pair in scene.binding]
-    paired = {link for links in joined for link in links}
+    joined: dict[str, set[str]] = {}
+    for pair in scene.binding:
+        for link in pair.links:
+            joined.setdefault(link, set()).update(pair.links)
     held = {FRAME} & {*scene.links} | {link for point in scene.motions for link in scene.links_of[point]}
-    known = 0
-    while known < len(held):
-        known = len(held)
-        for links in joined:
-            if not held.isdisjoint(links):
-                held |= links
+    reached = [*held]
+    while reached:
+        reached += (further := joined.get(reached.pop(), set()) - held)
+        held |= further
     for link in scene.moving:
         if held and link not in held:
             lonely = "shares no joint or slide with any other"
-            told = "hangs on neither the frame nor a given motion" if link in paired else lonely
+            told = "hangs on neither the frame nor a given motion" if link in joined else lonely
             instead = "a point that it shares with another link, or a slide"
             faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
 

@@ -7,6 +7,7 @@ and tables by name are kinds as well, so that a whole scene is one table of fiel
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Collection, Hashable, Iterator
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, TypeAlias
@@ -24,35 +25,36 @@ Fragment = dict[str, Any]
 class Names:
     """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
 
-    `irrational` gathers where fractions do not hold what is written.
+    `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written.
     """
 
     points: Collection[str]
     placed: dict[str, Pair] = field(default_factory=dict)
     links: dict[str, tuple[str, ...]] = field(default_factory=dict)
+    held: Counter[str] = field(default_factory=Counter)
     pairs: tuple[KinematicPair, ...] = ()
     units: Units = field(default_factory=Units)
     irrational: list[str] = field(default_factory=list)
 
     @property
-    def bodies(self) -> tuple[str, ...]:
+    def bodies(self) -> Collection[str]:
         """The names of all links; the fixed ground may be spoken of where no link is it."""
-        return (*self.links, *([FRAME] if FRAME not in self.links else []))
+        return self.links if FRAME in self.links else (*self.links, FRAME)
 
     @property
     def moving(self) -> tuple[str, ...]:
         """The links that are not the frame."""
         return tuple(link for link in self.links if link != FRAME)
 
-    @property
-    def held(self) -> set[str]:
-        """The points of all links."""
-        return {point for points in self.links.values() for point in points}
+    def linked(self, links: dict[str, tuple[str, ...]]) -> None:
+        """Take in the links with their points."""
+        self.links, self.held = links, Counter(point for points in links.values() for point in dict.fromkeys(points))
 
     @property
     def movable(self) -> tuple[str, ...]:
         """The points that links have and the frame has not."""
-        return tuple(p for p in self.points if p in self.held and p not in self.links.get(FRAME, ()))
+        fixed = {*self.links.get(FRAME, ())}
+        return tuple(p for p in self.points if p in self.held and p not in fixed)
 
 
 class Field(NamedTuple):

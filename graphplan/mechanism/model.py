@@ -210,6 +210,12 @@ class Scene:
         """The links that are not the frame, in the scene's order."""
         return tuple(link for link in self.links if link != FRAME)
 
+    @cached_property
+    def extent(self) -> float:
+        """The extent of the mechanism, across or upwards."""
+        xs, ys = zip(*((float(x), float(y)) for x, y in self.points.values()), strict=True)
+        return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+
     @property
     def redundant_pairs(self) -> tuple[str, ...]:
         """The names of the pairs that are redundant, such as `4 at D`, or of which a condition is."""

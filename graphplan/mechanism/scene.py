@@ -6,7 +6,6 @@ import os
 import re
 import sys
 import tomllib
-from collections import Counter
 from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
@@ -131,7 +130,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         if field.wanted and not (field.name in items and items[field.name].value):
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", Item({}, "points", faults))
-    names = Names(tuple(points.value) if isinstance(points.value, dict) else ())
+    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {})
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:
@@ -139,8 +138,10 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         if key == "points":
             placements = read.get(key, {})
             names.placed = place(placements, points)
-        elif key in ("links", "units") and key in read:
-            setattr(names, key, read[key])
+        elif key == "links" and key in read:
+            names.linked(read[key])
+        elif key == "units" and key in read:
+            names.units = read[key]
         elif key in PAIR_KEYS:
             names.pairs += read.get(key, ())
     scene = Scene(
@@ -148,8 +149,9 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
         find=read.get("find") or _asked(names), loads=sections.loads(read), sheet=read.get("sheet") or Presentation())
+    counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
-               if point in names.placed and point in _counting(scene) and not is_exact(names.placed[point])]
+               if point in names.placed and point in counting and not is_exact(names.placed[point])]
     return _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
 
 
@@ -172,8 +174,7 @@ def _asked(names: Names) -> Find:
     """What is asked for where nothing is said: velocity and acceleration of every joint that can move, or where there
     is none of every point that can, and the rates of every link."""
     at = {pair.at for pair in names.pairs if isinstance(pair, Slide)}
-    named = Counter(p for points in names.links.values() for p in points)
-    moving = tuple(p for p in names.movable if named[p] > 1 or p in at) or names.movable
+    moving = tuple(p for p in names.movable if names.held[p] > 1 or p in at) or names.movable
     return Find(moving, moving, links=names.moving)
 
 

@@ -78,7 +78,7 @@ def _slides(names: Names) -> tuple[str, ...]:
 
 def _pairs(names: Names) -> Iterator[str]:
     """The joints and the slides."""
-    yield from (p for p in names.points if sum(p in points for points in names.links.values()) > 1)
+    yield from (p for p in names.points if names.held[p] > 1)
     yield from _slides(names)
 
 
@@ -152,7 +152,7 @@ BALANCE = Rows(Either((Table("a moment", (
 
 def _journal(row: Row) -> model.Friction | None:
     at = row["at"]
-    if sum(at in points for points in row.names.links.values()) < 2 and row.item.faults.none_in("links"):
+    if row.names.held[at] < 2 and row.item.faults.none_in("links"):
         return row.items["at"].fault(f"{at} is no joint of two links", "a joint")
     return model.Friction(at, None, row["radius"], row["coefficient"])
 

@@ -65,8 +65,8 @@ def asked(noun: str, such: str, known: Callable[[Names], Collection[str]],
         if not isinstance(item.value, list):
             return item.fault(f"{described(item.value)} where a list of {many} is wanted",
                               f'a list such as {such}, or "all"')
-        parts = [item.instead(value) for value in item.value]
-        found = [part.name_of(noun, known(names)) for part in parts if not wrong(part.value, item, names)]
+        parts, choice = [item.instead(value) for value in item.value], known(names)
+        found = [part.name_of(noun, choice) for part in parts if not wrong(part.value, item, names)]
         return tuple(dict.fromkeys(name for name in found if name is not None))
 
     return Kind(f'list of {many}, or "all"', read,

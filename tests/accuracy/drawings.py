@@ -9,7 +9,6 @@ from graphplan.accuracy.drafted import Drafted, drafted
 from graphplan.accuracy.pencil import Pencil
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
-from graphplan.methods.motion.time_scale import extent
 from graphplan.sheet.layout.scales import Scales
 
 SCENES = packaged()
@@ -28,4 +27,4 @@ def drafted_of(name: str) -> Drafted:
 def scales_of(drawing: Construction, size: float = 200.0) -> Scales:
     """The scales at which the mechanism is so many mm large, and all its plans are as large as they come."""
     units = drawing.scene.units
-    return Scales(extent(drawing.scene) / size, drawing.kappa, units.length, {}, float(drawing.phi), units.force)
+    return Scales(drawing.scene.extent / size, drawing.kappa, units.length, {}, float(drawing.phi), units.force)

@@ -20,7 +20,6 @@ from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
 from graphplan.mechanism.order import by_name
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.loading import Loading
-from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import MECHANISM, link_named, slide_named
 from graphplan.methods.poses import Pose
@@ -126,7 +125,7 @@ class Rubbed:
                  for mark in (T, then.touching[journal], *then._reaction(journal))]
         leant = [mark for slide, guide in then.leaning.items() for mark in (guide, *then.forces.slides[slide])]
         values = valued([*moved, *leant])
-        size, far = extent(self.loading.scene), [0.0]
+        size, far = self.loading.scene.extent, [0.0]
         forces = [values[k + 1 : k + 3] for k in range(len(moved), len(values), 3)]
         forces += [values[k + 2 : k + 4] for k in range(0, len(moved), 4)]
         largest = max([SHORT * size, *(math.dist(*force) for force in forces)])

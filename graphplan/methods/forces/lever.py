@@ -31,7 +31,7 @@ from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.time_scale import Tempo, extent, round_number
+from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
 from graphplan.methods.poses import Pose
@@ -226,7 +226,7 @@ def working(scene: Scene, mode: int) -> Assumed:
     assert scene.loads is not None
     held = [balance for nth, balance in enumerate(scene.loads.balances) if nth != mode]
     balance, apart = scene.loads.balances[mode], scene.with_drives(())
-    speed = round_number(extent(scene) / 4)
+    speed = round_number(scene.extent / 4)
     own = [drive.driven_at(speed if drive.slides else Fraction(1), Fraction(0)) for drive in ordered_drives(scene)]
     if len(own) > 1 and not balance.at:
         own = [TurningDrive(balance.link, FRAME, Fraction(1), Fraction(0))]
@@ -279,7 +279,7 @@ def freed_turning(scene: Scene, slide: Slide) -> Assumed:
 
 
 def _sliding(scene: Scene, block: str, along: str) -> Drive:
-    return SlidingDrive(block, along, round_number(extent(scene) / 4), Fraction(0))
+    return SlidingDrive(block, along, round_number(scene.extent / 4), Fraction(0))
 
 
 def _freed(scene: Scene, links: dict[str, tuple[str, ...]], written: tuple[KinematicPair, ...],

@@ -29,7 +29,6 @@ from graphplan.methods.motion.acceleration import Normal
 from graphplan.methods.motion.alternatives import EQUAL, growth, ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.methods.motion.time_scale import extent
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import link_named, slide_named
 from graphplan.methods.styles import Style
@@ -88,7 +87,7 @@ class Loaded(Draughtsman):
 
     def _far(self, loading: Loading) -> Iterator[str]:
         """The links whose inertia force would be shifted too far, or is nothing beside its couple."""
-        size = extent(self.scene)
+        size = self.scene.extent
         for link, marks in loading.shifts():
             try:
                 home, end, P, R, tip = self._valued(marks)
@@ -279,7 +278,7 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     sizes = {name: math.hypot(*force) for name, force in slides.items()}
     least = SMALL * max((math.hypot(*force) for force in (*values.get(REACTION, {}).values(), *slides.values())),
                         default=0.0)
-    size = extent(found.scene)
+    size = found.scene.extent
     least, reach = max(least, SHORT * size / float(found.phi)), NEAR * size / float(metre(found.scene.units))
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found

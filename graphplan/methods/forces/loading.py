@@ -17,7 +17,7 @@ from graphplan.mechanism.order import by_name, ordered
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
-from graphplan.methods.motion.time_scale import apart, extent, round_number, tempo
+from graphplan.methods.motion.time_scale import apart, round_number, tempo
 from graphplan.methods.panels import MECHANISM, link_named
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -230,7 +230,7 @@ def force_scale(scene: Scene) -> Number:
         return scene.sheet.phi
     loads = scene.loads
     assert loads is not None
-    size = extent(scene)
+    size = scene.extent
     sizes = [abs(float(v)) for force in loads.forces for v in force.value]
     sizes += [2 * abs(float(moment.value * metre(scene.units))) / size for moment in loads.moments]
     sizes += [abs(float(m.mass * g * weight(scene.units))) for m in loads.masses.values() for g in loads.gravity]

@@ -43,13 +43,7 @@ def tempo(scene: Scene) -> Tempo:
     speeds = [drive.rate for drive in scene.drives if drive.slides]
     speeds += [v for motion in scene.motions.values() for v in motion.velocity]
     fastest = max((abs(float(speed)) for speed in speeds), default=0.0)
-    return Tempo(round_number(5 * fastest / extent(scene)) if fastest else Fraction(1))
-
-
-def extent(scene: Scene) -> float:
-    """The extent of the mechanism, across or upwards."""
-    xs, ys = zip(*((float(x), float(y)) for x, y in scene.points.values()), strict=True)
-    return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+    return Tempo(round_number(5 * fastest / scene.extent) if fastest else Fraction(1))
 
 
 def apart(scene: Scene, P: str, R: str) -> float:

@@ -15,7 +15,7 @@ import svgwrite
 from svgwrite.text import TSpan
 
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, SUBSCRIPT, width
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Outline, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
 FINE = 4  # decimals of a radius: what is left of one moves the middle of a half circle much farther
@@ -80,6 +80,8 @@ class _SheetWriter:
         match item:
             case Polyline():
                 return self._line(item.spots, item.pen)
+            case Outline():
+                return self._outline(item)
             case Polygon():
                 return MAKE.polygon(self._spots(item.spots), **_look(item.pen))
             case Circle():
@@ -91,6 +93,11 @@ class _SheetWriter:
             case Text():
                 return self._text(item)
         raise TypeError(f"no SVG for {type(item).__name__}")
+
+    def _outline(self, item: Outline) -> Element:
+        (left, bottom), (right, top) = self._spots((item.spots[0], item.spots[2]))
+        named = {"class_": "panel", "data_plan": item.plan} if item.plan else {"class_": "frame"}
+        return MAKE.rect((left, top), (rounded(right - left), rounded(bottom - top)), **named, **_look(item.pen))
 
     def _line(self, spots: Iterable[Spot], pen: Pen) -> Element:
         return MAKE.polyline(self._spots(spots), **_look(pen) | {"fill": "none"})

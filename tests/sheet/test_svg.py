@@ -129,3 +129,13 @@ def test_the_scene_is_embedded_once() -> None:
     texts = [element.text or "" for element in root.iter(f"{NS}metadata")]
     assert [gp.parse(text, "four-bar") for text in texts] == [gp.load("four-bar")]
     assert svg_of("four-bar").count("[points]") == 1
+
+
+@pytest.mark.parametrize("name", ["four-bar", "triad-loaded"])
+def test_the_frame_and_the_panel_of_each_plan_are_named(name: str) -> None:
+    """A program finds each plan's panel by the name that the plan has in the list of steps."""
+    drawing = drawing_of(name)
+    rects = ET.fromstring(svg_of(name).encode()).iter(f"{NS}rect")
+    named = [(rect.get("class"), rect.get("data-plan")) for rect in rects if rect.get("class")]
+    assert named[0] == ("frame", None)
+    assert {plan for _, plan in named[1:]} == {step.panel for step in drawing.drawn.steps}

@@ -18,7 +18,7 @@ from graphplan.mechanism.presentation import SIZES
 from graphplan.phrases import joined, said
 from graphplan.sheet.frames.title import GostBlock, IsoBlock, TitleBlock
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, sentence_runs
-from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.display import Item, Outline, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import FRAME, LETTERS, Pen
 from graphplan.words.tongue import Tongue
 
@@ -53,7 +53,7 @@ class Frame:
 
     def items(self, paper: str, space: Rect, tongue: Tongue) -> Iterator[Item]:
         """The frame, and its border."""
-        yield Polygon(FRAME, "paper", None, space.corners)
+        yield Outline(FRAME, "paper", None, space.corners)
         yield from self.border(paper, space, tongue)
 
 

@@ -16,7 +16,7 @@ from graphplan.sheet.layout.scales import Scales, times
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Text
+from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
@@ -53,8 +53,8 @@ def _framed(composition: Composition) -> Iterator[Item]:
     """The frame with its border, and the panels."""
     arrangement, plans = composition.arrangement, composition.plans
     yield from frame_of(plans.drawing.scene).items(arrangement.paper, arrangement.frame, plans.tongue)
-    for rect in arrangement.panels.values():
-        yield Polygon(pens.BORDER, "paper", None, rect.corners)
+    for panel, rect in arrangement.panels.items():
+        yield Outline(pens.BORDER, "paper", None, rect.corners, panel)
 
 
 def titled(composition: Composition, document: Said, number: int = 1, of: int = 1) -> Iterator[Item]:

@@ -83,6 +83,13 @@ class Polygon(Item):
 
 
 @dataclass(frozen=True)
+class Outline(Polygon):
+    """The upright outline of the frame, or of the panel of a `plan`."""
+
+    plan: str = ""
+
+
+@dataclass(frozen=True)
 class Circle(Item):
     centre: Spot
     radius: float

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass, fields, is_dataclass, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
@@ -20,7 +20,7 @@ from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
-from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact
+from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact, mapped
 from graphplan.mechanism.placements import placed_by
 from graphplan.solver.bounds import PI, Proven, Unproven, bounded, heading
 from graphplan.solver.equations import Equations, moved
@@ -109,8 +109,8 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
     except by.doubt:
         raise by.doubt("whether the arcs of its points meet cannot be told") from None
     found = found.with_drives(map(driven, found.drives))
-    return replace(found, **{part: _lifted(getattr(found, part), by)
-                             for part in ("points", "written", "loads", "motions")})
+    parts = {part: getattr(found, part) for part in ("points", "written", "loads", "motions")}
+    return replace(found, **mapped(parts, lambda number: by.lift(number) if isinstance(number, float) else number))
 
 
 def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
@@ -126,19 +126,6 @@ def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
         same = all(by.lift(p).overlaps(by.lift(q)) for p, q in zip(here, other, strict=True))
         points[name] = other if same else here
     return points
-
-
-def _lifted(thing: Any, by: Bounds) -> Any:
-    """The same with every float in it as the binary fraction that it is."""
-    if isinstance(thing, float):
-        return by.lift(thing)
-    if isinstance(thing, tuple):
-        return tuple(_lifted(part, by) for part in thing)
-    if isinstance(thing, dict):
-        return {name: _lifted(part, by) for name, part in thing.items()}
-    if is_dataclass(thing) and not isinstance(thing, type):
-        return replace(thing, **{part.name: _lifted(getattr(thing, part.name), by) for part in fields(thing)})
-    return thing
 
 
 # ---- the solver's own equations, in numbers that know how far they may be off ---------------------------------------

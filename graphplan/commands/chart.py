@@ -1,4 +1,4 @@
-"""Chart speed against accuracy: each chart as a picture and as a table.
+"""Chart speed against accuracy: each chart as a picture and as a table, with a second picture scene by scene.
 
 charts:
   machine        time for a pose against error, of every form in every arithmetic
@@ -11,12 +11,14 @@ examples:
   graphplan chart charts                                  all of them; this takes minutes
   graphplan chart growth charts                           NAME.svg and NAME.csv into the folder
   graphplan chart machine charts --scenes shaper triad    of these scenes alone, with all that takes long
+  graphplan chart machine charts --beside rivals.csv      with other programs, as tests/bench/trade_off.py measures them
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Collection, Iterable, Iterator
+from dataclasses import fields
 from importlib import import_module
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -40,15 +42,15 @@ class Survey(NamedTuple):
     progress: str = ""
 
 
-BIG = "alt-eight-link"  # is compiled by numba too; for every scene that would take minutes
 CHARTS = {
     "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
-        scene, compiled=named or scene.name == BIG)),
+        scene, compiled=module.ALL if named else 1)),  # compiling takes seconds
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
     "stability": Survey("Sample", lambda module: module.samples(*module.DEGENERACIES), "{0.degeneracy}"),
     "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
     "growth": Survey("Stage", lambda module: module.stages(), "{0.links} links"),
 }
+PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -57,6 +59,8 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--scenes", metavar="SCENE", nargs="+", default=[],
                          help="the scenes of machine, draughtsman and forms, with what is left out of all of them as "
                          "it takes long")
+    command.add_argument("--beside", metavar="FILE.csv", type=Path,
+                         help="rows of machine that were measured elsewhere, beside LAPACK on the same scenes")
     add_pencil(command)
 
 
@@ -68,15 +72,37 @@ def run(options: argparse.Namespace) -> int:
         if name not in CHARTS:
             raise Refused(f"chart {name}", "there is no such chart", f"one of {', '.join(CHARTS)}")
     folder_at(options.folder)
+    beside = _beside(options.beside, options.names or CHARTS) if options.beside else []
     scenes, messages, hand = [load(name) for name in options.scenes], Messages(options.quiet), pencil(options)
     for name in options.names or CHARTS:
         module = import_module(f"graphplan.accuracy.survey.{name}")
         rows = [*_rows(name, module, scenes, hand, messages)]
         messages.progress("")
-        chart = module.picture(rows, hand.told) if name == "draughtsman" else module.picture(rows)
-        write(drawn(chart), str(options.folder / f"{name}.svg"))
+        if name == "machine":
+            measured = {row.scene for row in rows}
+            rows += [row for row in beside if row.scene in measured]
+        told = (hand.told,) if name == "draughtsman" else ()
+        for part in PICTURES:
+            if hasattr(module, part):
+                write(drawn(getattr(module, part)(rows, *told)), str(options.folder / f"{name}{PICTURES[part]}.svg"))
         write(table(getattr(module, CHARTS[name].row), rows), str(options.folder / f"{name}.csv"))
     return 0
+
+
+def _beside(file: Path, names: Collection[str]) -> list[Any]:
+    """The rows of machine that were measured elsewhere; fails with `Refused` where there are none, or no such chart."""
+    from graphplan.accuracy.survey.machine import Measure
+    from graphplan.accuracy.survey.picture import read
+
+    if "machine" not in names:
+        raise Refused("--beside", "only machine has other programs beside it", "name machine, or leave it out")
+    try:
+        return read(Measure, file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise Refused(f"--beside {file}", str(error.strerror), "a file that can be read") from None
+    except (KeyError, ValueError):
+        columns = ", ".join(field.name for field in fields(Measure))
+        raise Refused(f"--beside {file}", "it is no table of machine", f"the columns {columns}") from None
 
 
 def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: Messages) -> Iterator[Any]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, is_dataclass, replace
 from decimal import Decimal, InvalidOperation
 from fractions import Fraction
 from math import cos, isqrt, radians, sin
@@ -52,6 +52,19 @@ def root(square: Fraction, bits: int = ROOT_BITS) -> tuple[Fraction, bool]:
     if whole * whole == product:
         return Fraction(whole, square.denominator), True
     return Fraction(isqrt(product << 2 * bits), square.denominator << bits), False
+
+
+def mapped(thing: Any, number: Callable[[Any], Any]) -> Any:
+    """The same thing with every float and every fraction in it, however deep, as `number` makes it."""
+    if isinstance(thing, Fraction | float):
+        return number(thing)
+    if isinstance(thing, tuple):
+        return tuple(mapped(part, number) for part in thing)
+    if isinstance(thing, dict):
+        return {name: mapped(part, number) for name, part in thing.items()}
+    if is_dataclass(thing) and not isinstance(thing, type):
+        return replace(thing, **{part.name: mapped(getattr(thing, part.name), number) for part in fields(thing)})
+    return thing
 
 
 Circular = Callable[[Fraction], tuple[Fraction, Fraction]]

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Iterable
-from itertools import groupby
+from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from graphplan.output.canvas import LINE, MARGIN, TITLE, Canvas
@@ -21,11 +21,13 @@ from graphplan.sheet.plates.pens import GREY, PAPER, Pen
 if TYPE_CHECKING:
     from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart
 
-SMALL = 2.2  # letters at the axes, in mm
+SMALL, LABEL = 2.2, 2.8  # letters at the axes, and at series, in mm
 LEFT, RIGHT, ABOVE, BELOW = 16.0, 8.0, 10.0, 13.0  # around a picture: readings and labels
 RAIL, BESIDE = 2.6, 1.8  # mm from rail to rail, and from the numbers to the first
 ROOM = 0.06  # of the numbers' range, left free at both ends
 KEY, SAMPLE = 5.0, 9.0  # from line to line of the key; the length of its samples
+SIDES = (*((h, 0) for h in (1, -1)), *((h, v) for v in (1, -1, 2.4, -2.4, 3.8, -3.8) for h in (0, 0.9, -0.9)))
+FAR = 2  # words so many lines away are led to their mark
 READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
 
@@ -98,13 +100,13 @@ class _Scale:
 
     def __init__(self, axis: Axis, places: Iterable[Place], start: float, end: float, readings: int):
         self.axis, self.readings = axis, readings
-        numbers = [self._plain(place) for place in places if not isinstance(place, str)]
+        numbers = [self._plain(place) for place in (*places, *axis.shows) if not isinstance(place, str)]
         low, high = min(numbers, default=0.0), max(numbers, default=0.0)
         room = ROOM * (high - low) or (0.1 if numbers else 0.0)  # one number alone stands in the middle
         self.low, self.high = low - room, high + room
-        count = len(axis.before) + len(axis.after)
-        self.pitch = RAIL if numbers or not count else (end - start) / count  # rails alone share the whole length
-        before, after = (BESIDE + RAIL * len(rails) if rails and numbers else 0.0
+        count, pitch = len(axis.before) + len(axis.after), axis.pitch or RAIL
+        self.pitch = pitch if numbers or not count else (end - start) / count  # rails alone share the whole length
+        before, after = (BESIDE + pitch * len(rails) if rails and numbers else 0.0
                          for rails in (axis.before, axis.after))
         self.start = start + before
         self.mm = (end - after - self.start) / (self.high - self.low or 1.0)
@@ -154,6 +156,7 @@ def _draw(canvas: Canvas, panel: SubChart, rect: Rect) -> None:
     for series in panel.series:
         for a, b in series.spots:
             _mark(canvas, (x(a), y(b)), series.look)
+    _labels(canvas, panel, rect, x, y)
 
 
 def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -> None:
@@ -184,6 +187,42 @@ def _line(canvas: Canvas, series: Series, x: _Scale, y: _Scale) -> None:
         (start, rail), (end, _) = series.spots
         half = 0.4 * y.pitch
         canvas.fill(Rect(x(start), y(rail) - half, x(end), y(rail) + half).corners, _filling(look))
-    for railed, part in groupby(series.spots, key=lambda spot: isinstance(spot[0], str) or isinstance(spot[1], str)):
+    for railed, part in groupby(series.spots, key=lambda spot: not series.through and str in map(type, spot)):
         if look.width and not railed:
             canvas.line([(x(a), y(b)) for a, b in part], Pen(look.width, look.colour, look.dash))
+
+
+def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -> None:
+    """The words of each series at its last spot, where they cover the least of marks, lines and other words."""
+    taken = [box for series in panel.series for box in _covered(series, x, y)]
+    for series in panel.series:
+        if not series.label:
+            continue
+        words, (a, b) = _set(series.label), series.spots[-1]
+        wide, off = width(words, LABEL), series.look.size / 2 + 1.0
+        boxes = {_box((x(a) + h * (off + wide / 2), y(b) + v * (off + LABEL / 2)), wide, LABEL): v for h, v in SIDES}
+        best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes,
+                   key=lambda box: sum(map(box.meets, taken)))
+        taken.append(best)
+        if abs(boxes[best]) > FAR:
+            near = min(max(x(a), best.left), best.right), best.bottom if boxes[best] > 0 else best.top
+            canvas.line([(x(a), y(b)), near], DIVISION)
+        canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)
+
+
+def _covered(series: Series, x: _Scale, y: _Scale) -> Iterable[Rect]:
+    """What a series covers: its marks, their spreads, and lines along the axes."""
+    spots = [(x(a), y(b)) for a, b in series.spots]
+    if series.look.marker:
+        yield from (_box(spot, series.look.size, series.look.size) for spot in spots)
+    for (across, up), (one, other) in zip(spots, series.spreads, strict=False):
+        (left, low), (right, high) = ((x(a), y(b)) for a, b in (one, other))
+        yield from (Rect(left, up, right, up).inset(-0.1, -0.1, -0.1, -0.1),
+                    Rect(across, low, across, high).inset(-0.1, -0.1, -0.1, -0.1))
+    for (left, low), (right, high) in pairwise(spots) if series.look.width else ():
+        yield Rect(min(left, right), min(low, high), max(left, right), max(low, high)).inset(-0.1, -0.1, -0.1, -0.1)
+
+
+def _box(centre: Spot, wide: float, high: float) -> Rect:
+    """A rectangle by its centre and its size."""
+    return Rect(centre[0] - wide / 2, centre[1] - high / 2, centre[0] + wide / 2, centre[1] + high / 2)

@@ -7,12 +7,14 @@ makes conditions redundant they are solved by singular values. Numbers may know 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from graphplan.mechanism.elimination import transpose
 from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.numerals import mapped
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
 from graphplan.solver.equations import Equations, Row, held, moved
@@ -77,7 +79,7 @@ def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) ->
         return _pair(guides[slide.name]) if slide.name in guides else tuple(map(float, slide.direction))
 
     driven = scene.with_drives(drive.driven_at(*map(float, drive.rates)) for drive in scene.drives)
-    return driven.posed({name: where(name) for name in scene.points},
+    return replace(driven, loads=mapped(scene.loads, float)).posed({name: where(name) for name in scene.points},
                         lambda one: direction(one) if isinstance(one, Slide) else one.direction)
 
 

@@ -96,10 +96,10 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
         found: dict[str, Any] = {fact.way: next(unknown) for fact in slide.states(scene)}
         if all(value is not None for value in found.values()):
             across = found["across"]
-            slides[slide.name] = times(across, turned(slide.direction)), found.get("turn", 0 * across) / unit
+            slides[slide.name] = times(across, turned(slide.direction)), scaled(1 / unit, found.get("turn", 0 * across))
     for balance, value in zip(asked(scene).balances, unknown, strict=True):
         if value is not None:
-            balances.append(value / unit if balance.direction is None else times(value, balance.direction))
+            balances.append(scaled(1 / unit, value) if balance.direction is None else times(value, balance.direction))
     whole = {name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None}
     return Reactions(equations, whole, slides, tuple(balances), rates)
 
@@ -123,10 +123,15 @@ def acting(scene: Scene, rates: Rates) -> tuple[Load, ...]:
 
 def carried(scene: Scene, link: str, mass: Mass, rates: Rates) -> Iterator[Load]:
     """By d'Alembert: weight and inertia force m g - m a_S at the centre of mass S, and the couple -I alpha."""
-    weigh = times(weight(scene.units), asked(scene).gravity)
-    resist = times(inertia(scene.units), rates.acceleration[mass.centre])
+    weigh, (x, y) = times(weight(scene.units), asked(scene).gravity), rates.acceleration[mass.centre]
+    resist = scaled(inertia(scene.units), x), scaled(inertia(scene.units), y)
     yield Force(link, mass.centre, times(mass.mass, less(weigh, resist)))
-    yield Moment(link, -weight(scene.units) * mass.inertia * rates.alpha[link])
+    yield Moment(link, scaled(-weight(scene.units), mass.inertia * rates.alpha[link]))
+
+
+def scaled(factor: Fraction, number: Any) -> Any:
+    """A number times a factor of units: an array times a float, as it would multiply fractions one by one."""
+    return (float(factor) if hasattr(number, "dtype") else factor) * number
 
 
 def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
@@ -141,7 +146,7 @@ def resultants(equations: Equations, loads: tuple[Load, ...]) -> list[Number]:
 def weights(equations: Equations, load: Load) -> Rate:
     """A load's force (x, y) and, in force * length, its moment about its link's base: what each rate gives of power."""
     if isinstance(load, Moment):
-        return Rate(0, 0, load.value * metre(equations.scene.units))
+        return Rate(0, 0, scaled(metre(equations.scene.units), load.value))
     return Along(load.on, FRAME, load.at, load.value, "held").weights(equations.arm(load.on, load.at))
 
 

@@ -28,11 +28,11 @@ DRAFTS = [
 def measure(arithmetic: str, time: float | None, error: float | None, scene: str = "shaper") -> machine.Measure:
     """A made-up measure of a scene."""
     why = "refused" if time is None else ""
-    return machine.Measure(scene, "every method", "polar", arithmetic, time, time, time, error, why)
+    return machine.Measure(scene, machine.MOTION, "every method", "orthogonal", arithmetic, *[time] * 3, error, why)
 
 
-MEASURES = [measure("rules, floats", 10.0, 1e-15), measure("rules, fractions", 200.0, 0.0),
-            measure("rules, enclosures of 30 digits", 90.0, 1e-40), measure(machine.COMPILED, None, None)]
+MEASURES = [measure("one pose", 10.0, 1e-15), measure("fractions", 200.0, 0.0),
+            measure("20 proven digits", 90.0, 1e-50), measure(machine.COMPILED, None, None)]
 
 
 def marks(chart: Chart) -> int:
@@ -42,31 +42,42 @@ def marks(chart: Chart) -> int:
 
 def test_every_mark_is_a_row_of_its_table() -> None:
     """Each row with numbers is one mark, those without none; of the front there is a line and no mark."""
-    chart = draughtsman.picture(DRAFTS, str(Pencil()))
+    chart = draughtsman.details(DRAFTS, str(Pencil()))
     assert marks(chart) == 3
     assert chart.panels[0].series[0].spots == (
         (40.0, 3.0), (40.0, 2.0), (90.0, 2.0), (90.0, 1.0), (95.0, 1.0))
     assert "(1 not drawn)" in chart.panels[0].title
-    assert marks(machine.picture(MEASURES)) == 3
+    assert marks(machine.details(MEASURES)) == 3
     samples = list(stability.samples(DEGENERACIES[2], distances=(1.0, 1e-3, 0.0)))
     assert marks(stability.picture(samples)) == len(samples)
 
 
 def test_exact_and_singular_stand_on_rails() -> None:
     """No error stands on the exact rail, proven digits on theirs, and what has no number on that of its method."""
-    levels = [series.spots[0][1] for series in machine.picture(MEASURES).panels[0].series]
-    assert levels == [1e-15, "exact", "proven"]
+    levels = [series.spots[0][1] for series in machine.details(MEASURES).panels[0].series]
+    assert levels == [1e-15, "exact", "20 digits"]
     singular = stability.Sample("dead centre", "poles", 0.0, float("inf"), None, "singular")
     spots = [series.spots for series in stability.picture([singular]).panels[0].series if series.spots]
     assert spots == [(("0", "poles"),)]
 
 
-def test_the_median_is_over_all_scenes() -> None:
-    """With several scenes one picture more tells medians and quartiles, not of what few scenes have."""
-    rows = [measure("rules, floats", time, 1e-15, scene) for scene, time in (("a", 1.0), ("b", 3.0), ("c", 5.0))]
-    (series,) = machine.picture([*rows, measure(machine.COMPILED, 1.0, 1e-15, "a")]).panels[-1].series
-    assert series.spots == ((3.0, 1e-15),)
+def test_medians_are_over_all_scenes() -> None:
+    """The chart of the machine has the median and quartiles of each arithmetic, and the front of the medians."""
+    rows = [measure("one pose", time, 1e-15, scene) for scene, time in (("a", 1.0), ("b", 3.0), ("c", 5.0))]
+    line, exact, series = machine.picture([measure("fractions", 9.0, 0.0), *rows]).panels[0].series
+    assert (series.spots, series.label) == (((3.0, 1e-15),), "one pose")
     assert series.spreads == (((2.0, 1e-15), (4.0, 1e-15)),)
+    assert exact.spots == ((9.0, "exact"),)
+    assert line.spots == ((3.0, 1e-15), (9.0, 1e-15), (9.0, "exact"))
+
+
+def test_ways_to_draw_are_beside_the_own_form() -> None:
+    """The draughtsman's medians are parts of the operations and of the error of the pose's own form in each scene."""
+    rows = [replace(draft, scene=scene) for draft in DRAFTS for scene in ("triad", "stephenson")]
+    _, *series = draughtsman.picture(rows, str(Pencil())).panels[0].series
+    assert {one.label: one.spots[0] for one in series} == {
+        "pose's own, orthogonal (2)": (1.0, 1.0), "auxiliary, orthogonal (2)": (1.0, 1.0),
+        "trial, polar, strict (2)": (2.25, 0.5), "poles, polar, strict (2)": (2.375, 1.5)}
 
 
 @pytest.mark.parametrize(("best", "name"), [
@@ -109,7 +120,8 @@ def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
     """The named chart of the named scene comes as two files that replace what was there."""
     (tmp_path / "draughtsman.csv").write_text("old")
     assert main(["chart", "draughtsman", str(tmp_path), "--scenes", "five-bar"]) == 0
-    assert sorted(path.name for path in tmp_path.iterdir()) == ["draughtsman.csv", "draughtsman.svg"]
+    assert sorted(path.name for path in tmp_path.iterdir()) == [
+        "draughtsman-scenes.svg", "draughtsman.csv", "draughtsman.svg"]
     heading, *rows = (tmp_path / "draughtsman.csv").read_text().splitlines()
     assert heading.startswith("scene,form,plan,tools")
     assert all(row.startswith("five-bar,") for row in rows)
@@ -119,6 +131,9 @@ def test_chart_writes_picture_and_table(tmp_path: Path) -> None:
     (("speed", "."), "chart speed: there is no such chart"),
     (("growth", "nowhere"), "nowhere: folder: there is no such folder"),
     (("machine", ".", "--scenes", "no-such"), "no-such"),
+    (("growth", ".", "--beside", "rivals.csv"), "--beside: only machine has other programs beside it"),
+    (("machine", ".", "--beside", "rivals.csv"), "--beside rivals.csv: No such file"),
+    (("machine", ".", "--beside", __file__), "it is no table of machine; the columns scene, asked"),
     (("growth", ".", "--pencil", "nib=1"), "--pencil nib=1: a pencil has no such error"),
 ])
 def test_bad_names_are_one_line(arguments: tuple[str, ...], told: str, tmp_path: Path,

@@ -8,11 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import forms
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, grouped
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart, front, grouped, median, stairs
 from graphplan.mechanism.model import Scene
 from graphplan.methods.styles import MOTION_PLANS
 from graphplan.sheet.plates.pens import BLUE, GREY, INK, RED
@@ -60,55 +59,92 @@ def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
                                 why="" if one.error else "every result is nothing")
 
 
-def front(places: Sequence[tuple[int, float]]) -> list[tuple[int, float]]:
-    """The places that no other beats in one coordinate without losing in the other (Pareto), by the first one."""
-    best: list[tuple[int, float]] = []
-    for place in sorted(set(places)):
-        if not best or place[1] < best[-1][1]:
-            best.append(place)
-    return best
-
-
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
+TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form with set squares, orthogonal plans")
+TIMES_ERROR = Axis("pencil error of the worst result, beside the same")
 FRONT = Look(INK, width=0.25)
-REMARKS = (
-    "Each mark is one form of a scene's construction: the operations of drawing it, and the expected error of its "
-    "worst result beside the largest of its kind, to first order, all on sheets of size {paper} with {pencil}. "
-    "The line is the front: no form takes fewer operations without a larger error. In brackets how many forms are "
-    "not drawn; the table beside the chart says why."
+MODEL = (
+    "The pencil error is that of the worst result beside the largest of its kind, to first order, all on sheets of "
+    "size {paper} with {pencil}."
 )
+REMARKS = (
+    "Left is quicker, lower is more accurate; left of and below the line is nothing. Each mark is a way to draw, by "
+    "its medians over the {scenes} packaged scenes with the quartiles, beside the form that the pose chooses. " + MODEL
+)
+DETAILS = (
+    "Each mark is one form of a scene's construction. The line is the front: no form takes fewer operations without a "
+    "larger error. In brackets how many forms are not drawn; the table beside the chart says why. " + MODEL
+)
+Place = tuple[float, float]  # in operations and error
 
 
 def picture(rows: Sequence[Draft], pencil: str) -> Chart:
-    """The chart of these drafts, drawn with a pencil."""
+    """The chart of the medians over the scenes, drawn with a pencil."""
+    scenes = grouped(rows, "scene")
+    ways: dict[tuple[str, str, str], list[Place]] = {}
+    for of in scenes.values():
+        for way, place in _beside_own(of):
+            ways.setdefault(way, []).append(place)
+    found = {way: median(places) for way, places in ways.items()}
+    middles = [middle for middle, _, _ in found.values()]
+    series = [Series(_look(*way), (middle,), ((low, high),), label=_told(*way, len(ways[way])))
+              for way, (middle, low, high) in found.items()]
+    panel = SubChart("medians and quartiles", TIMES_OPERATIONS, TIMES_ERROR, (
+        Series(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
+    title, remarks = "The draughtsman: operations against pencil error", REMARKS.format(
+        paper=PAPER, pencil=pencil, scenes=len(scenes))
+    return Chart(title, remarks, (panel,), 1, (240.0, 140.0), tuple(_key()))
+
+
+def _beside_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], Place]]:
+    """Each way to draw one scene, method, plan and tools, beside the pose's own form; methods that lead to one form
+    have it in common, but where all do it is the pose's own alone."""
+    there = {(name, row.plan, row.tools): _spot(row) for row in rows if row.error
+             for name in ("pose's own" if row.form == "every method" else row.form).split(", ")}
+    if own := there.get(("pose's own", MOTION_PLANS[0], SQUARES)):
+        yield from ((way, (x / own[0], y / own[1])) for way, (x, y) in there.items())
+
+
+def _told(method: str, plan: str, tools: str, scenes: int) -> str:
+    return f"{method}, {plan}{', strict' if tools == STRICT else ''} ({scenes})"
+
+
+def _ends(places: Sequence[Place]) -> Place:
+    """The most operations and the largest error."""
+    x, y = (max(values) for values in zip(*places, strict=True))
+    return x, y
+
+
+def details(rows: Sequence[Draft], pencil: str) -> Chart:
+    """The chart of every form of every scene."""
     panels = tuple(_panel(scene, of) for scene, of in grouped(rows, "scene").items())
-    remarks = REMARKS.format(paper=PAPER, pencil=pencil)
-    return Chart("The draughtsman: operations against pencil error", remarks, panels, 6, (44.0, 36.0), tuple(_key()))
+    remarks = DETAILS.format(paper=PAPER, pencil=pencil)
+    title = "The draughtsman: operations against pencil error, scene by scene"
+    return Chart(title, remarks, panels, 6, (44.0, 36.0), tuple(_key()))
 
 
 def _panel(scene: str, rows: Sequence[Draft]) -> SubChart:
     """One scene: its front, from the worst error that is drawn to the most operations, and every form."""
     missing = sum(row.operations is None for row in rows)
-    best = sorted({_spot(row) for row in rows if row.front})
     there = [row for row in rows if row.operations is not None and row.error]
-    marks = [Series(look(row), (_spot(row),)) for row in there]
-    if best:
-        most, worst = (max(ends) for ends in zip(*map(_spot, there), strict=True))
-        best = [(best[0][0], worst), *best, (most, best[-1][1])]
-    stairs = [corner for (a, b), (c, d) in pairwise(best) for corner in ((a, b), (c, b), (c, d))]
+    line = stairs(sorted({_spot(row) for row in rows if row.front}), _ends(list(map(_spot, there)))) if there else []
     return SubChart(f"{scene} ({missing} not drawn)" if missing else scene, OPERATIONS, ERROR,
-                 (Series(FRONT, tuple(dict.fromkeys(stairs))), *marks))
+                    (Series(FRONT, tuple(line)), *(Series(look(row), (_spot(row),)) for row in there)))
 
 
-def _spot(row: Draft) -> tuple[float, float]:
+def _spot(row: Draft) -> Place:
     return float(row.operations or 0), 100 * (row.error or 0.0)
 
 
 def look(row: Draft) -> Look:
     """A form's look: the method by the marker, the plan by the colour, strict forms hollow."""
-    return Look(COLOURS[row.plan], MARKERS[row.form.split(", ")[0]], hollow=row.tools == STRICT, size=2.0)
+    return _look(row.form.split(", ")[0], row.plan, row.tools)
+
+
+def _look(method: str, plan: str, tools: str) -> Look:
+    return Look(COLOURS[plan], MARKERS[method], hollow=tools == STRICT, size=2.0)
 
 
 def _key() -> Iterable[tuple[str, Look]]:

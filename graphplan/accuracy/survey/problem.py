@@ -1,0 +1,272 @@
+"""One problem, solved by every arithmetic of the construction and of the solver: a scene in many poses.
+
+Errors are those of some sampled poses, against what is true of the very binary numbers that all are given.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import cached_property, partial
+from importlib.util import find_spec
+from math import ceil, log2
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.survey import lapack
+from graphplan.check.arithmetics import Exact, enclosures
+from graphplan.check.compared import UNBOUNDED, each
+from graphplan.check.forces import force_truth
+from graphplan.check.report import Opinion, opinion
+from graphplan.errors import Refused
+from graphplan.kernel.numbers import Domain, Fractions
+from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.mechanism.model import Find, Scene
+from graphplan.mechanism.numerals import mapped
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.solver import Rates, poses, solve
+from graphplan.solver.statics import Reactions, reactions
+
+POSES = 4096  # at once
+SAMPLED = 5
+LARGER = 1.02
+TRUE_BITS = 256  # of enclosures that stand for the truth: some 70 digits
+SPARE_BITS = 104  # beyond the digits that are asked for: as many as `solve --digits` takes
+
+Results = Mapping[str, Mapping[str, Any]]
+
+
+@dataclass(frozen=True)
+class Run:
+    """One arithmetic at work: what is called, for how many poses, and its results in the sampled pose of a number."""
+
+    call: Callable[[], Any]
+    count: int
+    read: Callable[[Any, int], Results]
+
+
+class Problem:
+    """A scene's motion, or with `forces` all that it asks for, in many poses.
+
+    These are `points`, complex arrays by name, or the scene's own pose enlarged by up to a fiftieth: as good a
+    mechanism each, and other roundings.
+    """
+
+    def __init__(self, scene: Scene, forces: bool = False, points: Mapping[str, Any] | None = None):
+        self.scene = binary(scene, forces)
+        factors = np.linspace(1.0, LARGER, POSES)
+        self.points = dict(points or {name: complex(*map(float, at)) * factors for name, at in scene.points.items()})
+        self.n = len(next(iter(self.points.values())))
+        self.places = [round(k) for k in np.linspace(0, self.n - 1, SAMPLED)]
+
+    @cached_property
+    def sampled(self) -> list[dict[str, complex]]:
+        """The points in the sampled poses."""
+        return [{name: complex(z[k]) for name, z in self.points.items()} for k in self.places]
+
+    @cached_property
+    def truths(self) -> list[Opinion]:
+        """What is true in the sampled poses."""
+        return [truth(placed(self.scene, pose)) for pose in self.sampled]
+
+    def error(self, run: Run, found: Any) -> float:
+        """The largest error of any number in the sampled poses, beside the largest of its kind."""
+        told = (run.read(found, j) for j in range(SAMPLED))
+        return max(largest_error(results, true.truth(results)) for results, true in zip(told, self.truths, strict=True))
+
+    def each(self, one: Callable[[Any], Any], given: Sequence[Any],
+             read: Callable[[Any], Results] = lambda found: found) -> Run:
+        """A run over the sampled poses, one after the other."""
+        return Run(lambda: [one(pose) for pose in given], SAMPLED, lambda found, j: read(found[j]))
+
+    def arrays(self, call: Callable[[], Results]) -> Run:
+        """A run over all poses: results as arrays of them, as pairs of arrays, or as numbers that never change."""
+        return Run(call, self.n, lambda found, j: {kind: {name: self._at(self.places[j], value)
+                                                          for name, value in named.items()}
+                                                   for kind, named in found.items()})
+
+    def _at(self, k: int, value: Any) -> Any:
+        if isinstance(value, tuple):
+            return tuple(float(np.broadcast_to(part, self.n)[k]) for part in value)
+        one = np.broadcast_to(value, self.n)[k]
+        return (float(one.real), float(one.imag)) if np.iscomplexobj(one) else float(one)
+
+
+def largest_error(found: Results, true: Results) -> float:
+    """The largest error of any number, beside the largest of its kind; of an enclosure that of its farther bound."""
+    worst = 0.0
+    for kind, named in found.items():
+        known = {name: each(true[kind][name]) for name in named}
+        largest = max((abs(_middle(number)) for numbers in known.values() for number in numbers), default=0)
+        gap = max((abs(_middle(ours) - _middle(number)) + getattr(ours, "error", 0) for name, value in named.items()
+                   for ours, number in zip(each(value), known[name], strict=True)), default=0)
+        worst = max(worst, float(gap / largest) if largest else 0.0)
+    return worst
+
+
+def _middle(number: Any) -> Fraction:
+    return Fraction(getattr(number, "middle", number))
+
+
+# ---- scenes in the binary numbers that a machine holds: each float is taken as the fraction that it is ----------
+
+
+def binary(scene: Scene, forces: bool = False) -> Scene:
+    """A scene in binary fractions: of its motion the velocities and accelerations of the points asked for or of all
+    joints; with `forces` what it asks for itself, without friction, whose rounds are no one system."""
+    joints = scene.find.velocity or scene.joints
+    find = scene.find if forces else Find(joints, scene.find.acceleration or joints, links=(), slides=())
+    driven = scene.with_drives(drive.driven_at(*drive.rates) for drive in scene.drives)
+    loads = replace(scene.loads, frictions=()) if forces and scene.loads else None
+    plain = replace(driven, irrational=(), placements={}, find=find, loads=loads)
+    numbers = {"points": plain.points, "written": tuple(map(_as_given, plain.written)), "motions": plain.motions,
+               "loads": loads and replace(loads, balances=tuple(map(_as_given, loads.balances)))}
+    return placed(replace(plain, **mapped(numbers, lambda number: Fraction(float(number)))), {})
+
+
+def _as_given(one: Any) -> Any:
+    """A pair or a balance whose direction is the numbers that it has, however it was written."""
+    return replace(one, written=None) if getattr(one, "written", None) is not None else one
+
+
+def placed(scene: Scene, places: Mapping[str, complex]) -> Scene:
+    """A binary scene with some points elsewhere; guides through two points turn with them."""
+    points = scene.points | {name: (Fraction(z.real), Fraction(z.imag)) for name, z in places.items()}
+
+    def direction(one: Any) -> Any:
+        if getattr(one, "through", None) is None:
+            return one.direction
+        (ax, ay), (bx, by) = (points[name] for name in one.through)
+        return bx - ax, by - ay
+
+    return scene.posed(points, direction)
+
+
+def truth(scene: Scene) -> Opinion:
+    """What is true of a binary scene: in fractions, or beyond fifty digits where a root is irrational.
+
+    Fails with `Refused` where that would need enclosures and they are not installed, with `SingularPose` as `solve`.
+    """
+    try:
+        return opinion(scene, Exact())
+    except Refused:
+        if find_spec("flint") is None:
+            raise
+    by = enclosures(TRUE_BITS)
+    with by.working():
+        return opinion(scene, by)
+
+
+# ---- the construction's arithmetics ----------------------------------------------------------------------------
+
+
+def _given(drawing: Construction, lift: Callable[[Any], Any], pose: Mapping[str, Any]) -> dict[str, dict[str, Any]]:
+    """The coordinates of a pose, or of arrays of poses, as a construction is given them."""
+    names = {step.name for step in drawing.program.steps[:drawing.program.givens]}
+    return {name: {"x": lift(z.real), "y": lift(z.imag)} for name, z in pose.items() if name in names}
+
+
+def _by_rules(domain: Callable[[], Domain], lift: Callable[[float], Any], problem: Problem,
+              drawing: Construction) -> Run:
+    """The rules, one pose after the other."""
+    return problem.each(lambda pose: drawing.read(domain(), pose),
+                        [_given(drawing, lift, pose) for pose in problem.sampled])
+
+
+def _replayed(problem: Problem, drawing: Construction) -> Run:
+    """The replay that was written down from the tape, one pose after the other."""
+    return problem.each(drawing.replay, problem.sampled)
+
+
+def _on_arrays(problem: Problem, drawing: Construction) -> Run:
+    """The rules, on arrays of all poses."""
+    given = _given(drawing, np.copy, problem.points)
+    return problem.arrays(lambda: drawing.read(Arrays(), given))
+
+
+def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> Run:
+    """The tape on blocks of poses, by numpy or compiled."""
+    return problem.arrays(lambda: drawing.evaluate(problem.points, machine=machine).results)
+
+
+def _enclosed(digits: int, problem: Problem, drawing: Construction) -> Run:
+    """The rules between proven bounds, to so many digits."""
+    if find_spec("flint") is None:
+        raise Refused("enclosures", "python-flint is not installed", "pip install 'graphplan[certified]'")
+    from graphplan.kernel.numbers.enclosures import Enclosures, precision
+
+    given, bits = [_given(drawing, Fraction, pose) for pose in problem.sampled], ceil(digits * log2(10)) + SPARE_BITS
+
+    def call() -> list[Results]:
+        with precision(bits):
+            return [drawing.read(Enclosures(), numbers) for numbers in given]
+
+    return Run(call, SAMPLED, lambda found, j: found[j])
+
+
+ONE, MANY, COMPILED = "one pose", "many poses", "many poses, compiled"
+TWENTY, FORTY, FRACTIONS = "20 proven digits", "40 proven digits", "fractions"
+ARITHMETICS: dict[str, Callable[[Problem, Construction], Run]] = {
+    "rules, one pose": partial(_by_rules, Floats, float),
+    "rules, many poses": _on_arrays,
+    ONE: _replayed,
+    MANY: partial(_in_blocks, False),
+    COMPILED: partial(_in_blocks, True),
+    TWENTY: partial(_enclosed, 20),
+    FORTY: partial(_enclosed, 40),
+    FRACTIONS: partial(_by_rules, Fractions, Fraction),
+}
+
+
+# ---- the solver's -----------------------------------------------------------------------------------------------
+
+
+def _solved(exact: bool, problem: Problem) -> Run:
+    """The solver, one pose after the other."""
+    lift = placed if exact else partial(poses.posed, guides={})
+
+    def one(scene: Scene) -> Rates | Reactions:
+        return solve(scene, exact) if scene.loads is None else reactions(scene, exact)
+
+    return problem.each(one, [lift(problem.scene, pose) for pose in problem.sampled], partial(_asked, problem.scene))
+
+
+def _by_lapack(problem: Problem) -> Run:
+    """Dense systems of the whole mechanism, block by block."""
+    size = lapack.block(problem.scene)
+    starts = range(0, problem.n, size)
+    sizes = [min(size, problem.n - start) for start in starts]
+
+    def solved(start: int, count: int) -> Results:
+        scene = poses.posed(problem.scene, {name: z[start : start + count] for name, z in problem.points.items()}, {})
+        return _asked(scene, lapack.solve(problem.scene, scene, count))
+
+    return problem.arrays(lambda: _joined(list(map(solved, starts, sizes)), sizes))
+
+
+def _joined(parts: Sequence[Results], sizes: Sequence[int]) -> Results:
+    """The results of blocks of these sizes as those of all poses, pairs of arrays."""
+    def whole(values: Sequence[Any]) -> Any:
+        if isinstance(values[0], tuple):
+            return tuple(map(whole, zip(*values, strict=True)))
+        return np.concatenate([np.broadcast_to(value, size) for value, size in zip(values, sizes, strict=True)])
+
+    return {kind: {name: whole([part[kind][name] for part in parts]) for name in named}
+            for kind, named in parts[0].items()}
+
+
+def _asked(scene: Scene, found: Rates | Reactions) -> Results:
+    """What a scene asks of the solver's answer."""
+    motion, forces = (found, {}) if isinstance(found, Rates) else (found.rates, force_truth(scene, {}, found))
+    return {kinds.VELOCITY: {name: motion.velocity[name] for name in scene.find.velocity},
+            kinds.ACCELERATION: {name: motion.acceleration[name] for name in scene.find.acceleration},
+            **{kind: named for kind, named in forces.items() if kind not in UNBOUNDED}}
+
+
+SOLVER, LAPACK, EXACT_SOLVER = "solver, one pose", "solver, LAPACK batches", "solver, fractions"
+SOLVERS: dict[str, Callable[[Problem], Run]] = {
+    SOLVER: partial(_solved, False), LAPACK: _by_lapack, EXACT_SOLVER: partial(_solved, True)}

@@ -47,6 +47,20 @@ class Outdone(Exception):
     """Raised where a form that is tried can no longer be the best, however well it goes on."""
 
 
+class Attempt(NamedTuple):
+    """A form as it was tried: how well it draws, what came out, and what it put on the board, to be laid there again.
+
+    `letters` are the marks that the form has a letter for, each with what it calls it.
+    """
+
+    rating: Rating
+    out: Mark | None = None
+    marks: Sequence[Mark] = ()
+    values: Sequence[Any] = ()
+    made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
+    letters: Sequence[tuple[Mark, str]] = ()
+
+
 @dataclass
 class Expander:
     """Copies a program step by step, drawing its compounds out; knows the float value of every step it has drawn.
@@ -98,37 +112,52 @@ class Expander:
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
              names: Mapping[str, str] | None = None, tried: bool = False) -> Mark:
-        """Draw one operation: as one step if it is one, else in its best form.
+        """Draw one operation: as one step if it is one, else in its best form, as that was tried.
 
-        What is only `tried` is taken back, so it gets neither letters nor reasons.
+        What is only `tried` may be outdone, and is given neither letters nor reasons.
         """
-        ratings = [] if op.name in self.keep else self._ratings(op, args, params, tried)
-        if not ratings:
+        found = [] if op.name in self.keep else self.attempts(op, args, params, tried)
+        if not found:
             return self._record(op, args, params, why)
-        before = len(self.board.steps)
-        out: Mark = op.forms[ratings[0].form](FormBoard(self, None if tried else dict(names or {})), *args, **params)
-        self._made.setdefault(out.step.index, (op.name, args))
+        before, best = len(self.board.steps), found[0]
+        out = self._laid(best)
+        if out.step.index >= before:
+            self._made.setdefault(out.step.index, (op.name, args))
+        for mark, letter in best.letters if names else ():
+            self.board.named(mark, (names or {}).get(letter, ""))
         if not tried:
-            self._explain(op, before, ratings, why, out)
+            self._explain(op, before, [one.rating for one in found], why, out)
         return out
 
-    def _ratings(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
-                tried: bool = False) -> list[Rating]:
-        """The forms that can be drawn, the best first; inside a form that is `tried` only the first is sure."""
+    def _laid(self, attempt: Attempt) -> Mark:
+        """What an attempt has drawn, on the board once more."""
+        assert attempt.out is not None
+        self.board.lay(attempt.marks)
+        self.values += attempt.values
+        self._made |= attempt.made
+        if len(self.values) > self._limit:
+            raise Outdone
+        return attempt.out
+
+    def attempts(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any],
+                 tried: bool = False) -> list[Attempt]:
+        """The forms that can be drawn, the best first; of all but the first only what is told is sure to be so."""
         truth = op.rule(FLOATS, *map(self.value, args), **params)
-        found: list[Rating] = []
+        found: list[Attempt] = []
         for form in op.forms:
-            rating = self._try(op, args, params, truth, form, self._allowed(form, found) if tried else math.inf)
-            found += [rating] if rating else []
-        found.sort(key=self._rank)
-        if found and found[0].left_off:
+            bound = self._allowed(form, found) if tried or not op.weighed else math.inf
+            attempt = self._try(op, args, params, truth, form, bound)
+            found += [attempt] if attempt else []
+        found.sort(key=lambda one: self._rank(one.rating))
+        if found and found[0].rating.left_off:
             raise Outdone
         return found
 
-    def _allowed(self, form: str, found: list[Rating]) -> float:
+    def _allowed(self, form: str, found: Sequence[Attempt]) -> float:
         """The movements that a form may take and still be better than those found."""
         *ideal, _ = self._rank(Rating(form, 0))
-        return min((one.movements - 1 for one in found if self._rank(one)[:-1] <= tuple(ideal)), default=math.inf)
+        ranks = ((self._rank(one.rating), one.rating.movements) for one in found)
+        return min((movements - 1 for rank, movements in ranks if rank[:-1] <= tuple(ideal)), default=math.inf)
 
     def _rank(self, rating: Rating) -> tuple[Any, ...]:
         return not (self.prefer and plain(rating.form) == self.prefer), *rating.rank
@@ -143,21 +172,23 @@ class Expander:
         return mark
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
-             form: str, allowed: float) -> Rating | None:
+             form: str, allowed: float) -> Attempt | None:
         """Draw a form without letters, in no more than the movements allowed; look at it, take it back."""
         before, sheet, limit = len(self.board.steps), self.sheet(args[op.where].step.panel), self._limit
-        self._limit = min(limit, before + allowed)
+        self._limit, board = min(limit, before + allowed), FormBoard(self)
         try:
-            out: Mark | None = op.forms[form](FormBoard(self, None), *args, **params)
-            if out is None:
+            out: Mark | None = op.forms[form](board, *args, **params)
+            rating = None if out is None else self._judge(form, before)
+            if out is None or rating is None:
                 return None
-            rating = self._judge(form, before)
-            serves = rating and self._agrees(op, self.value(out), truth, sheet, self._lost(sheet, before, rating))
-            return rating if serves else None
+            if not self._agrees(op, self.value(out), truth, sheet, self._lost(sheet, before, rating)):
+                return None
+            made = {index: how for index, how in self._made.items() if index >= before}
+            return Attempt(rating, out, self.board.marks[before:], self.values[before:], made, board.letters)
         except (Undrawable, ZeroDivisionError):
             return None
         except Outdone:
-            return Rating(form, int(self._limit) + 1 - before, left_off=True)
+            return Attempt(Rating(form, int(self._limit) + 1 - before, left_off=True))
         finally:
             self._limit = limit
             drawn = len(self.board.steps)
@@ -212,23 +243,25 @@ class Expander:
             return
         if why:
             self.board.annotate(out.step.index, why=why)
-        if len(op.forms) > 1:
+        if op.weighed:
             self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:])))
 
 
 class FormBoard(Verbs):
     """The board as a form sees it: the same verbs, and compounds inside are drawn out in turn.
 
-    `names` are the letters for the marks inside; a form that is only tried has none.
+    `letters` are the marks inside that the form has a name for.
     """
 
-    def __init__(self, expander: Expander, names: dict[str, str] | None):
-        self._expander, self._names = expander, names
+    def __init__(self, expander: Expander):
+        self._expander = expander
+        self.letters: list[tuple[Mark, str]] = []
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
-        expander, letter = self._expander, (self._names or {}).get(name, "")
-        mark = expander.draw(op, args, params, tried=self._names is None)
-        return expander.board.named(mark, letter)
+        mark = self._expander.draw(op, args, params, tried=True)
+        if name:
+            self.letters.append((mark, name))
+        return mark
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:
         """How a mark was drawn: the operation, as a compound if it was one, and what it read."""
@@ -266,17 +299,19 @@ class FormBoard(Verbs):
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""
         board, (a, b, _) = self._expander.board, self._expander.value(l)
-        on = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"]
-        on += [step.index for step in board.steps if step.op.gives == POINT and l.step.index in step.args
-               and any(claim[0] == "on" and step.args[claim[1]] == l.step.index for claim in step.op.claims)]
+        on, line = [l.step.args[claim[1]] for claim in l.step.op.claims if claim[0] == "on"], l.step.index
+        on += [step.index for step in board.steps[line + 1:] if line in step.args and step.op.gives == POINT
+               and any(claim[0] == "on" and step.args[claim[1]] == line for claim in step.op.claims)]
         return sorted((board.marks[index] for index in on), key=lambda P: dot(self._expander.value(P), (b, -a)))
 
     def clear_of(self, P: Mark, among: Iterable[Mark] | None = None) -> Mark | None:
         """The point furthest from P, of some or of those on its plan, else of all."""
-        points = [mark for mark in self._expander.board.marks if mark.kind == POINT] if among is None else list(among)
-        points = [mark for mark in points if mark.step.panel == P.step.panel] or points
-        far = max(points, key=lambda X: self.distance(P, X), default=P)
-        return None if self.one(P, far) else far
+        steps = self._expander.board.steps if among is None else [mark.step for mark in among]
+        points = [step for step in steps if step.op.gives == POINT]
+        points = [step for step in points if step.panel == P.step.panel] or points
+        values, here = self._expander.values, self._expander.value(P)
+        far = max((step.index for step in points), key=lambda index: math.dist(here, values[index]), default=None)
+        return None if far is None or self.one(P, mark := self._expander.board.marks[far]) else mark
 
 
 def _runs_against(one: Any, two: Any) -> bool:

@@ -99,10 +99,10 @@ def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[
 class Mark:
     """A mark on the board while the construction is recorded."""
 
-    __slots__ = ("board", "step")
+    __slots__ = ("board", "key", "step")
 
-    def __init__(self, board: Board, step: Step):
-        self.board, self.step = board, step
+    def __init__(self, board: Board, step: Step, key: tuple[Any, ...]):
+        self.board, self.step, self.key = board, step, key
 
     @property
     def kind(self) -> str:
@@ -175,7 +175,7 @@ class Board(Verbs):
             return self.named(same, name)
         panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, names or {})
-        mark = Mark(self, step)
+        mark = Mark(self, step, key)
         self.steps.append(step)
         self.marks.append(mark)
         self._drawn[key] = mark
@@ -196,10 +196,16 @@ class Board(Verbs):
 
     def rewind(self, length: int) -> None:
         """Take back all steps after the first `length`: a form was tried and is not used."""
-        for step in self.steps[length:]:
-            self._drawn.pop(step.key, None)
-            self._names.discard(step.name)
+        for mark in self.marks[length:]:
+            self._drawn.pop(mark.key, None)
+            self._names.discard(mark.step.name)
         del self.steps[length:], self.marks[length:]
+
+    def lay(self, marks: Sequence[Mark]) -> None:
+        """Put marks without letters back that were taken back, on what they stood on."""
+        self.marks += marks
+        self.steps += [mark.step for mark in marks]
+        self._drawn |= {mark.key: mark for mark in marks}
 
 
 @dataclass(frozen=True)

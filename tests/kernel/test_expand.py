@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections import Counter
+from functools import partial
+from typing import Any
+
 import pytest
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel import Board, Mark, Program
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
-from graphplan.kernel.kinds import Choice
+from graphplan.kernel.kinds import TABLE, Choice, Form
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate, freeze
 
@@ -112,6 +116,25 @@ def test_trial_on_a_locus_that_runs_backwards(keep: frozenset[str]) -> None:
         drawing = expander.run()
         for old, new in zip(program.wanted, drawing.wanted, strict=True):
             assert expander.values[new] == pytest.approx(truth[old], abs=1e-12)
+
+
+def test_form_is_drawn_out_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The best form of a compound is laid on the board as it was tried, and so are the compounds inside it."""
+    tries: Counter[str] = Counter()
+
+    def counted(key: str, form: Form, *args: Any, **params: Any) -> Any:
+        tries[key] += 1
+        return form(*args, **params)
+
+    for name in ("normal", "foot", "perpendicular"):
+        for key, form in list(TABLE[name].forms.items()):
+            monkeypatch.setitem(TABLE[name].forms, key, partial(counted, f"{name}: {key}", form))
+    board = Board()
+    K, A, m, w, k = points(board, K=(0, 0), A=(8, 1), m=(3, 3), w=(4, 5), k=(20, 0))
+    drawing = expanded(freeze(board, [board.normal(K, A, m, w, k)]), keep=STRICT)
+    assert all(step.op.name in STRICT for step in drawing.steps)
+    once = [*(f"normal: {form}" for form in TABLE["normal"].forms), "foot: perpendicular"]
+    assert [tries[key] for key in once] == [1] * len(once)
 
 
 def test_guide_needs_another_point() -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from functools import partial
 from random import Random
@@ -61,19 +62,22 @@ def test_form_draws_the_value(name: str, form: str) -> None:
             reach = 50 * size(program, values)
             assert same(program.steps[out].op.gives, values[out], expander.values[expanded.wanted[0]], reach)
             expander, marks = laid_out(program, values, name)
-            found = expander._ratings(TABLE[name], marks, program.steps[-1].params)
-            chosen += any(rating.form == form for rating in found)
+            found = expander.attempts(TABLE[name], marks, program.steps[-1].params)
+            chosen += any(attempt.rating.form == form for attempt in found)
     assert chosen
 
 
 @pytest.mark.parametrize("name", COMPOUNDS)
-def test_leaving_off_finds_the_best(name: str) -> None:
+def test_leaving_off_finds_the_best(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Inside a form that is tried, forms are left off that cannot win: the best is the same as of all drawn out."""
     for program, values in figures(name, corners, 40):
         expander, marks = laid_out(program, values, name)
         expander.keep = STRICT
-        ask = partial(expander._ratings, TABLE[name], marks, program.steps[-1].params)
-        assert ask(tried=True)[:1] == ask()[:1]
+        ask = partial(expander.attempts, TABLE[name], marks, program.steps[-1].params)
+        monkeypatch.setattr(expander, "_allowed", lambda *_: math.inf)
+        every = [attempt.rating for attempt in ask()]
+        monkeypatch.undo()
+        assert [attempt.rating for attempt in ask(tried=True)][:1] == every[:1]
 
 
 @pytest.mark.parametrize(("name", "form"), FORMS)
@@ -82,7 +86,7 @@ def test_form_fails_cleanly(name: str, form: str) -> None:
     for program, values in figures(name, corners, 100):
         expander, marks = laid_out(program, values, name)
         try:
-            TABLE[name].forms[form](FormBoard(expander, None), *marks, **program.steps[-1].params)
+            TABLE[name].forms[form](FormBoard(expander), *marks, **program.steps[-1].params)
         except Undrawable as fault:
             assert fault.code in FAILURES
 

@@ -164,7 +164,7 @@ def _place(key: str) -> tuple[int, int]:
 
 def _empty(key: str, sheet: Sheet) -> Element:
     """The group of what is not there in the given pose."""
-    return group(int(key) if key.isdigit() else key, sheet)
+    return group(int(key), sheet.sentences[int(key)]) if key.isdigit() else group(key, "")
 
 
 def _marked(key: str, group: Element, panel: int) -> Element:

@@ -6,7 +6,7 @@ same text.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -34,27 +34,32 @@ def svg(sheet: Sheet, **look: Any) -> str:
     if sheet.scene:
         document.add(_Metadata(sheet.scene, id="scene", factory=MAKE))
     document.add(MAKE.rect((0, 0), (wide, high), fill=PAPER))
-    for _, group in groups(sheet):
+    for _, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
         document.add(group)
     return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
 
 
-def groups(sheet: Sheet) -> Iterator[tuple[str, Element]]:
-    """The groups of a sheet from back to front, each by its layer or by the number of its step."""
+def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str, Element]]:
+    """The groups of a sheet from back to front, each by its layer or by the number of its step.
+
+    Steps that `number` gives the same one, as those of the pose's own points have 0, are one group.
+    """
     writer = _SheetWriter(sheet.height)
-    for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else item.step):
-        made = group(key, sheet)
-        for item in items:
+    for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else number(item.step)):
+        drawn = list(items)
+        steps = dict.fromkeys(item.step for item in drawn if item.step is not None)
+        made = group(key, " ".join(sheet.sentences[step] for step in steps))
+        for item in drawn:
             made.add(writer.item(item))
         yield str(key), made
 
 
-def group(key: str | int, sheet: Sheet) -> Element:
-    """A group with nothing in it yet: a layer, or a step by its number."""
+def group(key: str | int, sentence: str) -> Element:
+    """A group with nothing in it yet: a layer, or a step by its number with its sentence."""
     if isinstance(key, str):
         return MAKE.g(class_=f"layer-{key}")
     made = MAKE.g(class_="step", data_step=key)
-    made.set_desc(sheet.sentences[key])
+    made.set_desc(sentence)
     return made
 
 

@@ -112,7 +112,8 @@ class Strip:
         steps, scene = len(drawing.drawn) - drawing.drawn.givens, drawing.scene
         told = said("Film strip of a graphical construction: {0} steps in {1} pictures.", steps, len(self.groups))
         return Sheet(wide, high, frame, {}, items, scene.title, say(told), tuple(map(say, drawing.sentences())),
-                     Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text)  # fmt: skip
+                     Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text,
+                     drawing.drawn.givens)  # fmt: skip
 
     @property
     def size(self) -> tuple[float, float]:

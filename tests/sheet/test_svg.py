@@ -41,13 +41,16 @@ def test_it_is_the_same_every_time() -> None:
     assert run.stdout.decode() == svg_of("slotted-link")
 
 
-def test_every_drawn_step_has_its_group_and_sentence() -> None:
-    """There is one group for each step, in order, titled with the step's sentence."""
-    drawing = gp.construct(gp.load("four-bar"))
-    groups = [g for g in ET.fromstring(svg_of("four-bar").encode()) if g.get("class") == "step"]
-    indices = [int(g.get("data-step", -1)) for g in groups]
-    assert [i for i in indices if i >= drawing.drawn.givens] == list(range(drawing.drawn.givens, len(drawing.drawn)))
-    assert [g.findtext(f"{NS}title") for g in groups] == [drawing.sentences()[i] for i in indices]
+@pytest.mark.parametrize("name", ["four-bar", "triad-loaded"])
+def test_every_drawn_step_has_its_group_by_its_number(name: str) -> None:
+    """There is one group for each step that is drawn, in order, titled with its sentence; the given points are 0."""
+    drawing = drawing_of(name)
+    groups = [g for g in ET.fromstring(svg_of(name).encode()) if g.get("class") == "step"]
+    numbers = [int(g.get("data-step", -1)) for g in groups]
+    steps = {drawing.drawn.number(step.index): step for step in drawing.drawn.steps[drawing.drawn.givens:]}
+    assert numbers in ([0, *steps], [*steps])
+    titles = [g.findtext(f"{NS}title") for g in groups]
+    assert titles[-len(steps):] == [drawing.sentences()[step.index] for step in steps.values()]
 
 
 def test_a_velocity_can_be_measured() -> None:

@@ -45,7 +45,7 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
         drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
-        plans.tongue.code, drawing.scene.text,
+        plans.tongue.code, drawing.scene.text, drawing.drawn.givens,
     )  # fmt: skip
 
 

@@ -198,7 +198,10 @@ def within(item: Item, rects: Iterable[Rect]) -> bool:
 
 @dataclass(frozen=True)
 class Sheet:
-    """A finished sheet: its size in mm, its items from back to front, the sentence of every step, the scene's text."""
+    """A finished sheet: its size in mm, its items from back to front, the sentence of every step, the scene's text.
+
+    The first `givens` steps only mark the points of the pose.
+    """
 
     width: float
     height: float
@@ -211,3 +214,4 @@ class Sheet:
     scales: Scales
     language: str = "en"
     scene: str = ""
+    givens: int = 0

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed
 from graphplan.check.compared import Compared, Numbers, Results
-from graphplan.errors import BrokenClaim, ConstructionError, Disagreement
+from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, kind_of
@@ -78,8 +78,11 @@ def opinion(scene: Scene, by: Arithmetic) -> Opinion:
         return Opinion(known, rates, reactions(scene, exact=True),
                        lambda rounds: with_friction(scene, rounds, exact=True), power(scene, exact=True))
     smooth, certain = bounded_reactions(known, rates, by), by
-    return Opinion(known, rates, smooth, lambda rounds: rubbed(smooth, rounds, certain),
-                   power(scene) if by is FLOATS else ())
+    try:
+        third = power(scene) if by is FLOATS else ()
+    except SingularPose:  # for bare floats alone: better arithmetic will tell
+        raise by.doubt from None
+    return Opinion(known, rates, smooth, lambda rounds: rubbed(smooth, rounds, certain), third)
 
 
 def by_part(rates: Rates) -> dict[str, Any]:

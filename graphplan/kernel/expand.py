@@ -15,14 +15,13 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.primitives import dot
 from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
 
-AGREE = 1e-6  # beside the drawing's size: a form that loses more is none
-ROUNDED = 1e-12  # beside how far a form reaches: more than that sharp crossings do not lose
-SAME = 1e-12  # beside the drawing's size: two things that differ by less are one
+AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
+ROUNDED = 1e-12  # beside the largest numbers that a mark was made from: what differs by less is one
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
@@ -57,6 +56,7 @@ class Attempt(NamedTuple):
     out: Mark | None = None
     marks: Sequence[Mark] = ()
     values: Sequence[Any] = ()
+    reach: Sequence[float] = ()
     made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
     letters: Sequence[tuple[Mark, str]] = ()
 
@@ -78,6 +78,7 @@ class Expander:
     def __post_init__(self) -> None:
         self.board = Board()
         self.values: list[Any] = []
+        self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
         self.panel = Panel()
         self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
@@ -134,6 +135,7 @@ class Expander:
         assert attempt.out is not None
         self.board.lay(attempt.marks)
         self.values += attempt.values
+        self.reach += attempt.reach
         self._made |= attempt.made
         if len(self.values) > self._limit:
             raise Outdone
@@ -167,6 +169,7 @@ class Expander:
         mark = self.board.draw(op, args, why=why, **params)
         if mark.step.index == len(self.values):
             self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in mark.step.args], **params))
+            self.reach.append(self._reach(mark.step))
             if len(self.values) > self._limit:
                 raise Outdone
         return mark
@@ -174,17 +177,18 @@ class Expander:
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
              form: str, allowed: float) -> Attempt | None:
         """Draw a form without letters, in no more than the movements allowed; look at it, take it back."""
-        before, sheet, limit = len(self.board.steps), self.sheet(args[op.where].step.panel), self._limit
+        before, limit = len(self.board.steps), self._limit
         self._limit, board = min(limit, before + allowed), FormBoard(self)
         try:
             out: Mark | None = op.forms[form](board, *args, **params)
             rating = None if out is None else self._judge(form, before)
             if out is None or rating is None:
                 return None
-            if not self._agrees(op, self.value(out), truth, sheet, self._lost(sheet, before, rating)):
+            if not self._agrees(op, args, self.value(out), truth, before, rating.sharpest):
                 return None
             made = {index: how for index, how in self._made.items() if index >= before}
-            return Attempt(rating, out, self.board.marks[before:], self.values[before:], made, board.letters)
+            return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:], made,
+                           board.letters)
         except (Undrawable, ZeroDivisionError):
             return None
         except Outdone:
@@ -193,34 +197,37 @@ class Expander:
             self._limit = limit
             drawn = len(self.board.steps)
             self.board.rewind(before)
-            del self.values[before:]
+            del self.values[before:], self.reach[before:]
             for index in range(before, drawn):
                 self._made.pop(index, None)
 
-    def sheet(self, panel: Panel) -> Window:
-        """The sheet of a panel; where there is none, as far as all points reach."""
-        window = self.windows.get(panel, EVERYWHERE)
-        if math.isfinite(window.radius):
-            return window
-        points = [self.values[s.index] for s in self.board.steps if s.op.gives == POINT and s.index < len(self.values)]
-        return Window(window.centre, max((math.hypot(*point) for point in points), default=1.0) or 1.0)
+    def _reach(self, step: Step) -> float:
+        """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts."""
+        value = self.values[step.index]
+        own = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
+               else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
+        return max([own, *(self.reach[arg] for place, arg in enumerate(step.args)
+                           if place not in step.op.afar or step.op.reads[place] != LINE)])
 
-    def _agrees(self, op: Primitive, value: Any, truth: Any, sheet: Window, lost: float) -> bool:
-        """Whether a form gave the rule's value, but for a length that rounding may have lost on the sheet."""
-        if op.gives != LINE:
-            return math.dist(value, truth) <= lost
-        locus = op.claimed("locus") or op.claimed("concurrent")
-        return _line_gap(truth, value, *sheet) <= lost and (bool(locus) or not _runs_against(truth, value))
+    def _agrees(self, op: Primitive, args: tuple[Mark, ...], value: Any, truth: Any, before: int,
+                sharpest: float) -> bool:
+        """Whether a form gave the rule's value but for rounding, by the steps that it has drawn.
 
-    def _lost(self, sheet: Window, before: int, rating: Rating) -> float:
-        """How far off rounding may be in what a form has drawn: flat crossings and marks far away lose digits.
-
-        What is further off is another thing: a wrong branch, or a form for other poses. Small as it may be beside the
-        sheet, the next flat crossing makes it large.
+        Flat crossings and marks far away lose digits. What is further off is another thing: a wrong branch, or a form
+        for other poses. Small as it may be beside the sheet, the next flat crossing makes it large.
         """
-        reach = [math.hypot(*sheet.centre) + sheet.radius, *(
-            math.hypot(*self.values[step.index]) for step in self.board.steps[before:] if step.op.gives == POINT)]
-        return min(AGREE * sheet.radius, ROUNDED * max(reach) / max(rating.sharpest, ROUNDED))
+        reach = max([*self.reach[before:], *(self.reach[arg.step.index] for arg in args)])
+        if op.gives == LINE:
+            locus = op.claimed("locus") or op.claimed("concurrent")
+            gap, spread = _line_gap(truth, value, reach), reach
+            if _runs_against(truth, value) and not locus:
+                return False
+        else:
+            gap = math.dist(truth, value)
+            spread = max((math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT
+                          and arg.step.panel == args[op.where].step.panel), default=reach)
+        rounded = ROUNDED * reach
+        return sharpest > ROUNDED and gap <= max(rounded, min(AGREE * spread, rounded / sharpest))
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]
@@ -272,17 +279,16 @@ class FormBoard(Verbs):
 
     def one(self, P: Mark, Q: Mark) -> bool:
         """Whether two points of a plan fall on one place."""
-        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q), P)
+        return P.step.panel == Q.step.panel and self._nothing(self.distance(P, Q), P, Q)
 
     def equal(self, P: Mark, Q: Mark, R: Mark, S: Mark) -> bool:
         """Whether PQ is as long as RS."""
-        gap = self.distance(P, Q) - self.distance(R, S)
-        return self._nothing(gap, P) and self._nothing(gap, R)
+        return self._nothing(self.distance(P, Q) - self.distance(R, S), P, Q, R, S)
 
     def lies_on(self, P: Mark, l: Mark) -> bool:
         """Whether a point lies on a line of its plan."""
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
-        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P)
+        return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
     def way(self, P: Mark, Q: Mark, R: Mark) -> str:
         """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
@@ -292,9 +298,9 @@ class FormBoard(Verbs):
     def distance(self, P: Mark, Q: Mark) -> float:
         return math.dist(self._expander.value(P), self._expander.value(Q))
 
-    def _nothing(self, length: float, mark: Mark) -> bool:
-        """Whether a length is nothing beside the plan of a mark: another plan may be larger by any factor."""
-        return abs(length) <= SAME * self._expander.sheet(mark.step.panel).radius
+    def _nothing(self, length: float, *marks: Mark) -> bool:
+        """Whether a length is nothing beside the numbers that these marks were made from."""
+        return abs(length) <= ROUNDED * max(self._expander.reach[mark.step.index] for mark in marks)
 
     def points_on(self, l: Mark) -> list[Mark]:
         """The points that a line was drawn through or that were drawn on it, the way it runs."""
@@ -332,10 +338,9 @@ def _normal(kind: str, curve: Any, X: complex) -> complex:
     return normal / (abs(normal) or 1.0)
 
 
-def _line_gap(one: Any, two: Any, centre: tuple[float, float], size: float) -> float:
-    """How far apart two lines run within `size` of a centre."""
+def _line_gap(one: Any, two: Any, reach: float) -> float:
+    """How far apart two lines run within `reach` of the origin."""
     n, m = math.hypot(one[0], one[1]), math.hypot(two[0], two[1])
-    p = (one[0] * centre[0] + one[1] * centre[1] + one[2]) / n
-    foot = centre[0] - one[0] / n * p, centre[1] - one[1] / n * p
+    foot = -one[0] / n * one[2] / n, -one[1] / n * one[2] / n
     gap = abs(two[0] * foot[0] + two[1] * foot[1] + two[2]) / m
-    return float(gap + size * abs(one[0] * two[1] - one[1] * two[0]) / n / m)
+    return float(gap + reach * abs(one[0] * two[1] - one[1] * two[0]) / n / m)

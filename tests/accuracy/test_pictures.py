@@ -48,7 +48,7 @@ def test_every_mark_is_a_row_of_its_table() -> None:
         (40.0, 3.0), (40.0, 2.0), (90.0, 2.0), (90.0, 1.0), (95.0, 1.0))
     assert "(1 not drawn)" in chart.panels[0].title
     assert marks(machine.details(MEASURES)) == 3
-    samples = list(stability.samples(DEGENERACIES[2], distances=(1.0, 1e-3, 0.0)))
+    samples = list(stability.samples(DEGENERACIES[6], distances=(1.0, 1e-3, 0.0)))
     assert marks(stability.picture(samples)) == len(samples)
 
 
@@ -56,7 +56,7 @@ def test_exact_and_singular_stand_on_rails() -> None:
     """No error stands on the exact rail, proven digits on theirs, and what has no number on that of its method."""
     levels = [series.spots[0][1] for series in machine.details(MEASURES).panels[0].series]
     assert levels == [1e-15, "exact", "20 digits"]
-    singular = stability.Sample("dead centre", "poles", 0.0, float("inf"), None, "singular")
+    singular = stability.Sample("C on QR", "poles", 0.0, float("inf"), None, "singular")
     spots = [series.spots for series in stability.picture([singular]).panels[0].series if series.spots]
     assert spots == [(("0", "poles"),)]
 

@@ -21,10 +21,12 @@ from graphplan.methods.construct import construct
 from graphplan.solver import solve
 
 MOST = 100  # roundings of the mechanism's own condition
+BY_NAME = {one.name: one for one in DEGENERACIES}
 DISTANCES = (1.0, 3e-1, 3e-2, 3e-3, 3e-4, 1e-5, 1e-7, 1e-9, 1e-12, 1e-15, 0.0)
 
 
-@pytest.mark.parametrize("degeneracy", DEGENERACIES, ids=lambda degeneracy: str(degeneracy.name))
+@pytest.mark.parametrize("degeneracy", [one for one in DEGENERACIES if one.name != "lever without arm"],
+                         ids=lambda degeneracy: str(degeneracy.name))
 def test_the_default_is_as_good_as_the_mechanism_allows(degeneracy: Degeneracy) -> None:
     """Towards each special pose the default choice loses no more than the mechanism, or says that it is singular."""
     for sample in samples(degeneracy, distances=DISTANCES):
@@ -42,14 +44,23 @@ def test_parallel_bars_have_no_auxiliary_point_and_lose_nothing() -> None:
 
 
 @pytest.mark.parametrize(("name", "d", "how"), [
-    ("dead centre", 1e-8, {}), ("dead centre", 1e-4, {"strict": True}), ("C on QR", 1e-6, {"plan": "polar"})])
+    ("dead centre against the drive", 1e-8, {}), ("dead centre against the drive", 1e-4, {"strict": True}),
+    ("C on QR", 1e-6, {"plan": "polar"}), ("slide locks", 1e-6, {})])
 def test_small_vectors_beside_large_plans_are_drawn(name: str, d: float, how: dict[str, Any]) -> None:
     """What is drawn near a special pose loses digits as the pose does: no small vector is left out of a large plan."""
-    scene = next(one for one in DEGENERACIES if one.name == name).at(d)
+    scene = BY_NAME[name].at(d)
     drawing, drawn = construct(scene, **how), dict[str, dict[str, Any]]()
     for reading, _, value in readings(drawing, drawing.values, Floats()):
         drawn.setdefault(reading.kind, {})[reading.of] = value
     assert error_of(drawn, exact(scene)) <= 10 * MOST * 2.0**-52 * solve(scene).condition
+
+
+@pytest.mark.parametrize("d", [1e-6, 1e-13])
+def test_forces_are_found_where_floats_hold_the_pose_for_singular(d: float) -> None:
+    """Of a loaded triad a hair from its singular pose all is told, and drawn as well as floats can."""
+    found = report(scene := replace(BY_NAME["triad"], scene="triad-loaded").at(d))
+    assert found.arithmetic != "floats"
+    assert error_of(found.results, exact(scene)) <= MOST * 2.0**-52
 
 
 def posed(**moved: complex) -> Scene:
@@ -79,7 +90,7 @@ def test_the_sheet_leaves_the_auxiliary_point_where_it_leaves_the_sheet() -> Non
 
 def test_a_link_too_short_for_its_vectors_is_drawn_on_polar_plans() -> None:
     """With a crank of a hundred-thousandth the default is a polar plan, and says why; a plan that is named stays."""
-    short = next(d for d in DEGENERACIES if d.name == "short crank").at(1e-5)
+    short = BY_NAME["short crank"].at(1e-5)
     drawing = report(short).drawing
     assert not drawing.turned
     assert any("polar plans, as links differ so much in length" in note for note in drawing.notes)

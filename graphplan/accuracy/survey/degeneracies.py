@@ -1,7 +1,7 @@
 """Where methods fail: packaged scenes with some points moved until only a distance d keeps them from a special pose.
 
-d is an angle in radians or a part of a length, from 1 downwards; at 0 the pose is special. Coordinates are taken as
-the fractions that the floats are, so that the exact solution is that of the very scene that is drawn.
+d is the tangent of an angle or a part of a length, from 1 downwards; at 0 the pose is special. Points are moved in
+fractions: the special pose is special to the last digit, and floats round what they are given, as with any scene.
 """
 
 from __future__ import annotations
@@ -10,75 +10,114 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import Pair, Scene
+from graphplan.mechanism.plane import dot, less, plus, times, turned
 from graphplan.mechanism.scene import load
 
-Places = Mapping[str, complex]
+Points = Mapping[str, Pair]
 
 
 @dataclass(frozen=True)
 class Degeneracy:
     """One way to a special pose: what happens at d = 0, in which packaged scene, and which points are moved there.
 
-    `move` gives the moved points' places from those of the scene.
+    `move` gives the moved points' places from those of the scene. `singular` says that the mechanism is singular at
+    d = 0; else ways to draw it are, and it is not.
     """
 
     name: str
     what: str
     scene: str
-    move: Callable[[Places, float], Places]
+    singular: bool
+    move: Callable[[Points, Fraction], Points]
 
     def at(self, d: float) -> Scene:
         """The scene at the distance d."""
         scene = load(self.scene)
-        places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
-        moved = {name: (Fraction(z.real), Fraction(z.imag)) for name, z in self.move(places, d).items()}
-        return replace(scene, points=scene.points | moved)
+        return replace(scene, points={**scene.points, **self.move(scene.points, Fraction(d))})
 
 
-def _turned(d: float) -> complex:
-    """One, turned by the angle d, to the last digit for small angles too."""
-    return complex((1 - (d / 2) ** 2) / (1 + (d / 2) ** 2), d / (1 + (d / 2) ** 2))
+def _near(v: Pair, d: Fraction) -> Pair:
+    """A vector turned by an angle of tangent d, and as much longer."""
+    return plus(v, times(d, turned(v)))
 
 
-def _along(length: float, like: complex, d: float) -> complex:
-    """A vector of this length, turned by d from the direction of another."""
-    return length * like / abs(like) * _turned(d)
+def _past(P: Pair, part: float, v: Pair, d: Fraction) -> Pair:
+    """From a point a part of a vector on, and d of the vector aside."""
+    return plus(P, plus(times(Fraction(part), v), times(d, turned(v))))
 
 
-def _crossing(a: complex, b: complex, c: complex, d: complex) -> complex:
+def _half(a: Pair, b: Pair) -> Pair:
+    """Halfway between two points."""
+    return times(Fraction(1, 2), plus(a, b))
+
+
+def _crossing(a: Pair, b: Pair, c: Pair, d: Pair) -> Pair:
     """Where the lines ab and cd meet."""
-    u, v, w = b - a, d - c, c - a
-    return a + u * (w.conjugate() * v).imag / (u.conjugate() * v).imag
+    u, n = less(b, a), turned(less(d, c))
+    return plus(a, times(Fraction(dot(n, less(c, a))) / dot(n, u), u))
 
 
-def _on_the_line_of_poles(p: Places, d: float) -> Places:
+def _on_the_line_of_poles(p: Points, d: Fraction) -> Points:
     Q = _crossing(p["K"], p["A"], p["L"], p["B"])
     R = _crossing(p["M"], p["D"], p["N"], p["E"])
-    return {"C": Q + (R - Q) * (0.45 + 1j * d)}
+    return {"C": _past(Q, 0.4375, less(R, Q), d)}
 
 
-def _slot_across_the_crank(p: Places, d: float) -> Places:
-    A = p["O"] + _along(abs(p["A"] - p["O"]), 1j * (p["A"] - p["P"]), d)
-    return {"P": A + (p["P"] - p["A"]), "B": A + (p["B"] - p["A"]), "A": A, "A3": A}
+def _bars_through_one_point(p: Points, d: Fraction) -> Points:
+    X = _crossing(p["A"], p["E"], p["B"], p["F"])
+    return {"C": plus(p["G"], times(Fraction(1, 8), _near(less(X, p["G"]), d)))}
+
+
+def _poles_in_line(p: Points, d: Fraction) -> Points:
+    X = _crossing(p["D"], p["G"], p["A"], p["B"])
+    return {"E": plus(p["F"], times(Fraction(1, 2), _near(less(X, p["F"]), d)))}
+
+
+def _rod_across_the_guide(p: Points, d: Fraction) -> Points:
+    B = plus(p["A"], _near((0, -p["A"][1]), d))
+    return {"B": B, "S": plus(p["A"], times(Fraction(2, 5), less(B, p["A"])))}
+
+
+def _rocker_in_line(p: Points, d: Fraction) -> Points:
+    B = _past(p["A"], 0.5625, less(p["C"], p["A"]), d)
+    return {"B": B, "S": _half(p["A"], B)}
+
+
+def _crank_in_line(p: Points, d: Fraction) -> Points:
+    A = _past(p["O"], 0.3125, p["B"], d)
+    return {"A": A, "S": _half(A, p["B"])}
+
+
+def _force_along_the_crank(p: Points, d: Fraction) -> Points:
+    A = _near((-80, 60), -d)
+    return {"A": A, "S": _half(A, p["B"])}
 
 
 DEGENERACIES = (
-    Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic",
-               lambda p, d: {"K": p["A"] - _along(abs(p["A"] - p["K"]), p["B"] - p["L"], d)}),
+    Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic", False,
+               lambda p, d: {"K": less(p["A"], times(4, _near(less(p["B"], p["L"]), d)))}),
+    Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic", False,
+               lambda p, d: {"B": plus(p["A"], times(d, less(p["B"], p["A"])))}),
     Degeneracy("pole at infinity", "FE turned towards DG: the relative pole of links 2 and 5 goes far away",
-               "class-four", lambda p, d: {"E": p["F"] + _along(abs(p["E"] - p["F"]), p["G"] - p["D"], d)}),
-    Degeneracy("dead centre", "B brought to the line AC: coupler and rocker stretched", "four-bar",
-               lambda p, d: {"B": p["A"] + (p["C"] - p["A"]) / 2 * (1.1 + 1j * d)}),
-    Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", _on_the_line_of_poles),
-    Degeneracy("no relative velocity", "the rocker turned parallel to the crank: the coupler moves straight on",
-               "four-bar", lambda p, d: {"C": p["B"] - _along(abs(p["B"] - p["C"]), p["A"] - p["O"], d)}),
-    Degeneracy("no turning", "the slot turned square to the crank: guide and Coriolis vector stand still",
-               "slotted-link", _slot_across_the_crank),
-    Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic",
-               lambda p, d: {"B": p["A"] + d * (p["B"] - p["A"])}),
-    Degeneracy("long rocker", "the rocker 1/d times as long", "four-bar",
-               lambda p, d: {"C": p["B"] + (p["C"] - p["B"]) / max(d, 1e-300)}),
-    Degeneracy("short crank", "the crank d times as long", "four-bar",
-               lambda p, d: {"O": p["A"] + d * (p["O"] - p["A"])}),
+               "class-four", False,
+               lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _near(less(p["G"], p["D"]), d)))}),
+    Degeneracy("short crank", "the crank d times as long", "four-bar", False,
+               lambda p, d: {"A": times(d, p["A"])}),
+    Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", True,
+               _on_the_line_of_poles),
+    Degeneracy("triad", "bar GC turned towards the point where the other two meet", "triad", True,
+               _bars_through_one_point),
+    Degeneracy("class IV", "bar FE turned until the poles of links 2 and 5 lie in line", "class-four", True,
+               _poles_in_line),
+    Degeneracy("slide locks", "the rod turned square to the guide", "slider-crank", True, _rod_across_the_guide),
+    Degeneracy("dead centre against the drive", "coupler and rocker stretched, under load", "jaanimets-10", True,
+               _rocker_in_line),
+    Degeneracy("dead centre with the drive", "crank and coupler stretched, under load", "jaanimets-10", False,
+               _crank_in_line),
+    Degeneracy("forces of parallel bars", "AN turned towards BF: the auxiliary point of the forces goes far away",
+               "rosenauer-loaded", False,
+               lambda p, d: {"N": less(p["A"], times(2, _near(less(p["B"], p["F"]), d)))}),
+    Degeneracy("lever without arm", "the balancing force turned along the crank", "jaanimets-10", True,
+               _force_along_the_crank),
 )

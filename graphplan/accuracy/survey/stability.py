@@ -87,7 +87,7 @@ def error_of(results: dict[str, dict[str, Any]], truth: Any) -> float:
     worst = 0.0
     for kind in ("velocity", "acceleration"):
         known, named = getattr(truth, kind), results.get(kind, {})
-        largest = max((abs(number) for name in named for number in known[name]), default=0)
+        largest = max((abs(number) for vector in known.values() for number in vector), default=0)
         gap = max((abs(Fraction(ours) - true) for name, value in named.items()
                    for ours, true in zip(value, known[name], strict=True)), default=0)
         worst = max(worst, float(gap / largest) if largest else 0.0)

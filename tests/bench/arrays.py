@@ -1,48 +1,100 @@
-"""Arrays: rates of all joints of the eight-link chain, for 100,000 poses given by coordinates."""
+"""Arrays: rates of all joints of four mechanisms, for many poses given by coordinates, by ours and every rival.
+
+All runs of a mechanism take turns in one process. Their times beside LAPACK, with their errors, are the rows that the
+chart of the machine takes beside its own: `run.py --rivals FILE.csv` writes them.
+"""
 
 from __future__ import annotations
 
-import by_lapack
-import exact
-import numpy as np
-from harness import Row, Target, alternate, compared, peer
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cache, partial
 
-import graphplan as gp
-from graphplan.mechanism.model import Scene
+from harness import ROUNDS, Row, Target, Times, alternate, compared, peer
+from problems import SCENES, N, problem, run
 
-N = 100_000
-SPREAD = 3  # mm, within which every moving joint is shifted: rates need no lengths that stay the same
+from graphplan.accuracy.survey.machine import MOTION, Measure
+from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, Run
+from graphplan.accuracy.survey.timing import spent, spread
+from graphplan.methods.construct import construct
+
+HAND, JAX = "numba by hand", "JAX"
+CASADI, FUNCTION_MAP = "CasADi, C", "CasADi, map"  # the faster of its two ways to solve
+LARGE = SCENES[2:]  # where elimination costs
+WRITTEN = SCENES[:3]  # by hand
+CALLED = {LAPACK: "LAPACK", MANY: "numpy", COMPILED: "compiled"}
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The times of all runs of a mechanism, round by round for all poses, and their largest errors."""
+
+    times: Times
+    errors: dict[str, float]
 
 
 def rows() -> list[Row]:
-    """Ours against batches of LAPACK and against a loop written by hand for this mechanism alone."""
-    scene = gp.load("alt-eight-link")
-    points = shaken(scene)
-    drawing = gp.construct(scene)
-    motions = {"ours": lambda: ours(drawing, points), "numpy.linalg": lambda: by_lapack.motion(scene, points)}
-    if loop := peer("by_hand_numba"):
-        motions["numba by hand"] = lambda: by_hand(loop.many_poses(*points.values()), points)
-    truth = exact.of_poses(scene, points)
-    errors = {name: exact.error(motion(), truth) for name, motion in motions.items()}
-    times = alternate(motions)
-    return [compared("arrays, a pose", "numpy.linalg", Target("at least", 15), times, over=N, errors=errors),
-            compared("arrays, a pose", "numba by hand", Target("at most", 3), times, over=N, errors=errors)]
+    """The aims for each mechanism."""
+    return [row for name in SCENES for row in _aims(name)]
 
 
-def shaken(scene: Scene) -> exact.Points:
-    """Poses near the scene's, every moving joint shifted at random."""
-    random = np.random.default_rng(15)
-    moving = {name: complex(*map(float, scene.points[name])) for name in scene.find.velocity}
-    return {name: z + random.uniform(-SPREAD, SPREAD, (N, 2)) @ np.array([1, 1j]) for name, z in moving.items()}
+def _aims(name: str) -> list[Row]:
+    found = measured(name)
+    faster, slower = partial(Target, "at least"), partial(Target, "at most")
+    aims = [(MANY, LAPACK, faster(25 if name in LARGE else 10)), (COMPILED, MANY, faster(3)),
+            *([(COMPILED, HAND, slower(3))] if name in WRITTEN else []), (COMPILED, CASADI, faster(1)),
+            (MANY, FUNCTION_MAP, faster(1)), (MANY, JAX, faster(1))]
+    return [replace(compared(f"{name}, {CALLED[ours]}", rival, target, found.times, ours=ours, over=N,
+                             errors=found.errors), rival=CALLED.get(rival, rival)) for ours, rival, target in aims]
 
 
-def ours(drawing: gp.Construction, points: exact.Points) -> exact.Motion:
-    """The steps over all poses."""
-    poses = drawing.evaluate(points, only=("velocity", "acceleration"))
-    return {"velocity": poses.velocity, "acceleration": poses.acceleration}
+@cache
+def measured(name: str, n: int = N, rounds: int = ROUNDS) -> Measured:
+    """The runs of a packaged scene, all in turns."""
+    of = problem(name, n)
+    runs = {who: made(of) for who, made in runners(name).items()}
+    errors = {who: of.error(run, run.call()) for who, run in runs.items()}
+    return Measured(alternate({who: run.call for who, run in runs.items()}, rounds), errors)
 
 
-def by_hand(found: tuple[np.ndarray, np.ndarray], points: exact.Points) -> exact.Motion:
-    """The two arrays of the loop, by point."""
-    return {kind: dict(zip(points, values, strict=True))
-            for kind, values in zip(("velocity", "acceleration"), found, strict=True)}
+def runners(name: str) -> dict[str, Callable[[Problem], Run]]:
+    """Everything that solves a packaged scene: what is not installed is not among them."""
+    runs: dict[str, Callable[[Problem], Run]] = {LAPACK: SOLVERS[LAPACK], MANY: partial(_ours, MANY)}
+    if (loops := peer("by_hand_numba")) is not None:
+        runs[COMPILED] = partial(_ours, COMPILED)
+        if name in WRITTEN:
+            runs[HAND] = partial(_by_hand, loops.LOOPS[name])
+    if (casadi := peer("by_casadi")) is not None:
+        runs[FUNCTION_MAP] = partial(_faster, casadi.mapped)
+        if casadi.COMPILER:
+            runs[CASADI] = partial(_faster, casadi.compiled)
+    if (jax := peer("by_jax")) is not None:
+        runs[JAX] = jax.many_poses
+    return runs
+
+
+def _ours(arithmetic: str, of: Problem) -> Run:
+    return ARITHMETICS[arithmetic](of, construct(of.scene))
+
+
+def _faster(way: Callable[[Problem, bool], Run], of: Problem) -> Run:
+    """Of the two ways in which CasADi solves the one that is faster on this problem."""
+    ways = [way(of, expanded) for expanded in (True, False)]
+    for one in ways:
+        one.call()
+    return min(ways, key=lambda one: spent(one.call))
+
+
+def _by_hand(loop: Callable[..., tuple[object, object]], of: Problem) -> Run:
+    """A loop of numba's, which gives two arrays."""
+    return run(of, lambda: loop(*of.points.values()), lambda found, k: [*found[0][:, k], *found[1][:, k]])
+
+
+def measures() -> Iterator[Measure]:
+    """The rivals' rows for the chart of the machine."""
+    for name in SCENES:
+        found = measured(name)
+        for who in [who for who in (HAND, CASADI, FUNCTION_MAP, JAX) if who in found.times]:
+            ratios = [a / b for a, b in zip(found.times[who], found.times[LAPACK], strict=True)]
+            low, middle, high = spread(ratios)
+            yield Measure(name, MOTION, "", "", who, middle, low, high, found.errors[who])

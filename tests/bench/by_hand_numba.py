@@ -1,7 +1,11 @@
-"""Many poses of Rosenauer's closed eight-link chain (No. 15), as an engineer would write it for numba: one fast loop.
+"""Many poses of one mechanism each, as an engineer would write them for numba: one fast loop.
 
-The construction of the scene `alt-eight-link` and no other, step by step as in `by_hand_python`, each instrument a
-small function that the compiler inlines. One thread, and nothing reordered (no fastmath); a division by zero gives nan.
+A four-bar and a slider-crank by the closed formulas of their loop, and the construction of Rosenauer's closed
+eight-link chain (No. 15), step by step as in `by_hand_python`: each for its scene and no other, of small functions that
+the compiler inlines. One thread, and nothing reordered (no fastmath); a division by zero gives nan.
+
+Each reads complex arrays of shape (n,), a point each, and gives velocities and accelerations (mm and s) of shape
+(points, n) in the same order.
 """
 
 from __future__ import annotations
@@ -21,6 +25,12 @@ OMEGA = 10.0  # of the crank O F G, rad/s, uniform
 def cross(u: complex, v: complex) -> float:
     """The component of v across u, times the length of u."""
     return u.real * v.imag - u.imag * v.real
+
+
+@njit(error_model="numpy")
+def dot(u: complex, v: complex) -> float:
+    """The component of v along u, times the length of u."""
+    return u.real * v.real + u.imag * v.imag
 
 
 @njit(error_model="numpy")
@@ -54,8 +64,8 @@ def normal(u: complex, l: complex) -> complex:
 
 
 @njit(error_model="numpy")
-def many_poses(F: Array, G: Array, A: Array, B: Array, C: Array, D: Array, E: Array) -> tuple[Array, Array]:
-    """The velocities and the accelerations (mm and s) of F, G, A, B, C, D, E, each of shape (7, n)."""
+def eight_link(F: Array, G: Array, A: Array, B: Array, C: Array, D: Array, E: Array) -> tuple[Array, Array]:
+    """The chain of the scene `alt-eight-link`."""
     v, a = np.empty((7, len(F)), np.complex128), np.empty((7, len(F)), np.complex128)
     for i in range(len(F)):
         u, j = one_pose(F[i], G[i], A[i], B[i], C[i], D[i], E[i])
@@ -100,3 +110,39 @@ def one_pose(F: complex, G: complex, A: complex, B: complex, C: complex, D: comp
     j_a, j_b, j_c = U_1 + times(A_1 - U_1, s_1) - a, U_1 + times(B_1 - U_1, s_1) - b, U_1 + times(C_1 - U_1, s_1)
     j_d, j_e = U_2 + times(D_1 - U_2, s_2) - d, U_2 + times(E_1 - U_2, s_2) - e
     return (u_f, u_g, u_a, u_b, u_c, u_d, u_e), (u_f, u_g, j_a, j_b, j_c, j_d, j_e)
+
+
+@njit(error_model="numpy")
+def four_bar(A: Array, B: Array, M: Array) -> tuple[Array, Array]:
+    """Crank OA, coupler ABM, rocker BC of the scene `four-bar`."""
+    C, v, a = 310 + 0j, np.empty((3, len(A)), np.complex128), np.empty((3, len(A)), np.complex128)
+    for i in range(len(A)):
+        AB, CB, AM = B[i] - A[i], B[i] - C, M[i] - A[i]
+        v_A, a_A = times(turned(A[i]), OMEGA), times(A[i], -OMEGA * OMEGA)
+        omega = -dot(v_A, CB) / cross(AB, CB)  # v_A + i omega AB is square to CB
+        v_B = v_A + times(turned(AB), omega)
+        n = a_A - times(AB, omega * omega) + times(CB, square(v_B) / square(CB))
+        alpha = -dot(n, CB) / cross(AB, CB)
+        v[0, i], v[1, i], v[2, i] = v_A, v_B, v_A + times(turned(AM), omega)
+        a[0, i], a[1, i] = a_A, a_A + times(turned(AB), alpha) - times(AB, omega * omega)
+        a[2, i] = a_A + times(turned(AM), alpha) - times(AM, omega * omega)
+    return v, a
+
+
+@njit(error_model="numpy")
+def slider_crank(A: Array, B: Array, S: Array) -> tuple[Array, Array]:
+    """Crank OA and rod ABS of the scene `slider-crank`, whose block slides along x."""
+    v, a = np.empty((3, len(A)), np.complex128), np.empty((3, len(A)), np.complex128)
+    for i in range(len(A)):
+        AB, AS = B[i] - A[i], S[i] - A[i]
+        v_A, a_A = times(turned(A[i]), OMEGA), times(A[i], -OMEGA * OMEGA)
+        omega = -v_A.imag / AB.real  # v_A + i omega AB is along x
+        alpha = (omega * omega * AB.imag - a_A.imag) / AB.real
+        v[0, i], v[1, i] = v_A, complex(v_A.real - omega * AB.imag, 0.0)
+        v[2, i] = v_A + times(turned(AS), omega)
+        a[0, i], a[1, i] = a_A, complex(a_A.real - alpha * AB.imag - omega * omega * AB.real, 0.0)
+        a[2, i] = a_A + times(turned(AS), alpha) - times(AS, omega * omega)
+    return v, a
+
+
+LOOPS = {"four-bar": four_bar, "slider-crank": slider_crank, "alt-eight-link": eight_link}

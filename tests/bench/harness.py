@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from statistics import median, quantiles
-from time import perf_counter
 from types import ModuleType
 from typing import Literal
 
+from graphplan.accuracy.survey.timing import alternated
+
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement
-PEERS = {"numba", "kimech", "pylinkage"}
+PEERS = {"casadi", "jax", "kimech", "numba", "pylinkage"}
 
 Times = dict[str, list[float]]
 
@@ -30,24 +30,7 @@ def peer(name: str) -> ModuleType | None:
 
 def alternate(runs: Mapping[str, Callable[[], object]], rounds: int = ROUNDS) -> Times:
     """The seconds of each run in each round; they take turns, so that what else the machine does hits all alike."""
-    for warm_up in runs.values():
-        warm_up()
-    repeats = {name: math.ceil(LONG_ENOUGH / once(run)) for name, run in runs.items()}
-    times: Times = {name: [] for name in runs}
-    for _ in range(rounds):
-        for name, run in runs.items():
-            start = perf_counter()
-            for _ in range(repeats[name]):
-                run()
-            times[name].append((perf_counter() - start) / repeats[name])
-    return times
-
-
-def once(run: Callable[[], object]) -> float:
-    """The seconds of one run."""
-    start = perf_counter()
-    run()
-    return perf_counter() - start
+    return alternated(runs, rounds, LONG_ENOUGH)
 
 
 @dataclass(frozen=True)
@@ -62,9 +45,9 @@ class Target:
         pairs = zip(ours, rival, strict=True)
         return [b / a if self.bound == "at least" else a / b for a, b in pairs]
 
-    def met(self, ratio: float) -> bool:
-        """Whether a ratio meets the target."""
-        return ratio >= self.value if self.bound == "at least" else ratio <= self.value
+    def verdict(self, ratio: float) -> str:
+        """Whether a ratio meets the target, in a word."""
+        return "yes" if (ratio >= self.value if self.bound == "at least" else ratio <= self.value) else "no"
 
     def __str__(self) -> str:
         return f"{'≥' if self.bound == 'at least' else '≤'} {figures(self.value)}"
@@ -90,13 +73,14 @@ HEADS = Row("figure", "against", "target", "ratio", "quartiles", "met", "ours, r
 def compared(figure: str, rival: str, target: Target, times: Times, *, ours: str = "ours", over: int = 1,
              errors: Mapping[str, float] | None = None) -> Row:
     """The row of one of our runs against a rival's; times are told for each of `over` poses."""
-    if rival not in times:
-        return Row(figure, rival, str(target), "not installed")
+    for name in ours, rival:
+        if name not in times:
+            return Row(figure, rival, str(target), f"{name}: not here")
     ratios = target.ratios(times[ours], times[rival])
     low, middle, high = quantiles(ratios, n=4)
     spent = ", ".join(duration(median(times[name]) / over) for name in (ours, rival))
     wrong = ", ".join(f"{errors[name]:.1e}" for name in (ours, rival) if name in errors) if errors else ""
-    met = "yes" if target.met(middle) else "no"
+    met = target.verdict(middle)
     return Row(figure, rival, str(target), figures(middle), f"{figures(low)} to {figures(high)}", met, spent, wrong)
 
 

@@ -8,9 +8,9 @@ from typing import Any
 
 import exact
 import numpy as np
-from arrays import shaken
 from by_hand_python import one_pose
 from harness import Row, Target, alternate, compared
+from problems import shaken
 
 import graphplan as gp
 from graphplan.solver.rates import Rates
@@ -22,7 +22,7 @@ KINDS = "velocity", "acceleration"
 def rows() -> list[Row]:
     """Ours against a Python function written by hand for this mechanism alone, and against our own solver."""
     scene = gp.load("alt-eight-link")
-    points = {name: z[:POSES] for name, z in shaken(scene).items()}
+    points = shaken(scene, POSES)
     poses = [dict(zip(points, map(complex, pose), strict=True)) for pose in zip(*points.values(), strict=True)]
     scenes = [replace(scene, points=scene.points | {name: (z.real, z.imag) for name, z in pose.items()})
               for pose in poses]

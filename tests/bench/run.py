@@ -13,12 +13,15 @@ FIGURES = ("arrays", "one_pose", "cycle_kimech", "cycle_pylinkage", "cold", "gro
 
 # One core for all, and before numpy is imported: its BLAS reads this once.
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
+ONE_THREAD["XLA_FLAGS"] = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
 
 
 def main() -> None:
     """Measure the figures asked for, or all."""
     parser = argparse.ArgumentParser(description="Measure graphplan against its rivals.")
     parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"of {', '.join(FIGURES)}; default all")
+    parser.add_argument("--rivals", type=Path, metavar="FILE.csv",
+                        help="write the rows of arrays for graphplan chart machine --beside here")
     parser.add_argument("-o", dest="file", type=Path, help="write the table here too")
     asked = parser.parse_args()
     if unknown := set(asked.figures) - set(FIGURES):
@@ -28,6 +31,18 @@ def main() -> None:
     print(text, end="")
     if asked.file:
         asked.file.write_text(text)
+    if asked.rivals:
+        asked.rivals.write_text(rivals())
+
+
+def rivals() -> str:
+    """The other programs as rows of the chart of the machine, as they were measured."""
+    import arrays
+
+    from graphplan.accuracy.survey.machine import Measure
+    from graphplan.accuracy.survey.picture import table
+
+    return table(Measure, arrays.measures())
 
 
 def measured(figures: tuple[str, ...]) -> str:
@@ -46,7 +61,7 @@ def versions() -> str:
     from importlib.metadata import PackageNotFoundError, version
 
     found = []
-    for package in ("numpy", "numba", "kimech", "pylinkage"):
+    for package in ("numpy", "numba", "casadi", "jax", "kimech", "pylinkage"):
         try:
             found.append(f"{package} {version(package)}")
         except PackageNotFoundError:

@@ -6,48 +6,36 @@ import math
 
 import arrays
 import by_hand_python
-import by_lapack
 import exact
 import numpy as np
+import one_pose
 import pytest
+from problems import SCENES, problem, shaken
 
 import graphplan as gp
-
-Shaken = tuple[gp.Scene, exact.Points, dict[int, exact.Truth]]
 
 POSES = 40
 AGREES = 1e-9  # relative, of the largest of its kind: what kimech itself asks of its residuals
 
 
-@pytest.fixture(scope="module")
-def shaken() -> Shaken:
-    """The eight-link chain, some poses by coordinates, and what is true of them."""
-    scene = gp.load("alt-eight-link")
-    points = {name: z[:POSES] for name, z in arrays.shaken(scene).items()}
-    return scene, points, exact.of_poses(scene, points)
-
-
-def test_by_hand_in_python(shaken: Shaken) -> None:
+def test_by_hand_in_python() -> None:
     """The function written by hand gives the chain's velocities and accelerations."""
-    _, points, truth = shaken
-    found = np.array([by_hand_python.one_pose(*pose) for pose in zip(*points.values(), strict=True)]).T
-    assert exact.error(arrays.by_hand((found[:7], found[7:]), points), truth) < AGREES
+    scene = gp.load("alt-eight-link")
+    points = shaken(scene, POSES)
+    found = [by_hand_python.one_pose(*pose) for pose in zip(*points.values(), strict=True)]
+    assert exact.error(one_pose.by_hand(found, list(points)), exact.of_poses(scene, points)) < AGREES
 
 
-def test_by_hand_in_numba(shaken: Shaken) -> None:
-    """The loop written by hand gives the chain's velocities and accelerations."""
-    pytest.importorskip("numba")
-    from by_hand_numba import many_poses
-
-    _, points, truth = shaken
-    assert exact.error(arrays.by_hand(many_poses(*points.values()), points), truth) < AGREES
-
-
-def test_by_lapack(shaken: Shaken, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The batched systems give the chain's velocities and accelerations, over more than one block too."""
-    scene, points, truth = shaken
-    monkeypatch.setattr(by_lapack, "BLOCK", POSES // 2 + 1)
-    assert exact.error(by_lapack.motion(scene, points), truth) < AGREES
+@pytest.mark.parametrize("name", SCENES)
+def test_all_give_the_rates_of_many_poses(name: str) -> None:
+    """Ours, LAPACK, and of loops by hand, CasADi in both of its ways and JAX what is installed agree with fractions."""
+    of = problem(name, POSES)
+    for who, made in arrays.runners(name).items():
+        run = made(of)
+        assert of.error(run, run.call()) < AGREES, who
+    if (casadi := arrays.peer("by_casadi")) is not None:
+        for run in (way(of, expanded) for way in (casadi.mapped, casadi.compiled) for expanded in (True, False)):
+            assert of.error(run, run.call()) < AGREES
 
 
 def test_by_kimech() -> None:

@@ -19,15 +19,26 @@ def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
            rounds: int = ROUNDS) -> dict[Key, Quartiles]:
     """The time of each run for one of the things that it does, over that of the run `unit` in the same round.
 
-    Reads each run with how many things it does; every run is called once beforehand, to warm up.
+    Reads each run with how many things it does.
     """
-    repeats = {name: math.ceil(LONG_ENOUGH / max(_warm(run), 1e-9)) for name, (run, _) in runs.items()}
+    times = alternated({name: run for name, (run, _) in runs.items()}, rounds)
+    count = runs[unit][1]
+    return {name: spread([count * a / (runs[name][1] * b) for a, b in zip(values, times[unit], strict=True)])
+            for name, values in times.items()}
+
+
+def alternated(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
+               least: float = LONG_ENOUGH) -> dict[Key, list[float]]:
+    """The seconds of each run in each round, each measured over `least` seconds at least.
+
+    Every run is called twice beforehand, to warm up and to find how often.
+    """
+    repeats = {name: math.ceil(least / max(_warm(run), 1e-9)) for name, run in runs.items()}
     found: dict[Key, list[float]] = {name: [] for name in runs}
     for _ in range(rounds):
-        times = {name: spent(run, repeats[name]) / count for name, (run, count) in runs.items()}
-        for name, time in times.items():
-            found[name].append(time / times[unit])
-    return {name: spread(values) for name, values in found.items()}
+        for name, run in runs.items():
+            found[name].append(spent(run, repeats[name]))
+    return found
 
 
 def spread(values: list[float]) -> Quartiles:

@@ -22,8 +22,10 @@ from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact, mapped
 from graphplan.mechanism.placements import placed_by
-from graphplan.solver.bounds import PI, Proven, Unproven, bounded, heading
+from graphplan.solver.blocks import by_blocks
+from graphplan.solver.bounds import PI, Unproven, bounded, heading
 from graphplan.solver.equations import Equations, moved
+from graphplan.solver.proven import Proven
 from graphplan.solver.rates import Rates, motion
 
 
@@ -82,7 +84,7 @@ def enclosures(bits: int, name: str = "enclosures") -> Bounds:
     """Enclosures of this precision."""
     from graphplan.kernel.numbers.enclosures import Enclosure, Enclosures, Undecided, heading, pi, precision, solve
 
-    return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, lambda rows, scales: solve(rows),
+    return Bounds(name, Enclosures, Undecided, Enclosure, pi, heading, lambda rows, scales: by_blocks(rows, solve),
                   lambda: precision(bits))
 
 
@@ -135,7 +137,7 @@ def bounded_rates(scene: Scene, by: Bounds) -> Rates:
     """The rates of a scene in numbers with bounds; fails where the pose may be singular as far as they tell."""
     equations = moved(scene, by.root)
     kept = independent_facts(equations)
-    solve = by.solve([equations.rows[i] for i in kept], [1.0, 1.0, equations.reach] * len(equations.columns))
+    solve = by.solve([equations.rows[i] for i in kept], equations.scales)
     return motion(equations, lambda right: _consistent(equations, right, kept, solve, by), by.lift(0))
 
 
@@ -145,7 +147,7 @@ def independent_facts(equations: Equations) -> list[int]:
         return list(range(equations.width))
     from graphplan.solver.floating import independent
 
-    return independent(equations.rows, equations.width, equations.reach)
+    return independent(equations.rows, equations.scales)
 
 
 def _consistent(equations: Equations, right: Sequence[Any], kept: Sequence[int],

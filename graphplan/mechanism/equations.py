@@ -11,12 +11,12 @@ ring are solved together. Nothing here recurses: chains are long.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from decimal import Decimal
 from functools import cached_property
 from random import Random
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from graphplan.mechanism.elimination import PRIME
 from graphplan.mechanism.model import FRAME, Balance, Scene
@@ -34,6 +34,8 @@ Unknown = tuple[Thing, str]
 """A freedom of a thing: along x, along y, or its turning."""
 
 WAYS = ("x", "y", "turn")
+
+Node = TypeVar("Node", bound=Hashable)
 
 
 class Equation(NamedTuple):
@@ -135,12 +137,12 @@ def stages(system: System) -> list[tuple[Thing, ...]]:
     return list(rings({thing: tuple(others) for thing, others in depends.items()}))
 
 
-def matching(options: Sequence[Sequence[Unknown]]) -> dict[Unknown, int]:
+def matching(options: Sequence[Sequence[Node]]) -> dict[Node, int]:
     """For as many equations as possible an unknown of their own: the unknowns, each with its equation."""
-    owner: dict[Unknown, int] = {}
+    owner: dict[Node, int] = {}
     waiting = list(range(len(options)))
     while waiting:  # in one round nothing is visited twice, so each round costs one reading of the equations
-        seen: set[Unknown] = set()
+        seen: set[Node] = set()
         left = [i for i in waiting if not _augment(i, options, owner, seen)]
         if len(left) == len(waiting):
             break
@@ -148,10 +150,10 @@ def matching(options: Sequence[Sequence[Unknown]]) -> dict[Unknown, int]:
     return owner
 
 
-def _augment(start: int, options: Sequence[Sequence[Unknown]], owner: dict[Unknown, int], seen: set[Unknown]) -> bool:
+def _augment(start: int, options: Sequence[Sequence[Node]], owner: dict[Node, int], seen: set[Node]) -> bool:
     """Find equation `start` an unknown, moving others to free ones along a path of exchanges."""
-    path: list[tuple[int, Iterator[Unknown]]] = [(start, iter(options[start]))]
-    taken: list[Unknown] = []
+    path: list[tuple[int, Iterator[Node]]] = [(start, iter(options[start]))]
+    taken: list[Node] = []
     while path:
         unknown = next((u for u in path[-1][1] if u not in seen), None)
         if unknown is None:
@@ -167,12 +169,12 @@ def _augment(start: int, options: Sequence[Sequence[Unknown]], owner: dict[Unkno
     return False
 
 
-def rings(depends: Mapping[Thing, Sequence[Thing]]) -> Iterator[tuple[Thing, ...]]:
+def rings(depends: Mapping[Node, Sequence[Node]]) -> Iterator[tuple[Node, ...]]:
     """The strongly connected components (Tarjan 1972), each after all that it depends on."""
-    index: dict[Thing, int] = {}
-    low: dict[Thing, int] = {}
-    stack: list[Thing] = []
-    done: set[Thing] = set()
+    index: dict[Node, int] = {}
+    low: dict[Node, int] = {}
+    stack: list[Node] = []
+    done: set[Node] = set()
     for root in depends:
         path = [] if root in index else [(root, iter(depends[root]))]
         while path:
@@ -186,10 +188,11 @@ def rings(depends: Mapping[Thing, Sequence[Thing]]) -> Iterator[tuple[Thing, ...
                 if path:
                     low[path[-1][0]] = min(low[path[-1][0]], low[node])
                 if low[node] == index[node]:
-                    ring = tuple(stack[stack.index(node) :]) if stack[-1] != node else (node,)
-                    del stack[-len(ring) :]
+                    ring = [stack.pop()]
+                    while ring[-1] != node:
+                        ring.append(stack.pop())
                     done.update(ring)
-                    yield ring
+                    yield tuple(ring[::-1])
             elif other in index:
                 low[node] = min(low[node], index[other])
             else:

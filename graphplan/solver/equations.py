@@ -5,13 +5,16 @@ differences only, so the rows do not depend on where the origin is. Velocities a
 differ in the right-hand side. Transposed, with the forces that hold the pairs as unknowns, they are the equilibrium
 of every link. What the rows state comes from the scene's pairs, whichever they are. Nothing here tests a number: the
 same rows can be filled with arrays of poses. One scene's are made ready in floats or in fractions.
+
+In a mechanism of many links a joint of three links or more has a pin of its own, two unknowns more: so in which order
+links determine each other does not hang on which of them carries the pin.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import chain
@@ -19,10 +22,13 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Refused, by_name
 from graphplan.mechanism.elimination import Elimination, transpose
+from graphplan.mechanism.equations import PIN
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.pairs.pair import Along, Rate, Side, Statement
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Statement
+from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, less, times
+from graphplan.solver.blocks import TOGETHER
 
 if TYPE_CHECKING:
     from graphplan.solver.floating import Floating
@@ -54,10 +60,21 @@ class Equations:
         """The first of the three columns of each moving link."""
         return {link: 3 * k for k, link in enumerate(self.scene.moving)}
 
+    @cached_property
+    def pins(self) -> dict[str, int]:
+        """The first of the two columns of each pin that has its own, by its point."""
+        points = dict.fromkeys(fact.at for fact in self.facts if fact.on == PIN)
+        return {point: 3 * len(self.columns) + 2 * k for k, point in enumerate(points)}
+
+    @property
+    def scales(self) -> list[float]:
+        """What makes the unknowns comparable: a turning counts with what it makes at the mechanism's reach."""
+        return [1.0, 1.0, self.reach] * len(self.columns) + [1.0, 1.0] * len(self.pins)
+
     @property
     def width(self) -> int:
         """The number of unknowns."""
-        return 3 * len(self.columns)
+        return 3 * len(self.columns) + 2 * len(self.pins)
 
     @cached_property
     def rows(self) -> tuple[Row, ...]:
@@ -69,12 +86,13 @@ class Equations:
         for link, sign in (fact.link, 1), (fact.on, -1):
             if link != FRAME:
                 weights = fact.weights(self.arm(link, fact.at))
-                row |= {self.columns[link] + k: sign * weight for k, weight in enumerate(weights)}
+                column = self.columns[link] if link != PIN else self.pins[fact.at]
+                row |= {column + k: sign * weight for k, weight in enumerate(weights if link != PIN else weights[:2])}
         return row
 
     def arm(self, link: str, point: str) -> Pair:
-        """The vector from the link's base to `point`; nothing for the frame, which does not move."""
-        if not point or link == FRAME:
+        """The vector from the link's base to `point`; nothing for the frame, which does not move, and for a pin."""
+        if not point or link in (FRAME, PIN):
             return 0, 0
         return less(self.scene.points[point], self.scene.points[self.bases[link]])
 
@@ -122,9 +140,9 @@ class Equations:
         return Side(self.arm(link, point), rates[link])
 
     def rates(self, values: Sequence[Number], zero: Number) -> dict[str, Rate]:
-        """The solved unknowns link by link, the resting frame among them."""
+        """The solved unknowns link by link, the resting frame among them; a pin, which no arm reaches, adds nothing."""
         moving = {link: Rate(*values[k : k + 3]) for link, k in self.columns.items()}
-        return moving | {FRAME: Rate(zero, zero, zero)}
+        return moving | dict.fromkeys((FRAME, PIN), Rate(zero, zero, zero))
 
     def ready(self, exact: bool, forces: bool = False) -> Floating | Elimination:
         """The system made ready for any right-hand sides: three columns a link, one row a fact.
@@ -137,7 +155,7 @@ class Equations:
                     else Elimination(self.rows, self.width))
         from graphplan.solver.floating import Floating  # numpy is imported there: fractions do without it
 
-        return Floating(self.rows, self.width, self.reach, forces)
+        return Floating(self.rows, self.scales, forces)
 
 
 @dataclass(frozen=True)
@@ -151,7 +169,7 @@ class Solution:
         """The 2-norm condition of the system, its rows and columns equilibrated, free of units: 1 is best."""
         from graphplan.solver.floating import Floating
 
-        return Floating(self.equations.rows, self.equations.width, self.equations.reach).condition
+        return Floating(self.equations.rows, self.equations.scales).condition
 
 
 def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
@@ -164,16 +182,25 @@ def require_fractions(scene: Scene, used: Iterable[Number]) -> None:
 
 def moved(scene: Scene, root: Callable[[Any], Any] = reach) -> Equations:
     """The equations of the motion: what all pairs state, drives and given motions among them."""
-    return Equations(scene, tuple(fact for pair in scene.pairs for fact in pair.states(scene)), root)
+    return Equations(scene, tuple(_stated(scene, scene.pairs)), root)
 
 
 def held(scene: Scene) -> Equations:
     """The equations of what holds the links against forces: the pairs, and the balances in the place of the drives."""
     balances = scene.loads.balances if scene.loads else ()
-    stated = chain(*(pair.states(scene) for pair in scene.binding), *(one.states(scene) for one in balances))
-    return Equations(scene, tuple(stated))
+    return Equations(scene, (*_stated(scene, scene.binding), *(fact for one in balances for fact in one.states(scene))))
 
 
 def bound(scene: Scene) -> int:
     """How many statements the pairs make without their drives: the first ones of either system."""
-    return sum(1 for pair in scene.binding for _ in pair.states(scene))
+    return sum(1 for _ in _stated(scene, scene.binding))
+
+
+def _stated(scene: Scene, pairs: Iterable[KinematicPair]) -> Iterator[Statement]:
+    """What these pairs state, in large mechanisms joints of many links by a pin of their own."""
+    large = 3 * len(scene.moving) > TOGETHER
+    for pair in pairs:
+        if large and isinstance(pair, Revolute) and len(pair.pinned) > 2:
+            yield from replace(pair, pinned=(PIN, *pair.pinned)).states(scene)
+        else:
+            yield from pair.states(scene)

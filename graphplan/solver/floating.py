@@ -1,18 +1,22 @@
-"""The linear system in floats: equilibrated, decomposed once by singular values, solved for any right-hand side.
+"""The linear system in floats: equilibrated, each block decomposed once by singular values, solved for any right side.
 
-The only module of the solver that imports numpy; imported when called.
+Blocks follow each other. What a block leaves undetermined is carried on as parameters, one vector of all unknowns for
+each: later blocks may settle them, as they may one that special geometry makes singular. Regular systems have none.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
 
 from graphplan.mechanism.model import Number
+from graphplan.solver.blocks import Block, blocks
 
 Array = NDArray[np.float64]
+Places = NDArray[np.intp]
 Sparse = Sequence[Mapping[int, Number]]
 
 # Coordinates and their differences carry a rounding of about 2^-52 each, which moves every singular value by up to
@@ -23,91 +27,217 @@ ROUNDING = 8 * 2.0**-52
 STANDS_STILL = 2.0**-26
 
 SWEEPS = 4
+POWERS = 20  # of a matrix of many blocks: after so many the longest vector hardly grows any more
+
+
+class Entries:
+    """The entries of a sparse matrix: their rows, columns and values."""
+
+    def __init__(self, rows: Places, columns: Places, values: Array, shape: tuple[int, int]):
+        self.rows, self.columns, self.values, self.shape = rows, columns, values, shape
+
+    @classmethod
+    def of(cls, sparse: Sparse, width: int) -> Entries:
+        """The numbers of sparse rows as floats."""
+        found = [(i, j, float(value)) for i, row in enumerate(sparse) for j, value in row.items()]
+        rows, columns, values = zip(*found, strict=True) if found else ((), (), ())
+        return cls(np.array(rows, np.intp), np.array(columns, np.intp), np.array(values, float), (len(sparse), width))
+
+    @property
+    def transposed(self) -> Entries:
+        """The columns as rows."""
+        return Entries(self.columns, self.rows, self.values, self.shape[::-1])
+
+    def scaled(self, rows: Array, columns: Array) -> Entries:
+        """Each entry times a factor of its row and one of its column."""
+        return Entries(self.rows, self.columns, self.values * rows[self.rows] * columns[self.columns], self.shape)
+
+    def lengths(self) -> Array:
+        """The lengths of the rows, with 1 in the place of 0."""
+        norms: Array = np.sqrt(np.bincount(self.rows, self.values**2, self.shape[0]))
+        return np.where(norms > 0, norms, 1.0)
+
+    def __matmul__(self, vector: Array) -> Array:
+        return np.asarray(np.bincount(self.rows, self.values * vector[self.columns], self.shape[0]), dtype=np.float64)
+
+
+class Decomposed:
+    """One block by its singular values, with the columns `before` it that its rows speak of.
+
+    `play` are the vectors of all unknowns that the blocks before leave undetermined; they are unknowns here.
+    """
+
+    def __init__(self, block: Block, entries: Entries, play: Array):
+        self.rows, self.columns = np.array(block.rows, np.intp), np.array(block.columns, np.intp)
+        place = np.full(entries.shape[1], -1, np.intp)
+        place[self.columns] = np.arange(self.columns.size)
+        before = np.unique(entries.columns[place[entries.columns] < 0])
+        place[before] = np.arange(before.size) + self.columns.size
+        dense = np.zeros((self.rows.size, self.columns.size + before.size))
+        dense[np.searchsorted(self.rows, entries.rows), place[entries.columns]] = entries.values
+        own, self._known, self._before = dense[:, : self.columns.size], dense[:, self.columns.size :], before
+        self._play, self.matrix = play, np.hstack([own, self._known @ play[before]])
+        self._left, self.sigma, self._right = np.linalg.svd(self.matrix)
+        least = max(own.shape, default=0) * ROUNDING * self.sigma.max(initial=0.0)
+        self._rank = int(np.sum(self.sigma > least))
+        self.blur = float(self.sigma[0] / self.sigma[self._rank - 1]) if self._rank else 1.0
+
+    @property
+    def free(self) -> Array:
+        """The vectors of all unknowns that this block leaves undetermined, too."""
+        null = self._right[self._rank :].T
+        if not null.size and not self._play.shape[1]:
+            return self._play
+        free: Array = self._play @ null[self.columns.size :]
+        free[self.columns] = null[: self.columns.size]
+        return free
+
+    def solve(self, sides: Array, values: Array, tolerance: float) -> bool:
+        """Set the unknowns of the block, and move those before as far as they are undetermined.
+
+        Whether rows contradict each other; sides made of computed velocities carry their error: hence the blur.
+        """
+        rest = sides[self.rows] - self._known @ values[self._before]
+        parts = (self._left[:, : self._rank].T @ rest) / self.sigma[: self._rank]
+        found = self._right[: self._rank].T @ parts
+        if self._play.shape[1]:
+            values += self._play @ found[self.columns.size :]
+        values[self.columns] = found[: self.columns.size]
+        outside = self._left[:, self._rank :]
+        missed = np.abs(outside @ (outside.T @ rest))
+        return bool(np.any(missed > tolerance * self.blur * max(np.linalg.norm(rest), np.linalg.norm(sides))))
+
+    def back(self, sides: Array, values: Array) -> None:
+        """The same for the transposed system, from the last block to the first, of a system that is regular."""
+        parts = (self._right @ sides[self.columns])[: self._rank] / self.sigma[: self._rank]
+        values[self.rows] = self._left[:, : self._rank] @ parts
+        sides[self._before] -= self._known.T @ values[self.rows]
 
 
 class Floating:
-    """A system decomposed once, to be solved for any right-hand side: an equilibrated matrix and its factors.
+    """A system decomposed once, to be solved for any right-hand side: an equilibrated matrix and its blocks' factors.
 
-    For forces it is the transposed one, whose rows' factors are columns'.
+    `scales` make the unknowns comparable. For forces it is the transposed system, whose rows' factors are columns'.
     """
 
-    def __init__(self, sparse: Sparse, width: int, reach: float, forces: bool = False):
-        matrix, rows, columns = equilibrated(sparse, width, reach)
-        self._matrix, self._rows, self._columns = (matrix.T, columns, rows) if forces else (matrix, rows, columns)
-        self._left, self._sigma, self._right = np.linalg.svd(self._matrix)
-        self._tolerance = max(self._matrix.shape, default=0) * ROUNDING
-        self._rank = int(np.sum(self._sigma > self._tolerance * self._sigma.max(initial=0.0)))
+    def __init__(self, sparse: Sparse, scales: Sequence[float], forces: bool = False):
+        entries, rows, columns = equilibrated(sparse, scales)
+        found = blocks(sparse, len(scales))
+        if forces:
+            entries, rows, columns = entries.transposed, columns, rows
+            found = [block.transposed for block in reversed(found)]
+        self._entries, self._rows, self._columns, self._blocks = entries, rows, columns, found
+        self._parts, self._free = decomposed(entries, found)
+        self._tolerance = max(entries.shape, default=0) * ROUNDING
 
     @property
     def condition(self) -> float:
-        """The 2-norm condition of the equilibrated system: its largest singular value over its smallest."""
-        return float(self._sigma[0] / self._sigma[-1]) if self._sigma.size else 1.0
+        """The 2-norm condition of the equilibrated system: its largest singular value over its smallest.
+
+        Of several blocks it is found by powers, which tell it to a few hundredths.
+        """
+        if len(self._parts) < 2:
+            sigma = self._parts[0].sigma
+            return float(sigma[0] / sigma[-1]) if sigma.size else 1.0
+        if self._free.size:
+            return float("inf")
+        across = self._entries.transposed
+        square = (_growth(lambda vector: across @ (self._entries @ vector), self._entries.shape[1])
+                  * _growth(lambda vector: self._inverse(self._back(vector))[0], self._entries.shape[1]))
+        return math.sqrt(square)
 
     def solve(self, right: Sequence[Number]) -> list[float] | None:
         """The shortest solution, or None where the right-hand side contradicts the rows by more than rounding."""
         sides = self._sides(right)
-        values = self._inverse(sides)
-        values = values + self._inverse(sides - self._matrix @ values)  # one refinement wins the last digits back
-        return None if self._contradiction(sides).any() else [float(v) for v in self._columns * values]
+        values, contradicted = self._inverse(sides)
+        values = values + self._inverse(sides - self._entries @ values)[0]  # wins the last digits back
+        return None if contradicted else [float(v) for v in self._columns * values]
 
     def _sides(self, right: Sequence[Number]) -> Array:
         return np.asarray(self._rows * np.array([float(value) for value in right]), dtype=np.float64)
 
-    def _inverse(self, sides: Array) -> Array:
-        """The pseudo-inverse times `sides`, from the singular values that are not zero."""
-        parts = (self._left[:, : self._rank].T @ sides) / self._sigma[: self._rank]
-        values: Array = self._right[: self._rank].T @ parts
-        return values
+    def _inverse(self, sides: Array) -> tuple[Array, bool]:
+        """A solution, and whether rows contradict each other."""
+        values, contradicted = np.zeros(self._entries.shape[1]), False
+        for part in self._parts:
+            contradicted |= part.solve(sides, values, self._tolerance)
+        return values, contradicted
 
-    def _contradiction(self, sides: Array) -> NDArray[np.bool_]:
-        """The rows that no motion can meet. Sides made of computed velocities carry their error: hence the blur."""
-        outside = self._left[:, self._rank :]
-        missed = np.abs(outside @ (outside.T @ sides))
-        blur = self._sigma[0] / self._sigma[self._rank - 1] if self._rank else 1.0
-        beyond: NDArray[np.bool_] = missed > self._tolerance * blur * np.linalg.norm(sides)
-        return beyond
+    def _back(self, sides: Array) -> Array:
+        """A solution of the transposed system."""
+        values, rest = np.zeros(self._entries.shape[0]), sides.copy()
+        for part in reversed(self._parts):
+            part.back(rest, values)
+        return values
 
     @property
     def free(self) -> frozenset[int]:
         """The columns that the system leaves undetermined."""
-        play = np.linalg.norm(self._right[self._rank :], axis=0)
+        play = np.linalg.norm(np.linalg.qr(self._free)[0], axis=1)
         return frozenset(int(j) for j in np.flatnonzero(play > STANDS_STILL * play.max(initial=0.0)))
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""
-        return frozenset(int(i) for i in np.flatnonzero(self._contradiction(self._sides(right))))
+        sides, across = self._sides(right), [block.transposed for block in reversed(self._blocks)]
+        parts, free = decomposed(self._entries.transposed, across)
+        outside, blur = np.linalg.qr(free)[0], max(part.blur for part in parts)
+        missed = np.abs(outside @ (outside.T @ sides))
+        return frozenset(int(i) for i in np.flatnonzero(missed > self._tolerance * blur * np.linalg.norm(sides)))
 
 
-def independent(sparse: Sparse, width: int, reach: float) -> list[int]:
-    """As many rows as there are unknowns, none following from others: those that come first."""
+def decomposed(entries: Entries, found: Sequence[Block]) -> tuple[list[Decomposed], Array]:
+    """The blocks by singular values, and the vectors that they leave undetermined."""
+    home = np.zeros(entries.shape[0], np.intp)
+    for k, block in enumerate(found):
+        home[list(block.rows)] = k
+    order = np.argsort(home[entries.rows], kind="stable")
+    ends = np.searchsorted(home[entries.rows][order], np.arange(len(found) + 1))
+    parts, play = list[Decomposed](), np.zeros((entries.shape[1], 0))
+    for k, block in enumerate(found):
+        own = order[ends[k] : ends[k + 1]]
+        some = Entries(entries.rows[own], entries.columns[own], entries.values[own], entries.shape)
+        parts.append(Decomposed(block, some, play))
+        play = parts[-1].free
+    return parts, play
+
+
+def _growth(step: Callable[[Array], Array], width: int) -> float:
+    """By how much a symmetric matrix lengthens the vector that it lengthens most."""
+    vector, length = np.random.default_rng(1974).standard_normal(width), 1.0
+    for _ in range(POWERS):
+        vector = step(vector / np.linalg.norm(vector))
+        length = float(np.linalg.norm(vector))
+    return length
+
+
+def independent(sparse: Sparse, scales: Sequence[float]) -> list[int]:
+    """As many rows as there are unknowns, none following from others: of each block those that come first."""
+    entries, *_ = equilibrated(sparse, scales)
+    parts, _ = decomposed(entries, blocks(sparse, len(scales)))
+    return sorted(int(part.rows[i]) for part in parts for i in _first(part.matrix))
+
+
+def _first(matrix: Array) -> list[int]:
+    """The rows that do not follow from those before them, in a matrix of rows near unit length."""
     kept: list[int] = []
-    known = np.zeros((0, width))
-    for i, row in enumerate(equilibrated(sparse, width, reach)[0]):
+    known = np.zeros((0, matrix.shape[1]))
+    for i, row in enumerate(matrix):
         rest = row - known.T @ (known @ row)
         rest -= known.T @ (known @ rest)  # once more, for orthogonality to the last digit
-        if np.linalg.norm(rest) > STANDS_STILL * np.linalg.norm(row):
+        if np.linalg.norm(rest) > STANDS_STILL:
             kept.append(i)
             known = np.vstack([known, rest / np.linalg.norm(rest)])
     return kept
 
 
-def equilibrated(sparse: Sparse, width: int, reach: float) -> tuple[Array, Array, Array]:
+def equilibrated(sparse: Sparse, scales: Sequence[float]) -> tuple[Entries, Array, Array]:
     """The rows as a matrix with rows and columns near unit length, and the factors of its rows and of its columns.
 
-    Turnings are first measured as reach * omega, so that the result does not depend on the unit of length.
+    Unknowns are first measured by `scales`, so that the result does not depend on the unit of length.
     """
-    matrix = np.zeros((len(sparse), width))
-    for i, row in enumerate(sparse):
-        for j, value in row.items():
-            matrix[i, j] = float(value)
-    rows, columns = np.ones(len(sparse)), np.tile([1.0, 1.0, 1.0 / reach], width // 3)
+    matrix = Entries.of(sparse, len(scales))
+    rows, columns = np.ones(len(sparse)), 1.0 / np.array(scales)
     for _ in range(SWEEPS):
-        rows /= lengths(matrix * rows[:, None] * columns, 1)
-        columns /= lengths(matrix * rows[:, None] * columns, 0)
-    return matrix * rows[:, None] * columns, rows, columns
-
-
-def lengths(matrix: Array, axis: int) -> Array:
-    """The lengths of rows (axis 1) or columns (axis 0), with 1 in the place of 0."""
-    norms: Array = np.linalg.norm(matrix, axis=axis)
-    return np.where(norms > 0, norms, 1.0)
+        rows /= matrix.scaled(rows, columns).lengths()
+        columns /= matrix.scaled(rows, columns).transposed.lengths()
+    return matrix.scaled(rows, columns), rows, columns

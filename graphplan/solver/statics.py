@@ -91,7 +91,8 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
     """
     scene, unknown = equations.scene, (None if i in free else value for i, value in enumerate(values))
     unit, slides, balances = metre(scene.units), dict[str, tuple[Pair, Number]](), list[Pair | Number]()
-    joints = {(joint.at, k): (next(unknown), next(unknown)) for joint in scene.revolutes for k in joint.links[1:]}
+    linked = [(fact.at, fact.link) for fact in equations.facts if fact.way == "x"]
+    joints = {joint: (next(unknown), next(unknown)) for joint in linked}
     for slide in scene.slides:
         found: dict[str, Any] = {fact.way: next(unknown) for fact in slide.states(scene)}
         if all(value is not None for value in found.values()):
@@ -100,7 +101,8 @@ def read(equations: Equations, values: Iterable[Number], free: Container[int], r
     for balance, value in zip(asked(scene).balances, unknown, strict=True):
         if value is not None:
             balances.append(scaled(1 / unit, value) if balance.direction is None else times(value, balance.direction))
-    whole = {name: (x, y) for name, (x, y) in joints.items() if x is not None and y is not None}
+    whole = {(at, link): (x, y) for (at, link), (x, y) in joints.items()
+             if x is not None and y is not None and link != scene.links_of[at][0]}
     return Reactions(equations, whole, slides, tuple(balances), rates)
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import struct
 
+from four_bars import four_bar
+
 import graphplan as gp
 
 DRAWING = gp.construct(gp.load("four-bar"))
@@ -19,22 +21,7 @@ def test_a_construction_is_told_in_one_line() -> None:
 
 def test_a_singular_construction_is_told_too() -> None:
     """Where the pose cannot be drawn the representation says so instead of failing."""
-    text = """
-title = "Dead centre"
-[points]
-O = [0, 0]
-A = [3, 0]
-B = [7, 0]
-C = [10, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 1.0
-"""
+    text = four_bar("omega = 1.0", head='title = "Dead centre"\n', A="[3, 0]", B="[7, 0]", C="[10, 0]")
     assert repr(gp.construct(gp.parse(text, "dead"))) == "<Construction of Dead centre: lines-parallel>"
 
 

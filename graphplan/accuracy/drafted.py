@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -91,33 +91,12 @@ def cost(drawing: Construction, composition: Composition) -> Cost:
 
 
 @dataclass(frozen=True)
-class Drafted:
-    """A construction drawn with a pencil: its composition on paper, and the expected error of every result."""
+class Errors:
+    """The expected error of every result of a construction, drawn with a pencil at some scales."""
 
     drawing: Construction
     pencil: Pencil
-    composition: Composition
     results: tuple[Result, ...]
-
-    @cached_property
-    def hand(self) -> Hand:
-        """The hand that draws it."""
-        return hand(self.drawing, self.composition.scales.of, self.pencil)
-
-    @cached_property
-    def cost(self) -> Cost:
-        """What drawing it costs."""
-        return cost(self.drawing, self.composition)
-
-    @property
-    def operations(self) -> int:
-        """How many operations drawing it takes."""
-        return self.cost.counts.operations
-
-    @property
-    def paper(self) -> str:
-        """The sheet it stands on."""
-        return self.composition.arrangement.paper
 
     @property
     def worst(self) -> Result | None:
@@ -154,6 +133,33 @@ class Drafted:
         worst = said("Worst: {0}, {1} of the largest; most of it comes from {2}.", self.worst.named,
                      percent(self.error), self.named(self.worst.worst_step))
         return joined((model, worst), " ")
+
+
+@dataclass(frozen=True)
+class Drafted(Errors):
+    """A construction drawn with a pencil: its composition on paper, and what follows from its scales."""
+
+    composition: Composition
+
+    @cached_property
+    def hand(self) -> Hand:
+        """The hand that draws it."""
+        return hand(self.drawing, self.composition.scales.of, self.pencil)
+
+    @cached_property
+    def cost(self) -> Cost:
+        """What drawing it costs."""
+        return cost(self.drawing, self.composition)
+
+    @property
+    def operations(self) -> int:
+        """How many operations drawing it takes."""
+        return self.cost.counts.operations
+
+    @property
+    def paper(self) -> str:
+        """The sheet it stands on."""
+        return self.composition.arrangement.paper
 
     def lines(self) -> list[Said]:
         """Cost and errors in words, a line each."""
@@ -198,16 +204,22 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
             check: Mapping[str, Any] | None = None, tongue: Tongue = ENGLISH) -> Drafted:
     """A construction on the sheet that it gets with its errors told on it.
 
-    The errors hang on the scales, the scales on the room that words leave, the words on the errors: the sheet is
-    composed until its scales stay. Fails with `Refused` where they do not, or the words do not fit the paper named.
+    The errors hang on the scales, the scales on the room that words leave, the words on the errors: from the fewest
+    words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
+    the words do not fit the paper named.
     """
     composer = Composer(drawing, paper, check, tongue)
-    composition = composer.compose()
+    usual = first_order(drawing, hand(drawing, composer.usual.of, pencil), composer.usual)
+    composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations)
     for _ in range(ATTEMPTS):
-        results = first_order(drawing, hand(drawing, composition.scales.of, pencil), composition.scales)
-        found = Drafted(drawing, pencil, composition, results)
-        again = composer.compose(found.deviations)
-        if again.scales == composition.scales:
-            return Drafted(drawing, pencil, again, results)
-        composition = again
+        scales = composition.scales
+        results = first_order(drawing, hand(drawing, scales.of, pencil), scales)
+        composition = composer.compose(Errors(drawing, pencil, results).deviations)
+        if composition.scales == scales:
+            return Drafted(drawing, pencil, results, composition)
     raise Refused("pencil errors", "the sheet finds no scale at which they hold", "name a sheet with --paper")
+
+
+def _brief(result: Result) -> Result:
+    """A result whose error is told in one figure, or in two of which one is in mm."""
+    return replace(result, deviation=Deviation(1.0, None if result.deviation.mm is None else 1.0))

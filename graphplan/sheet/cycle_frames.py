@@ -139,8 +139,8 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
             lost[-1].append(k)
         else:
             lost.append([k])
-    base = _roomy(composition, [Plans(found) for found in poses.values()])
-    frames = (_frame(travel, _composed(base, found)) for travel, found in poses.items())
+    base, words = _roomy(composition, [Plans(found) for found in poses.values()]), Words(composition.plans)
+    frames = (_frame(travel, _composed(base, words, found)) for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
     return CycleFrames(drawing, base, (_frame(0.0, base), *frames), ends)
 
@@ -178,10 +178,10 @@ def _frame(travel: float, composition: Composition) -> CycleFrame:
     return CycleFrame(travel, layout(composition.plans.drawing, composition=composition), spots)
 
 
-def _composed(base: Composition, drawing: Posed) -> Composition:
-    """The same composition of another pose; its words tell the results of that pose."""
+def _composed(base: Composition, words: Words, drawing: Posed) -> Composition:
+    """The same composition of another pose; its words, else those of all poses, tell the results of that pose."""
     plans = Plans(drawing, base.plans.tongue)
-    rows = Words(plans).rows(base.arrangement.columns[0].width, Deviations())
+    rows = replace(words, plans=plans).rows(base.arrangement.columns[0].width, Deviations())
     return replace(base, plans=plans, arrangement=replace(base.arrangement, rows=tuple(rows)))
 
 

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import json
 import re
+from collections import Counter
 from pathlib import Path
+from typing import Any
 
 import pytest
-from drawings import drafted_of
+from drawings import drafted_of, drawing_of
+from four_bars import four_bar
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -18,24 +21,13 @@ from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
 from graphplan.kernel.program import freeze
+from graphplan.sheet.layout import composition
+from graphplan.sheet.layout.composition import Composition, composed
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Text
+from graphplan.sheet.plates.plans import Plans
 
-SINGULAR = """
-[points]
-O = [0, 0]
-A = [1, 0]
-B = [3, 0]
-C = [5, 0]
-[links]
-1 = "O A"
-2 = "A B"
-3 = "B C"
-frame = "O C"
-[[drive]]
-link = "1"
-omega = 1
-"""
+SINGULAR = four_bar("omega = 1", A="[1, 0]", B="[3, 0]", C="[5, 0]")  # its bars lie in one line
 
 
 def test_cost_compares_all_forms(capsys: pytest.CaptureFixture[str]) -> None:
@@ -112,3 +104,19 @@ def test_paper_without_room_for_every_plan_is_refused() -> None:
     drawing = gp.construct(gp.load("walschaerts-loaded"), plan="polar")
     with pytest.raises(Refused, match="words and plans do not fit"):
         drafted(drawing, Pencil(), "A2")
+
+
+def test_sheet_is_composed_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The errors told on a sheet change no row's height, so paper, panels and windows are found once."""
+    times: Counter[str] = Counter()
+
+    def counted(plans: Plans, *rest: Any) -> Composition:
+        times[plans.drawing.scene.name] += 1
+        return composed(plans, *rest)
+
+    monkeypatch.setattr(composition, "composed", counted)
+    for name in ("four-bar", "alt-eight-link", "ozols-10-1", "class-four"):
+        found = drafted(drawing_of(name), Pencil())
+        again = composition.Composer(drawing_of(name)).compose(found.deviations)
+        assert (again.arrangement, again.scales) == (found.composition.arrangement, found.composition.scales)
+        assert times.pop(name) == 2  # once above, once as if nothing had been composed

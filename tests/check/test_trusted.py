@@ -11,6 +11,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from four_bars import four_bar
 
 import graphplan as gp
 from graphplan.check import trusted as checking
@@ -139,21 +140,7 @@ def replaced(reading: Any, drawing: Construction) -> Any:
 
 def test_a_singular_pose_has_no_numbers() -> None:
     """Bars in line: nothing is read of the construction, whether it can be drawn for other poses or not."""
-    text = """
-    [points]
-    O = [0, 0]
-    A = [3, 0]
-    B = [7, 0]
-    C = [10, 0]
-    [links]
-    1 = "O A"
-    2 = "A B"
-    3 = "B C"
-    frame = "O C"
-    [[drive]]
-    link = "1"
-    omega = 1
-    """
+    text = four_bar("omega = 1", A="[3, 0]", B="[7, 0]", C="[10, 0]")
     with pytest.raises(gp.GraphplanError):
         _ = gp.construct(gp.parse(text, "dead")).velocity["B"]
 

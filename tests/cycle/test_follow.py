@@ -8,6 +8,7 @@ from fractions import Fraction
 from functools import cache
 from typing import Any
 
+import four_bars
 import numpy as np
 import pytest
 from random_mechanisms import GROUPS, mechanism
@@ -27,20 +28,9 @@ DYADS = ["rrr", "rrp", "rpr", "prp", "rpp"]
 
 def four_bar(crank: float, coupler: float, rocker: float, ground: float, angle: float, side: str = "left") -> Scene:
     """A four-bar linkage O A B C with its crank at this angle, in degrees."""
-    return gp.parse(f"""
-        [points]
-        O = [0, 0]
-        C = [{ground}, 0]
-        A = {{ from = "O", distance = {crank}, angle = {angle} }}
-        B = {{ distances = {{ A = {coupler}, C = {rocker} }}, side = "{side}" }}
-        [links]
-        1 = "O A"
-        2 = "A B"
-        3 = "B C"
-        frame = "O C"
-        [[drive]]
-        link = "1"
-        omega = -2""", "four-bar")
+    A = f'{{ from = "O", distance = {crank}, angle = {angle} }}'
+    B = f'{{ distances = {{ A = {coupler}, C = {rocker} }}, side = "{side}" }}'
+    return gp.parse(four_bars.four_bar("omega = -2", A=A, B=B, C=f"[{ground}, 0]"), "four-bar")
 
 
 @cache

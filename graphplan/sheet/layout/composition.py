@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cache, cached_property, partial
+from functools import cached_property
 from typing import Any
 
 from graphplan.errors import Refused
@@ -18,6 +18,7 @@ from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, digits, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
+from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
@@ -29,6 +30,7 @@ from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
 SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
+USUAL = 200.0, 150.0  # mm: a panel as there are many
 TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
 FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
@@ -140,16 +142,24 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
              given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
-    k_s, told = given
-    k_s = k_s or plan_scale(extents[MECHANISM], inside(rooms[MECHANISM]))
-    most = {p: plan_multiple(extents[p], inside(rooms[p]), k_s) for p in plans.panels[1:]}
-    multiples: dict[str, Fraction] = {p: min(most[q] for q in most if q.twin == p.twin) for p in most}  # comparable
-    drawing, names = plans.drawing, plans.drawing.scene.units
-    scales = Scales(k_s, drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
-                    drawing.scene.sheet.convention)  # fmt: skip
+    scales = _scales({panel: inside(rect) for panel, rect in rooms.items()}, extents, plans, given)
     boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
     views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
     return Composition(arrangement, scales, views, needs, extents, plans)
+
+
+def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
+    """The scales, round if they are not given, for so much room for the marks of each plan; twins have one multiple."""
+    k_s, told = given
+    k_s = k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM])
+    least: dict[str, Fraction] = {}
+    for panel in plans.panels[1:]:
+        multiple, twin = plan_multiple(extents[panel], rooms[panel], k_s), plans.twins[panel]
+        least[twin] = min(multiple, least.get(twin, multiple))
+    multiples: dict[str, Fraction] = {panel: least[plans.twins[panel]] for panel in plans.panels[1:]}
+    drawing, names = plans.drawing, plans.drawing.scene.units
+    return Scales(k_s, drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
+                  drawing.scene.sheet.convention)
 
 
 def _legible(plans: Plans, views: Mapping[str, View], paper: str) -> bool:
@@ -239,7 +249,10 @@ def compose(drawing: Construction, paper: str | None = None, check: Mapping[str,
 
 
 class Composer:
-    """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`."""
+    """Composes a construction on its paper, as often as its drawing errors change; see :func:`compose`.
+
+    How words are laid out hangs on how high their rows are, so what differs in nothing else is composed once.
+    """
 
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
                  tongue: Tongue | None = None):
@@ -247,8 +260,36 @@ class Composer:
         say = tongue or tongue_of(scene.sheet.language or "en")
         self.plans, self.paper = Plans(drawing, say), paper or scene.sheet.paper or None
         self.words, self.title = Words(self.plans, check or {}), frame_of(scene).block(scene, say)
+        self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
+
+    @property
+    def usual(self) -> Scales:
+        """The scales on panels of a usual size."""
+        rooms: dict[str, Rect] = dict.fromkeys(self.plans.panels, inside(room(Rect(0.0, 0.0, *USUAL))))
+        extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
+        return _scales(rooms, extents, self.plans, given_scales(self.plans))
 
     def compose(self, pencil: Deviations | None = None) -> Composition:
         """The composition with these drawing errors told on it."""
-        rows = cache(partial(self.words.rows, pencil=pencil or Deviations()))
-        return composed(self.plans, rows, self.title, self.paper)
+        found: dict[float, list[TextRow]] = {}
+
+        def rows(exact: float) -> list[TextRow]:
+            wide = round(exact, 9)  # columns of one width differ by rounding
+            if wide not in found:
+                found[wide] = self.words.rows(wide, pencil or Deviations())
+            return found[wide]
+
+        if self._composed:
+            composition, before = self._composed
+            if all(_alike(was, rows(wide)) for wide, was in before.items()):
+                arrangement = composition.arrangement
+                worded = replace(arrangement, rows=tuple(rows(arrangement.columns[0].width)))
+                return replace(composition, arrangement=worded)
+        self._composed = composed(self.plans, rows, self.title, self.paper), found
+        return self._composed[0]
+
+
+def _alike(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:
+    """Whether some rows take the same room as others."""
+    return len(one) == len(other) and all(
+        (p.height, p.gap, p.keep) == (q.height, q.gap, q.keep) for p, q in zip(one, other, strict=True))

@@ -10,7 +10,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from functools import lru_cache
-from itertools import groupby
 from typing import NamedTuple
 
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
@@ -94,8 +93,13 @@ def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
 
 def _joined(runs: Iterable[Run]) -> Runs:
     """Without empty runs, and neighbours on one level made one."""
-    levels = groupby((run for run in runs if run.text), key=lambda run: run.level)
-    return tuple([Run("".join([run.text for run in group]), level) for level, group in levels])
+    found: list[Run] = []
+    for run in runs:
+        if found and found[-1].level == run.level:
+            found[-1] = Run(found[-1].text + run.text, run.level)
+        elif run.text:
+            found.append(run)
+    return tuple(found)
 
 
 def listed(names: Iterable[str], lead: str = "") -> Runs:
@@ -118,20 +122,21 @@ def _ems(runs: Runs) -> float:
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
     """The lettering in lines no longer than `room`, broken at spaces; a word too long for a line is broken anywhere."""
     lines: list[Runs] = []
-    line: Runs = ()
+    line: list[Run] = []
     long, space = 0.0, width(SPACE, size, bold)
     for word, ems in _words(runs):
         wide = ems * size * (_BOLD if bold else 1.0)
         if line and long + space + wide <= room:
-            line, long = (*line, *SPACE, *word), long + space + wide
+            line += (*SPACE, *word)
+            long += space + wide
             continue
         if line:
             lines.append(_joined(line))
-        line = word
-        while width(line, size, bold) > room and len(_flat(line)) > 1:
-            head, line = _broken(line, size, room, bold)
+        line, long = [*word], wide
+        while long > room and len(_flat(line)) > 1:
+            head, rest = _broken(line, size, room, bold)
             lines.append(head)
-        long = width(line, size, bold)
+            line, long = [*rest], width(rest, size, bold)
     return [*lines, _joined(line)] if line else lines
 
 
@@ -153,12 +158,12 @@ def _words(runs: Runs) -> list[tuple[Runs, float]]:
     return [(tuple(word), _ems(tuple(word))) for word in words if word]
 
 
-def _flat(runs: Runs) -> Runs:
+def _flat(runs: Iterable[Run]) -> Runs:
     """One run for every character."""
     return tuple(Run(char, run.level) for run in runs for char in run.text)
 
 
-def _broken(runs: Runs, size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
+def _broken(runs: Iterable[Run], size: float, room: float, bold: bool) -> tuple[Runs, Runs]:
     """The longest beginning that fits, and the rest."""
     chars = _flat(runs)
     count = max(1, next((i for i in range(1, len(chars)) if width(chars[: i + 1], size, bold) > room), len(chars)))

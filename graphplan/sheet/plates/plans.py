@@ -75,6 +75,11 @@ class Plans:
         return list(dict.fromkeys([MECHANISM, *self.plan_of_step]))
 
     @cached_property
+    def twins(self) -> dict[str, Panel]:
+        """For each plan the one at whose scale it is drawn."""
+        return {panel: panel.twin for panel in self.panels}
+
+    @cached_property
     def marks_on(self) -> dict[int, tuple[int, ...]]:
         """For each line and each arc, the marks that lie on it by construction."""
         steps = self.drawing.drawn.steps

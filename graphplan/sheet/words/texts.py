@@ -13,7 +13,7 @@ from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import arranged, joined, said, unit
 from graphplan.sheet.layout.scales import digits
-from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
+from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
@@ -26,7 +26,8 @@ RESULTS = "results"  # the layer of what is read when all is drawn
 class Words:
     """All that is said beside the plans; `check` is the difference from the analytic solver, by kind.
 
-    A sheet is composed more than once, with other drawing errors: what does not hang on them is set once for a width.
+    The words of a sheet are set more than once, with other drawing errors or of other poses: what is the same in all of
+    them is set once for a width.
     """
 
     plans: Plans
@@ -56,10 +57,27 @@ class Words:
         found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
+    @cached_property
+    def told(self) -> dict[int, Runs]:
+        """Each drawn step in words as they are set, and with them its law where that is told first."""
+        drawn, laws, found = self.drawing.drawn, set[str](), dict[int, Runs]()
+        for step in drawn.steps[drawn.givens :]:
+            found[step.index] = self._runs(
+                drawn.sentence(step.index) if step.why in laws else drawn.told(step.index))
+            laws.add(step.why)
+        return found
+
+    def _runs(self, text: str) -> Runs:
+        """A text in the tongue of the sheet, with the names of marks as they are set."""
+        return sentence_runs(self.plans.tongue(text), self.names)
+
     def paragraph(self, text: str, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         """A paragraph, hanging from its number."""
+        return self._hung(self._runs(text), wide, step, number)
+
+    def _hung(self, runs: Runs, wide: float, step: int | None = None, number: str = "") -> Iterator[TextRow]:
         indent = self.indent if number else 0.0
-        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent)
+        lines = wrap(runs, SIZE, wide - indent)
         for i, runs in enumerate(lines):
             label = (Cell(indent - 1.6, sentence_runs(number), "end"),) if number and i == 0 else ()
             row = TextRow((*label, Cell(indent, runs)), step=step, keep=min(3, len(lines) - 1 - i))
@@ -74,7 +92,7 @@ class Words:
         return TextRow((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
 
     def _steps(self, wide: float) -> Iterator[TextRow]:
-        drawn, told = self.drawing.drawn, set[str]()
+        drawn = self.drawing.drawn
         yield self._heading(said("Construction"))
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
         yield from self.paragraph(said("Given, on the mechanism plan: {0}.", given), wide)
@@ -83,9 +101,7 @@ class Words:
             if step.panel != panel:
                 panel = step.panel
                 yield self._heading(said("On the {0}", step.panel.words), SIZE, 1.2, step.index)
-            sentence = drawn.sentence(step.index) if step.why in told else drawn.told(step.index)
-            told.add(step.why)
-            yield from self.paragraph(sentence, wide, step.index, str(drawn.number(step.index)))
+            yield from self._hung(self.told[step.index], wide, step.index, str(drawn.number(step.index)))
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))

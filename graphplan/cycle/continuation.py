@@ -1,36 +1,41 @@
 """Continuation: the linkage followed step by step from its given pose, on one branch, up to where it cannot go on.
 
-Each step is predicted from the last two knots (Hermite) and corrected by Newton. A step that is not certain to stay on
-its branch is halved; where even the finest is not, the linkage is at a limit: a limit position (dead centre), or a
-change point (such as a parallelogram with all links in line), from which several motions lead on and the lengths say
-not which.
+Each step is predicted from the last knots (Hermite) and corrected by Newton, group after group. A step that is not
+certain to stay on its branch is halved; where even the finest is not, the linkage is at a limit: a limit position (dead
+centre), or a change point (such as a parallelogram with all links in line), from which several motions lead on and the
+lengths say not which.
 
-Most steps need no halving. So the knots are first guessed all at once, by construction or by a sketch, and the steps
-between them put to the same test together; from where one is not certain, the path is walked.
+A predicted pose is trusted only where the first correction is small beside the step that it predicts, where each
+further one is small beside the one before, and where no determinant of a group has changed its sign: it does wherever
+two branches meet.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields, replace
+from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.linkage import SETTLED, Array, Closure, Linkage, distance, given, settle
+from graphplan.cycle.groups import Group, Lies
+from graphplan.cycle.linkage import Array, Linkage
 from graphplan.cycle.travel import TURN, afford, travel_unit
 
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""
 
-Drawn = Callable[[Array], Array | None]
-"""Gives the poses at some travels by construction, nan where one cannot be drawn; None where none ever can."""
-
 _LONGEST = 1 / 48
 """The longest step, of a turn: 7.5 degrees."""
 
-_BEGINNING = np.array([1 / 8, 1 / 4, 1 / 2])
-"""Where the first step is divided: the tangent in one knot does not lead so far as the cubic through two."""
+_FIRST = 1 / 8
+"""The first step, of the longest: the tangent in one knot does not lead so far as the curve through several."""
+
+_BACK = 3
+"""How many knots lead to the next one."""
+
+_BESIDE = 4
+"""How many knots tell what lies between two of them."""
 
 _KNOT = 1024
 """Bytes for each link in a step, as measured on long travels."""
@@ -41,13 +46,10 @@ _FINEST = 2.0**-36
 _SLACK = 16
 """How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
 
-_SKETCHED = 1 / 4
-"""The largest correction of a sketched pose, of the step: beyond it the sketch ends."""
-
 _EASY = 1 / 512
 """Where the prediction missed by less, of the step, the next step is twice as long."""
 
-_SINGULAR = -22 * math.log(2)
+_SINGULAR = 2.0**-22
 """The smallest determinant of a part, of that in the given pose: below it, rounding may choose the branch."""
 
 _ACROSS = 2.0**-12
@@ -57,31 +59,20 @@ It tells the change point to as small a part of itself: rounding weighs there as
 """
 
 
-@dataclass(frozen=True)
-class Knots:
-    """n poses on the path and how they change with the travel, both (n, 2, links), and the parts' determinants there.
+class Knot(NamedTuple):
+    """A pose on the path: the state of all groups, shape (unknowns,), its rate, and the groups' determinants."""
 
-    `senses` are the determinants' signs, `sizes` the logarithms of their sizes; both have the shape (n, parts).
-    """
-
-    travel: Array
-    pose: Array
+    travel: float
+    state: Array
     rate: Array
-    senses: Array
-    sizes: Array
+    determinants: Array
 
-    def __getitem__(self, some: slice | Array) -> Knots:
-        """Some of them."""
-        return Knots(self.travel[some], self.pose[some], self.rate[some], self.senses[some], self.sizes[some])
-
-
-def joined(knots: Sequence[Knots]) -> Knots:
-    """Several runs of knots as one."""
-    return Knots(*(np.concatenate([getattr(run, each.name) for run in knots]) for each in fields(Knots)))
+    def regular(self, start: Knot) -> bool:
+        """Whether it is on the branch of the given pose, and not too near to where another meets it."""
+        return bool((self.determinants / start.determinants >= _SINGULAR).all())
 
 
-@dataclass(frozen=True)
-class Limit:
+class Limit(NamedTuple):
     """Where the linkage cannot be followed on: the travel, and to within what; the part that stops it; which kind."""
 
     travel: float
@@ -95,188 +86,152 @@ class Limit:
         return "change point" if self.change else "limit position"
 
 
-@dataclass(frozen=True)
 class Path:
-    """The knots in order of travel, the given pose among them, and the limits at the ends, if any."""
+    """The knots in order of travel, the given pose among them, and the limits at the ends, if any.
 
-    knots: Knots
-    lower: Limit | None = None
-    upper: Limit | None = None
+    `travel` has the shape (knots,), `senses` are the signs of the groups' determinants; `pace` is that of the fastest
+    drive.
+    """
 
-    @property
-    def senses(self) -> Array:
-        """The signs of the parts' determinants, the same in all poses."""
-        return self.knots.senses[0]
-
-    def predicted(self, travel: Array) -> tuple[Array, Array]:
-        """The poses at these travels by interpolation, and the length of the step between the knots beside each."""
-        i = np.clip(np.searchsorted(self.knots.travel, travel), 1, len(self.knots.travel) - 1)
-        before, after = self.knots[i - 1], self.knots[i]
-        return hermite(before, after, travel), distance(before.pose, after.pose)
+    def __init__(self, knots: Sequence[Knot], senses: Array, lower: Limit | None, upper: Limit | None, pace: float):
+        self.travel, self._state, self._rate = (np.array([knot[i] for knot in knots]) for i in range(3))
+        self.senses, self.lower, self.upper, self._pace = senses, lower, upper, pace
 
     def nearest(self, travel: Array) -> Array:
-        """The poses of the knots nearest to these travels."""
-        return self.knots.pose[np.argmin(np.abs(self.knots.travel - travel[:, None]), axis=1)]
+        """The states of the knots nearest to n travels, shape (unknowns, n)."""
+        return self._state[np.argmin(np.abs(self.travel - travel[:, None]), axis=1)].T
+
+    def prediction(self) -> Prediction:
+        """The states between the knots."""
+        steps = np.abs(np.diff(self._state, axis=0)).max(axis=1, initial=0)
+        return Prediction(self.travel, self._state, self._rate, np.maximum(steps, self._pace * np.diff(self.travel)))
+
+
+class Prediction:
+    """The states between knots, each by the knots around it (Hermite), and the length of the step around it."""
+
+    def __init__(self, travel: Array, state: Array, rate: Array, steps: Array):
+        self._travel, self._steps, width = travel, steps, min(_BESIDE, len(travel))
+        first = np.clip(np.arange(1 - width // 2, len(travel) - width // 2), 0, len(travel) - width)
+        around = np.arange(width)[:, None] + first
+        self._table = np.concatenate([*newton(travel[around][..., None], state[around], rate[around])], axis=1).T.copy()
+        self._nodes, self._shape = travel[around], (2 * width, state.shape[1])
+
+    def __call__(self, travel: Array) -> tuple[Array, Array]:
+        """The states at n travels, shape (unknowns, n), and the lengths (n,) of the steps around them."""
+        i = np.clip(np.searchsorted(self._travel, travel) - 1, 0, len(self._travel) - 2)
+        around, table = travel - self._nodes.take(i, axis=1), self._table.take(i, axis=1)
+        *rest, found = table.reshape(*self._shape, len(travel))
+        for k, coefficients in reversed([*enumerate(rest)]):
+            found *= around[k // 2]
+            found += coefficients
+        return found, self._steps.take(i)
+
+
+def newton(travel: Array, state: Array, rate: Array) -> list[Array]:
+    """The coefficients, in Newton's form, of the polynomials through m knots with their rates; the first axis is m."""
+    nodes, column = travel.repeat(2, axis=0), np.empty((2 * len(travel) - 1, *state.shape[1:]))
+    column[::2], column[1::2] = rate, (state[1:] - state[:-1]) / (travel[1:] - travel[:-1])
+    found = [state[0], column[0]]
+    for k in range(2, len(nodes)):
+        column = (column[1:] - column[:-1]) / (nodes[k:] - nodes[:-k])
+        found.append(column[0])
+    return found
 
 
 class Continuation:
     """The path of a linkage from the given pose, either way."""
 
-    def __init__(self, linkage: Linkage, lower: float, upper: float, drawn: Drawn, progress: Progress | None = None):
-        self.linkage, self.closure, self.drawn = linkage, Closure(linkage, linkage.parts), drawn
+    def __init__(self, linkage: Linkage, groups: Sequence[Group], lower: float, upper: float,
+                 progress: Progress | None = None):
+        self.linkage, self.groups = linkage, groups
+        self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
         self.longest = _LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
                                       in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
         self.finest = _FINEST * self.longest
+        self.pace = max(abs(pace) / (linkage.reach if drive.slides else 1) for drive, pace
+                        in zip(linkage.scene.drives, linkage.paces, strict=True))
         if self.longest:
             unit, name = travel_unit(linkage.scene)
             afford("the cycle", (upper - lower) / unit, name, _KNOT * len(linkage.links) * unit / self.longest)
 
     def path(self, closed: bool) -> Path:
         """As far as it leads, from `lower` to `upper`; round the other way too, where the cycle is closed."""
-        pose = given(self.linkage)
-        with np.errstate(all="ignore"):  # a singular given pose leads nowhere
-            start = self._knots(np.zeros(1), pose)
-            up, upper = self._led(start, self.upper, 0.0)
-            down, lower = self._led(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
+        still = np.zeros(self.ends[-1])
+        start = self._closed(0.0, still, math.inf)
+        if isinstance(start, int):  # this group is singular, and the pose leads nowhere
+            start = Knot(0.0, still, still, 1.0 - np.eye(len(self.groups))[start])
+        with np.errstate(all="ignore"):
+            up, upper = self._walk(start, self.upper, 0.0)
+            down, lower = self._walk(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
         self.progress(1.0)
-        return Path(joined([down[:0:-1], up]), lower, upper)
+        return Path([*down[:0:-1], *up], np.sign(start.determinants), lower, upper, self.pace)
 
-    def _knots(self, travel: Array, pose: Array, jacobian: Array | None = None) -> Knots:
-        """These poses as knots; `jacobian` where it is known already."""
-        jacobian = self.closure.equations(pose, travel)[1] if jacobian is None else jacobian
-        return Knots(travel, pose, self.closure.rate(pose, jacobian), *self.closure.determinants(jacobian))
-
-    def _led(self, start: Knots, goal: float, done: float) -> tuple[Knots, Limit | None]:
-        """The knots from the start up to the goal, or to the limit before it."""
-        begun = self._at_once(start, goal) if goal else start
-        return (begun, None) if begun.travel[-1] == goal else self._walk(begun, goal, done)
-
-    # ---- all at once ------------------------------------------------------------------------------------------
-
-    def _at_once(self, start: Knots, goal: float) -> Knots:
-        """Knots from the start towards the goal, guessed, as far as every step between them is certain."""
-        travel = _divided(goal, self.longest)
-        pose = self.drawn(travel)
-        pose = self._sketched(start, travel) if pose is None else pose
-        known = _first(~np.isnan(pose).any(axis=(1, 2)))
-        knots = joined([start, self._knots(travel[:known], pose[:known])])
-        return knots[: 1 + _first(self._certain(knots) & _regular(knots, start)[1:])]
-
-    def _certain(self, knots: Knots) -> Array:
-        """Whether each knot but the first is where a step of the walk leads, from those before it."""
-        one, two, end = knots[:-2], knots[1:-1], knots[1:]
-        predicted = np.concatenate([_ahead(knots[:1], end.travel[:1]), _onward(one, two, end.travel[1:])])
-        step = distance(predicted, knots.pose[:-1])
-        pose, _, trusted = settle(self.closure, predicted, end.travel, step)
-        return trusted & (distance(pose, end.pose) <= SETTLED * step)
-
-    def _sketched(self, start: Knots, travel: Array) -> Array:
-        """A guess of the poses at these travels: a walk of steps twice as long, once corrected, and what lies between.
-
-        It may give out before the last of them.
-        """
-        knots = [start]
-        for at in _divided(travel[-1], 2 * self.longest)[:, None]:
-            predicted = _predicted(knots, at)
-            correction, jacobian = self.closure.correction(predicted, at)
-            if not np.abs(correction).max() <= _SKETCHED * distance(predicted, knots[-1].pose)[0]:
-                break
-            knots.append(self._knots(at, self.closure.corrected(predicted, correction), jacobian))
-        if len(knots) == 1:
-            return start.pose[:0]
-        travel = travel[np.abs(travel) <= np.abs(knots[-1].travel)]
-        pose, step = Path(joined(knots if travel[-1] > 0 else knots[::-1])).predicted(travel)
-        return settle(self.closure, pose, travel, step)[0]
-
-    # ---- step by step -----------------------------------------------------------------------------------------
-
-    def _walk(self, begun: Knots, goal: float, done: float) -> tuple[Knots, Limit | None]:
-        """The knots up to the goal, or to the limit before it, from those with which the path begins."""
-        start, knots = begun[:1], [begun[i:i + 1] for i in range(len(begun.travel))]
-        at, step = float(begun.travel[-1]), math.copysign(self.longest, goal)
+    def _walk(self, start: Knot, goal: float, done: float) -> tuple[list[Knot], Limit | None]:
+        """The knots up to the goal, or to the limit before it."""
+        knots, at, step = [start], 0.0, math.copysign(_FIRST * self.longest, goal)
         while at != goal:
             left = goal - at
             step = left if abs(left) <= abs(step) + self.finest else step
-            travel = np.array([goal if step == left else at + step])
-            predicted = _predicted(knots, travel)
-            knot = self._corrected(knots[-1], predicted, travel)
-            if knot is None or not _regular(knot, start)[0]:
+            travel = goal if step == left else at + step
+            predicted = _ahead(knots[-_BACK:], travel)
+            size = self._size(knots[-1], predicted, travel)
+            knot = self._closed(travel, predicted, size)
+            if isinstance(knot, int) or not knot.regular(start):
                 step /= 2
                 if abs(step) < self.finest:
                     return self._stopped(knots, math.copysign(_ACROSS * self.longest, step))
                 continue
-            easy = distance(knot.pose, predicted)[0] <= _EASY * distance(predicted, knots[-1].pose)[0]
+            easy = np.abs(knot.state - predicted).max(initial=0.0) <= _EASY * size
             step = 2 * step if easy and 2 * abs(step) <= self.longest else step
             knots.append(knot)
-            at = float(travel[0])
+            at = travel
             self.progress(done + at / goal / 2)
-        return joined(knots), None
+        return knots, None
 
-    def _corrected(self, last: Knots, predicted: Array, travel: Array) -> Knots | None:
-        """The knot at this travel, if Newton's method is to be trusted there."""
-        pose, jacobian, trusted = settle(self.closure, predicted, travel, distance(predicted, last.pose))
-        return self._knots(travel, pose, jacobian) if trusted[0] else None
+    def _size(self, last: Knot, predicted: Array, travel: float) -> float:
+        """The length of a step: the largest change of an unknown or a drive; no more than a radian or a reach."""
+        return min(1.0, float(np.abs(predicted - last.state).max(initial=self.pace * abs(travel - last.travel))))
 
-    def _stopped(self, knots: list[Knots], step: float) -> tuple[Knots, Limit]:
+    def _closed(self, travel: float, predicted: Array, size: float) -> Knot | int:
+        """The knot at this travel; the place of the first group in which Newton's method is not to be trusted there."""
+        placed, guess = dict[str, Lies](), predicted.tolist()
+        state, rate, determinants = list[float](), list[float](), list[float]()
+        for i, group in enumerate(self.groups):
+            found = group.settled(placed, travel, guess[self.ends[i] : self.ends[i + 1]], size)
+            if found is None:
+                return i
+            last = found[1]
+            state += found[0]
+            rate += last.rates
+            determinants.append(last.determinant)
+            placed.update(zip(group.links, map(Lies, last.lies, last.moves), strict=True))
+        return Knot(travel, np.array(state), np.array(rate), np.array(determinants))
+
+    def _stopped(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
         """The knots up to a limit: one more where the motion leads straight through a change point.
 
         There a determinant goes through zero, as a straight line does on so short a way.
         """
         start, last = knots[0], knots[-1]
-        beyond = self._corrected(last, _ahead(last, last.travel + step), last.travel + step)
-        if beyond is None or np.array_equal(beyond.senses, last.senses):
-            i = int(np.argmin(last.sizes - start.sizes))
-            limit = Limit(float(last.travel[0]), _SLACK * self.finest, self.linkage.parts[i], False)
-            return joined(knots), limit
-        i = int(np.argmax(beyond.senses != last.senses))
-        travel = last.travel + step / (1 + math.exp(beyond.sizes[0, i] - last.sizes[0, i]))
-        there = replace(last, travel=travel, pose=hermite(last, beyond, travel))
-        return joined([*knots, there]), Limit(float(travel[0]), _ACROSS * abs(step), self.linkage.parts[i], True)
+        travel = last.travel + step
+        predicted = _ahead([last], travel)
+        beyond = self._closed(travel, predicted, self._size(last, predicted, travel))
+        if isinstance(beyond, int) or (beyond.determinants / last.determinants > 0).all():
+            i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
+            return knots, Limit(last.travel, _SLACK * self.finest, self.linkage.parts[i], False)
+        ratio = beyond.determinants / last.determinants
+        i = int(np.argmax(ratio <= 0))
+        travel = last.travel + step / (1 - float(ratio[i]))
+        there = last._replace(travel=travel, state=_ahead([last, beyond], travel))
+        return [*knots, there], Limit(travel, _ACROSS * abs(step), self.linkage.parts[i], True)
 
 
-def _divided(goal: float, step: float) -> Array:
-    """The ends of equal steps up to the goal, none longer than this one; the first is reached by halves of halves."""
-    ends = np.linspace(0, goal, math.ceil(abs(goal) / step) + 1)[1:]
-    return np.concatenate([ends[0] * _BEGINNING, ends])
-
-
-def _predicted(knots: Sequence[Knots], travel: Array) -> Array:
-    """The pose at this travel, from the last knot or two."""
-    return _ahead(knots[0], travel) if len(knots) == 1 else _onward(knots[-2], knots[-1], travel)
-
-
-def _ahead(last: Knots, travel: Array) -> Array:
-    """The pose at this travel on the tangent in a knot."""
-    return _normal(last.pose + (travel - last.travel)[:, None, None] * last.rate)
-
-
-def _onward(one: Knots, last: Knots, travel: Array) -> Array:
-    """The pose at each of these travels on the cubic through the two knots before."""
-    pose = hermite(one, last, travel)
-    pose[:, :, 0] = last.pose[:, :, 0]  # of the frame, which nothing corrects, the rounding would grow
-    return pose
-
-
-def _regular(knots: Knots, start: Knots) -> Array:
-    """Whether each knot is on the branch of the given pose, and not too near to where another meets it."""
-    return np.all((knots.senses == start.senses) & (knots.sizes - start.sizes >= _SINGULAR), axis=1)
-
-
-def _first(fine: Array) -> int:
-    """How many of the first are fine."""
-    return int(np.argmin([*fine, False]))
-
-
-def hermite(one: Knots, two: Knots, travel: Array) -> Array:
-    """The poses at these travels on the cubics through two knots each, between them or beyond."""
-    step = np.broadcast_to(two.travel - one.travel, travel.shape)[:, None, None]
-    x = ((travel - one.travel) / (two.travel - one.travel))[:, None, None]
-    return _normal((1 - x) ** 2 * ((1 + 2 * x) * one.pose + x * step * one.rate)
-                   + x**2 * ((3 - 2 * x) * two.pose - (1 - x) * step * two.rate))
-
-
-def _normal(pose: Array) -> Array:
-    """The same poses with turns of size 1."""
-    pose[:, 1] /= np.abs(pose[:, 1])
-    return pose
+def _ahead(knots: Sequence[Knot], travel: float) -> Array:
+    """The state at this travel on the curve through these knots."""
+    at, state, rate = (np.array([knot[i] for knot in knots]) for i in range(3))
+    *rest, found = newton(at[:, None], state, rate)
+    for k, coefficients in reversed([*enumerate(rest)]):
+        found = found * (travel - at[k // 2]) + coefficients
+    return found

@@ -7,14 +7,17 @@ even where the links could be put together again. A pose at a limit is taken whe
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from graphplan.cycle.continuation import Continuation, Limit, Path, Progress
+from graphplan.cycle.dyads import Failure
+from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage, number
-from graphplan.cycle.positions import Failure, Placing
-from graphplan.cycle.travel import TURN, closes, paces, told, travels
+from graphplan.cycle.positions import Placing
+from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.motion.network import Network
 
@@ -46,23 +49,24 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     """
     travel = travels(scene, positions, span)
     linkage = Linkage(scene, paces(scene))
-    placing = Placing(linkage)
+    origins = {FRAME: linkage.origins[FRAME]}
+    groups = [Group(linkage, part, origins) for part in linkage.parts]
     closed = span is None and closes(scene, linkage.paces)
     ends = min(0.0, float(travel.min())), max(0.0, float(travel.max()))
-    path = Continuation(linkage, *ends, placing.poses, progress).path(closed)
+    path = Continuation(linkage, groups, *ends, progress).path(closed)
     course = Course(scene, path, travel, closed)
     slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
-    placed = placing.place(path, course.at, course.reached, course.knots, [slide.along for slide in slides])
-    failures = {int(i): failure for failure, at in reversed(placed.failures) for i in at}  # the first one stays
-    reached = course.reached.copy()
-    reached[list(failures)] = False
-    lost = np.flatnonzero(~reached)
-    for array in (*placed.points.values(), *(placed.turn[slide.along] for slide in slides)):
-        array[lost] = complex(np.nan, np.nan)
-    points = {name: placed.points[name] for name in scene.points}
-    guides = {slide.name: number(*slide.direction) * placed.turn[slide.along] for slide in slides}
+    placing = Placing(linkage, groups, origins, positions, [slide.along for slide in slides])
+    placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots))
+    placing.stand(path, course.at, np.flatnonzero(course.knots))
+    placing.refuse(course.at, np.flatnonzero(~course.reached))
+    for array in (*placing.points.values(), *placing.turns.values()):
+        for _, lost in placing.failures:
+            array[lost] = complex(np.nan, np.nan)
+    points = {name: placing.points[name] for name in scene.points}
+    guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
     points |= {name: points[at] for name, at in _under(scene).items()}
-    return Turn(travel, points, guides, course.faults(failures))
+    return Turn(travel, points, guides, course.faults(placing.failures))
 
 
 def _under(scene: Scene) -> dict[str, str]:
@@ -93,39 +97,59 @@ class Course:
 
     def __init__(self, scene: Scene, path: Path, travel: Array, closed: bool):
         self.scene, self.travel, self.round = scene, travel, TURN if closed else 0.0
-        low = path.lower.travel - path.lower.slack if path.lower else path.knots.travel[0]
-        high = path.upper.travel + path.upper.slack if path.upper else path.knots.travel[-1]
+        low = path.lower.travel - path.lower.slack if path.lower else path.travel[0]
+        high = path.upper.travel + path.upper.slack if path.upper else path.travel[-1]
         self.at, above = travel.copy(), np.flatnonzero(travel > high)
         self.at[above[travel[above] - self.round >= low]] -= self.round
         self.reached = (self.at >= low) & (self.at <= high)
         self.limits = [limit for limit in (path.lower, path.upper) if limit]
-        self.stops: dict[int, Limit] = {}
+        self.stops, self.knots = [], self.at == 0
         for limit in self.limits:
             there = np.abs(self.at - limit.travel) <= limit.slack
             self.at[there] = limit.travel
-            self.stops |= dict.fromkeys(map(int, np.flatnonzero(there)), limit)
-        self.knots = self.at == 0
-        self.knots[list(self.stops)] = True
+            self.stops.append((limit, there))
+            self.knots |= there
 
-    def faults(self, failures: dict[int, Failure]) -> dict[int, str]:
-        """One line for each pose that is not reached, or is a limit, by its place; `failures` could not be placed."""
-        beyond = map(int, np.flatnonzero(~self.reached))
-        lines = {i: self._stopped(limit) for i, limit in self.stops.items()}
-        lines |= {i: f"{_links(failure.part)} cannot be assembled: {failure.why}" for i, failure in failures.items()}
-        lines |= {i: self._beyond(i, lines.get(i)) for i in beyond}
-        return {i: f"at {told(self.scene, self.travel[i])}: {lines[i]}" for i in sorted(lines)}
+    def faults(self, failures: Sequence[tuple[Failure, Array]]) -> dict[int, str]:
+        """One line for each pose that is not reached, or is a limit, by its place.
 
-    def _stopped(self, limit: Limit) -> str:
-        """What is to be said of a pose at a limit."""
-        lost = "the drive does not say how they move on" if limit.change else "they have no velocities"
-        return f"{_links(limit.part)} {'are' if len(limit.part) > 1 else 'is'} in a {limit.kind}: {lost}"
+        `failures` could not be placed, each in these poses; of several the first counts.
+        """
+        reasons, which = [""], np.zeros(len(self.travel), dtype=int)
 
-    def _beyond(self, i: int, reason: str | None) -> str:
-        """What is to be said of a pose beyond a limit: the nearer one, if there are two."""
-        places = {limit: limit.travel + (self.round if limit.travel < 0 else 0.0) for limit in self.limits}
-        limit = min(self.limits, key=lambda one: abs(places[one] - self.travel[i]))
-        reason = reason or f"{_links(limit.part)} cannot come there from the given pose"
-        return f"{reason} ({limit.kind} near {told(self.scene, places[limit], 4)})"
+        def because(reason: str, poses: Array) -> None:
+            reasons.append(reason)
+            which[poses] = len(reasons) - 1
+
+        for limit, poses in self.stops:
+            because(_stopped(limit), poses)
+        for failure, poses in reversed(failures):
+            because(f"{_links(failure.part)} cannot be assembled: {failure.why}", poses)
+        for limit, beyond in self._beyond():
+            for k in np.unique(which[beyond]):
+                reason = reasons[k] or f"{_links(limit.part)} cannot come there from the given pose"
+                because(f"{reason} ({limit.kind} near {told(self.scene, self._place(limit), 4)})",
+                        beyond & (which == k))
+        unit, name = travel_unit(self.scene)
+        poses = np.flatnonzero(which)
+        at = zip(poses.tolist(), (self.travel[poses] / unit).tolist(), which[poses].tolist(), strict=True)
+        return {i: f"at {travel:.6g} {name}: {reasons[k]}" for i, travel, k in at}
+
+    def _place(self, limit: Limit) -> float:
+        """Where a limit is on the way round."""
+        return limit.travel + (self.round if limit.travel < 0 else 0.0)
+
+    def _beyond(self) -> Iterator[tuple[Limit, Array]]:
+        """Each limit, with the mask of the poses that are not reached and to which it is the nearest."""
+        apart = np.abs([self._place(limit) - self.travel for limit in self.limits])
+        for i, limit in enumerate(self.limits):
+            yield limit, ~self.reached & (np.argmin(apart, axis=0) == i)
+
+
+def _stopped(limit: Limit) -> str:
+    """What is to be said of a pose at a limit."""
+    lost = "the drive does not say how they move on" if limit.change else "they have no velocities"
+    return f"{_links(limit.part)} {'are' if len(limit.part) > 1 else 'is'} in a {limit.kind}: {lost}"
 
 
 def _links(names: tuple[str, ...]) -> str:

@@ -14,8 +14,11 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
-from graphplan.cycle import Turn, continuation, follow
-from graphplan.cycle import positions as placing
+from graphplan.cycle import Turn, follow
+from graphplan.cycle.dyads import assembled
+from graphplan.cycle.groups import Group
+from graphplan.cycle.linkage import Linkage
+from graphplan.cycle.travel import paces
 from graphplan.errors import Refused, SceneError
 from graphplan.mechanism.model import FRAME, Scene, SlidingDrive
 from graphplan.mechanism.scene import packaged
@@ -151,38 +154,28 @@ def test_random_cycles_hold_together(group: str) -> None:
 
 
 @pytest.mark.parametrize("group", DYADS)
-def test_compass_rules_place_dyads_as_newton_does(group: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Each of the five dyads is placed by its compass rule where its loop equations put it."""
+def test_compass_rules_place_dyads_as_newton_does(group: str) -> None:
+    """Each of the five dyads is assembled by its compass rule where its closure puts it, in every pose of the path."""
     for scene in sound(group, 2):
-        drawn = follow(scene, 48)
-        with monkeypatch.context() as patch:
-            patch.setattr(placing, "dyad", lambda linkage, part: None)
-            assert_same(drawn, follow(scene, 48), scene)
+        turn, linkage = follow(scene, 48), Linkage(scene, paces(scene))
+        origins = {FRAME: linkage.origins[FRAME]}
+        groups = [Group(linkage, part, origins) for part in linkage.parts]
+        placed, failures = assembled(linkage, groups, turn.travel)
+        assert placed.keys() == set(scene.links)
+        on = reached(turn)
+        assert not any(missing[on].any() for _, missing in failures)
+        for point, links in scene.links_of.items():
+            gap = placed[links[0]].at(place(scene, point)) - turn.points[point]
+            assert np.all(np.abs(gap[on]) <= 1e-9 * extent(scene)), (group, point)
 
 
-def walked(scene: Scene, positions: int) -> Turn:
-    """The cycle with its path walked step by step from the given pose."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(continuation.Continuation, "_at_once", lambda self, start, goal: start)
-        return follow(scene, positions)
-
-
-@pytest.mark.parametrize("name", ["four-bar", "shaper", "alt-eight-link-2", "five-bar"])
-def test_a_full_turn_is_found_at_once(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
-    """A crank that turns all the way needs no walking, and gets the poses to which a walk would lead."""
-    scene = gp.load(name)
-    by_steps = walked(scene, 90)
-    monkeypatch.delattr(continuation.Continuation, "_corrected")
-    assert_same(follow(scene, 90), by_steps, scene)
-
-
-@pytest.mark.parametrize("name", ["triad", "stephenson", "class-four"])
-def test_a_path_is_walked_from_where_it_is_uncertain(name: str) -> None:
-    """Up to a limit the path is the one that is walked from its beginning, and ends in the same limits."""
-    scene = gp.load(name)
-    found, by_steps = follow(scene, 90), walked(scene, 90)
-    assert found.faults == by_steps.faults
-    assert_same(found, by_steps, scene)
+@pytest.mark.parametrize("scene", [gp.load("alt-eight-link-2"), gp.load("shaper"), four_bar(50, 40, 45, 60, 30)],
+                         ids=["turning", "sliding", "rocking"])
+def test_many_poses_are_placed_as_few_are(scene: Scene) -> None:
+    """Thousands of poses, block after block, hold together as well as a few, and contain the same."""
+    many = follow(scene, 4500)
+    assert_holds_together(scene, many)
+    assert_same(follow(scene, 45), many, scene, every=100)
 
 
 @pytest.mark.parametrize("short", [2**-4, 2**-12, 2**-20])
@@ -195,17 +188,6 @@ def test_a_gap_between_two_positions_stops_the_motion(short: float) -> None:
     apart = np.abs(np.degrees(turn.travel) + angle - 180)
     assert np.min(apart) > 180 - math.degrees(reach)  # the gap lies between two positions
     assert set(reached(turn)) == set(np.flatnonzero(np.degrees(turn.travel) + angle < math.degrees(reach)))
-
-
-@pytest.mark.parametrize("scene", [gp.load("four-bar"), gp.load("shaper"), four_bar(50, 40, 45, 60, 30)],
-                         ids=["turning", "sliding", "rocking"])
-def test_many_poses_are_placed_as_few_are(scene: Scene, monkeypatch: pytest.MonkeyPatch) -> None:
-    """Replayed for many poses, dyads come to lie where their rules put them, to the last bit; faults are the same."""
-    many = follow(scene, 9000)
-    monkeypatch.setattr(placing, "_taped", lambda placer, carrying: placer)
-    by_rules = follow(scene, 9000)
-    assert many.faults == by_rules.faults
-    assert all(np.array_equal(many.points[p], by_rules.points[p], equal_nan=True) for p in scene.points)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "alt-eight-link-2", "double-butterfly"])

@@ -117,6 +117,10 @@ class Tape:
         self.questions[Question(a, None)] = None
         return self._entered("sqrt", a)
 
+    def root(self, a: int) -> Symbol:
+        """The square root of what is never negative: nothing is asked."""
+        return self._entered("sqrt", a)
+
     def sign(self, a: int, scale: int) -> Symbol:
         return self._entered("sign", a, scale)
 
@@ -176,6 +180,10 @@ class Symbol:
 
     def __abs__(self) -> Symbol:
         return self.tape.abs(self.place)
+
+    def root(self) -> Symbol:
+        """The square root, of a sum of squares."""
+        return self.tape.root(self.place)
 
     def __bool__(self) -> bool:
         raise TypeError("a rule may not branch on a number: ask the domain")

@@ -1,0 +1,391 @@
+"""The closure of one group in any numbers: how links lie, what their pairs leave open, and Newton's step to close them.
+
+The unknowns are angles of links and displacements of slides: seen from the links placed before, each link's base is a
+point of another link, or lies off it along a guide (a spanning tree of the group's pairs). What pairs are left over
+close the loops, in as many equations as there are unknowns.
+
+The step is a sparse QR factorisation by plane rotations (Givens 1958): stable in any order, so that the order is that
+of the structure alone, and no number is asked anything on the way. The first rotations turn each loop's two equations
+along a link and across it, so that they hold for any pose.
+
+All is straight-line arithmetic: floats, arrays and the symbols of a tape go through the same lines.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, field
+from functools import lru_cache
+from itertools import count
+from typing import Any, NamedTuple
+
+from graphplan.kernel.tape.record import Symbol, Symbols, function
+from graphplan.mechanism.plane import dot, less, plus, times, turned
+
+RESIDUE, TRAVEL = -1, -2
+"""Columns of an equation beside those of the unknowns: what it leaves open, and its change with the travel."""
+
+_TINY = 1e-150
+"""Stands for a pivot that is nothing: a rotation is one then, too."""
+
+NOTHING = 1e-140
+"""A determinant below it has such a pivot."""
+
+Vector = tuple[Any, Any]
+
+Moves = dict[int, Any]
+"""The derivatives of a vector or a number, by column."""
+
+Row = dict[int, Any]
+
+
+class Spin(NamedTuple):
+    """A link turns as the link `on` does and a drive has it; without `on` its angle is unknown."""
+
+    link: int
+    on: int | None
+    drive: int | None = None
+
+
+class Seat(NamedTuple):
+    """A link's base is the point of the link `on` at an arm.
+
+    Or it lies off it along `way`, fixed to the link `guide`, by a drive or an unknown displacement. Without `on` both
+    its coordinates are unknown. Arms and ways are told by their places among the arms; an arm of no length is none.
+    """
+
+    link: int
+    on: int | None = None
+    arm: int | None = None
+    guide: int | None = None
+    way: int | None = None
+    drive: int | None = None
+
+
+class Closing(NamedTuple):
+    """The arms of two links end in one point.
+
+    With a guide, only the component of the gap along a way that is fixed to it is what a drive has it, or nothing.
+    """
+
+    link: int
+    arm: int | None
+    on: int
+    rest: int | None
+    guide: int | None = None
+    way: int | None = None
+    drive: int | None = None
+
+
+class Layout(NamedTuple):
+    """The structure of a group, which says all but its numbers; links are told by their places, 0 is the frame.
+
+    `known` links are placed before. The unknowns are the angles in the order of `spins`, then what the seats ask for.
+    `turnings` are spins that close a loop.
+    """
+
+    known: int
+    arms: int
+    drives: tuple[bool, ...]
+    spins: tuple[Spin, ...]
+    seats: tuple[Seat, ...]
+    closings: tuple[Closing, ...]
+    turnings: tuple[Spin, ...]
+
+    @property
+    def angles(self) -> int:
+        """How many unknowns are angles."""
+        return sum(spin.on is None for spin in self.spins)
+
+    @property
+    def unknowns(self) -> int:
+        """How many unknowns there are."""
+        return self.angles + sum(2 if seat.on is None else seat.way is not None and seat.drive is None
+                                 for seat in self.seats)
+
+
+class Drive(NamedTuple):
+    """Where a drive is: the cosine and sine of its angle, or its length; and its rate by the travel, if asked for."""
+
+    at: Any
+    rate: Any
+
+
+@dataclass
+class Body:
+    """A link in a pose: its base and its turn, a vector of length 1, or none where it does not turn.
+
+    `moves` and `spin` are their derivatives, the turn's as angles.
+    """
+
+    base: Vector = (0.0, 0.0)
+    turn: Vector | None = None
+    moves: Moves = field(default_factory=dict)
+    spin: Moves = field(default_factory=dict)
+
+    def at(self, arm: Vector | None) -> tuple[Vector, Moves]:
+        """The link's point at an arm, and how it moves."""
+        if arm is None:
+            return self.base, self.moves
+        lever = rotated(self.turn, arm)
+        return plus(self.base, lever), _sum(self.moves, _swung(self.spin, lever)) if self.spin else self.moves
+
+
+class Step(NamedTuple):
+    """Newton's step: what is to be taken from each unknown, their rates, and the determinant of the derivatives."""
+
+    corrections: list[Any]
+    rates: list[Any]
+    determinant: Any
+
+
+def rotated(turn: Any, vector: Any) -> Any:
+    """A vector turned as a link is."""
+    return vector if turn is None else (turn[0] * vector[0] - turn[1] * vector[1],
+                                        turn[1] * vector[0] + turn[0] * vector[1])
+
+
+def bodies(layout: Layout, known: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive],
+           state: Sequence[Any], moving: bool = True) -> list[Body]:
+    """All links, those of the group after the known ones; in `state` an unknown angle is its cosine and sine.
+
+    If they are not `moving`, derivatives by angles are left out.
+    """
+    links = [*known, *(Body() for _ in layout.spins)]
+    unknown = iter(enumerate(state))
+    for spin in layout.spins:
+        link = links[spin.link]
+        if spin.on is None:
+            i, link.turn = next(unknown)
+            link.spin = {i: None} if moving else {}
+            continue
+        on = links[spin.on]
+        link.turn, link.spin = on.turn, on.spin
+        if spin.drive is not None:
+            angle, rate = drives[spin.drive]
+            link.turn, link.spin = rotated(on.turn, angle), _sum(on.spin, _driven(rate))
+    for seat in layout.seats:
+        _seat(links, seat, arms, drives, unknown)
+    return links
+
+
+def _seat(links: Sequence[Body], seat: Seat, arms: Sequence[Vector], drives: Sequence[Drive],
+          unknown: Iterator[tuple[int, Any]]) -> None:
+    """Put a link on another."""
+    link = links[seat.link]
+    if seat.on is None:
+        (i, x), (j, y) = next(unknown), next(unknown)
+        link.base, link.moves = plus(_arm(arms, seat.arm) or (0.0, 0.0), (x, y)), {i: (1.0, 0.0), j: (0.0, 1.0)}
+        return
+    link.base, link.moves = links[seat.on].at(_arm(arms, seat.arm))
+    if seat.way is None or seat.guide is None:
+        return
+    guide = links[seat.guide]
+    ray = rotated(guide.turn, arms[seat.way])
+    if seat.drive is None:
+        i, far = next(unknown)
+        moves = {i: ray}
+    else:
+        far, rate = drives[seat.drive]
+        moves = {k: times(w, ray) for k, w in _driven(rate).items()}
+    off = times(far, ray)
+    link.base = plus(link.base, off)
+    link.moves = _sum(_sum(link.moves, _swung(guide.spin, off)), moves)
+
+
+def _swung(spin: Moves, lever: Vector) -> Moves:
+    """How the end of a lever moves that turns so."""
+    across = turned(lever) if spin else lever
+    return {k: across if w is None else times(w, across) for k, w in spin.items()}
+
+
+def _driven(rate: Any) -> Moves:
+    """The derivative of what is driven; none where nobody asks for rates."""
+    return {} if rate is None else {TRAVEL: rate}
+
+
+def _arm(arms: Sequence[Vector], place: int | None) -> Vector | None:
+    return None if place is None else arms[place]
+
+
+def left_open(layout: Layout, links: Sequence[Body], arms: Sequence[Vector], drives: Sequence[Drive]) -> list[Row]:
+    """What the pairs that seat no link leave open in a pose in which the links lie so."""
+    rows = [row for closing in layout.closings for row in _closed(links, closing, arms, drives)]
+    return rows + [_turned(links, turning, drives) for turning in layout.turnings]
+
+
+def _closed(links: Sequence[Body], closing: Closing, arms: Sequence[Vector], drives: Sequence[Drive]) -> Iterator[Row]:
+    """What a pair leaves open."""
+    place, moves = links[closing.link].at(_arm(arms, closing.arm))
+    other, others = links[closing.on].at(_arm(arms, closing.rest))
+    gap, moves = less(place, other), _difference(moves, others)
+    if closing.guide is None or closing.way is None:
+        for i in range(2):
+            yield {RESIDUE: gap[i], **{k: move[i] for k, move in moves.items()}}
+        return
+    guide = links[closing.guide]
+    ray = rotated(guide.turn, arms[closing.way])
+    swing = dot(turned(ray), gap)
+    row = _sum({k: dot(ray, move) for k, move in moves.items()},
+               {k: swing if w is None else w * swing for k, w in guide.spin.items()})
+    left = dot(ray, gap)
+    if closing.drive is not None:
+        far, rate = drives[closing.drive]
+        left, row = left - far, _sum(row, {k: -w for k, w in _driven(rate).items()})
+    yield {RESIDUE: left, **row}
+
+
+def _turned(links: Sequence[Body], turning: Spin, drives: Sequence[Drive]) -> Row:
+    """What a pair leaves open that holds a link's turning to another's."""
+    link, on = links[turning.link], links[turning.on or 0]
+    rest, spin = on.turn or (1.0, 0.0), on.spin
+    if turning.drive is not None:
+        angle, rate = drives[turning.drive]
+        rest, spin = rotated(on.turn, angle), _sum(spin, _driven(rate))
+    mirrored = rest[0], -rest[1]
+    cos, sin = rotated(link.turn or (1.0, 0.0), mirrored)
+    apart = _sum({k: 1.0 if w is None else w for k, w in link.spin.items()},
+                 {k: -1.0 if w is None else -w for k, w in spin.items()})
+    return {RESIDUE: sin, **{k: cos * w for k, w in apart.items()}}
+
+
+def _sum(one: Moves, other: Moves) -> Moves:
+    """The sum of two sets of derivatives, of vectors or of numbers."""
+    found = dict(one)
+    for k, b in other.items():
+        a = found.get(k)
+        found[k] = b if a is None else plus(a, b) if isinstance(a, tuple) else a + b
+    return found
+
+
+def _difference(one: Moves, other: Moves) -> Moves:
+    """The difference of two sets of derivatives of vectors."""
+    found = dict(one)
+    for k, (x, y) in other.items():
+        found[k] = less(found[k], (x, y)) if k in found else (-x, -y)
+    return found
+
+
+# ---- solved by plane rotations ---------------------------------------------------------------------------------------
+
+
+def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
+    """Newton's step for so many unknowns, from what is left open."""
+    left, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
+    free = set(range(width))
+    while free:
+        column = min(free, key=lambda j: (sum(j in row for row in left), j))
+        pivot, *others = sorted((row for row in left if column in row),
+                                key=lambda row: sum(j >= 0 for j in row))
+        left = [row for row in left if column not in row]
+        for other in others:
+            pivot, rest = _cleared(pivot, other, column, sqrt)
+            left.append(rest)
+        free.remove(column)
+        pivots.append((column, pivot))
+        determinant = determinant * pivot[column]
+    corrections, rates = (_substituted(pivots, side) for side in (RESIDUE, TRAVEL))
+    return Step(corrections, [-rate for rate in rates], determinant)
+
+
+def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
+    """Two rows rotated so that the second has nothing in a column."""
+    a, b = one[column] + _TINY, two[column]
+    size = sqrt(a * a + b * b)
+    cos, sin = a / size, b / size
+    first: Row = {column: size}
+    second: Row = {}
+    for k in dict.fromkeys([*one, *two]):
+        x, y = one.get(k), two.get(k)
+        if k == column:
+            continue
+        if y is None:
+            first[k], second[k] = cos * x, -(sin * x)
+        elif x is None:
+            first[k], second[k] = sin * y, cos * y
+        else:
+            first[k], second[k] = cos * x + sin * y, cos * y - sin * x
+    return first, second
+
+
+def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
+    """Back substitution for one right-hand side."""
+    found: Row = {}
+    for column, row in reversed(pivots):
+        value = row.get(side, 0.0)
+        for k, weight in row.items():
+            if k in found:
+                value = value - weight * found[k]
+        found[column] = value / row[column]
+    return [found[column] for column in range(len(pivots))]
+
+
+def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
+    """The state less the corrections; an angle is turned back by Cayley's formula, right to second order."""
+    found = list(state)
+    for i, correction in enumerate(corrections):
+        if i < layout.angles:
+            half = 0.5 * correction
+            square = half * half
+            size = 1.0 + square
+            found[i] = rotated(state[i], ((1.0 - square) / size, -correction / size))
+        else:
+            found[i] = state[i] - correction
+    return found
+
+
+# ---- recorded: one call for one pose ---------------------------------------------------------------------------------
+
+
+class Corrected(NamedTuple):
+    """One pose, corrected: as Newton's step has it, and how each link of the group lies then and moves.
+
+    `lies` are base and turn as (x, y, cos, sin), `moves` their rates by the travel as (x, y, angle).
+    """
+
+    corrections: tuple[float, ...]
+    rates: tuple[float, ...]
+    determinant: float
+    lies: tuple[tuple[float, ...], ...]
+    moves: tuple[tuple[float, ...], ...]
+
+
+@lru_cache(maxsize=256)
+def recorded(layout: Layout) -> Callable[..., Any]:
+    """A function that corrects one pose of a group, recorded once for all groups of this structure.
+
+    It reads seven numbers of each known link but the frame (x, y, cos, sin, and the rates of base and angle), the
+    arms, the drives (each with its rate) and the state, and gives the parts of :class:`Corrected`.
+    """
+    tape, number = Symbols().tape, count()
+
+    def new() -> Symbol:
+        return tape.input(f"n{next(number)}")
+
+    def pair() -> Vector:
+        return new(), new()
+
+    known = [Body(), *(Body(pair(), pair(), {TRAVEL: pair()}, {TRAVEL: new()}) for _ in range(layout.known - 1))]
+    arms = [pair() for _ in range(layout.arms)]
+    drives = [Drive(pair() if turns else new(), new()) for turns in layout.drives]
+    state = [pair() if i < layout.angles else new() for i in range(layout.unknowns)]
+    links = bodies(layout, known, arms, drives, state)
+    found = step(left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
+    closed = bodies(layout, known, arms, drives, corrected(layout, state, found.corrections))
+
+    def told(*numbers: Any) -> tuple[int, ...]:
+        return tuple(map(tape.place, numbers))
+
+    def moving(moves: Moves, nothing: Any) -> Any:
+        for k, move in moves.items():
+            rate = 1.0 if k == TRAVEL else found.rates[k]
+            part = rate if move is None else times(rate, move) if isinstance(move, tuple) else rate * move
+            nothing = plus(nothing, part) if isinstance(part, tuple) else nothing + part
+        return nothing
+
+    group = range(layout.known, len(links))
+    lies = tuple(told(*closed[i].base, *(closed[i].turn or (1.0, 0.0))) for i in group)
+    moves = tuple(told(*moving(links[i].moves, (0.0, 0.0)), moving(links[i].spin, 0.0)) for i in group)
+    inputs = [tape.place(tape.input(f"n{i}")) for i in range(next(number))]
+    return function(tape, inputs, (told(*found.corrections), told(*found.rates), tape.place(found.determinant),
+                                   lies, moves))

@@ -1,0 +1,206 @@
+"""The groups of a linkage, each made ready for its closure: which link sits on which, and what closes the loops.
+
+The tree grows breadth first from the links placed before, so that loops are short. A joint, or a slide that is driven
+along its guide, seats a link whole; a slide alone seats it but for its displacement.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.cycle import closure
+from graphplan.cycle.closure import Closing, Corrected, Layout, Seat, Spin
+from graphplan.cycle.linkage import Linkage, direction
+from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.pairs.pair import Along, Turning
+
+Array = Any
+
+NEAR = 1 / 16
+"""The largest first correction, of the step."""
+
+SHRINKING = 1 / 4
+"""The largest further correction, of the one before."""
+
+SETTLED = 2.0**-13
+"""A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
+
+
+class Lies(NamedTuple):
+    """How one link lies, and moves with the travel: floats."""
+
+    at: tuple[float, ...]
+    moves: tuple[float, ...]
+
+
+class Group:
+    """One part of a linkage in its numbers; lengths are counted in reaches.
+
+    `links` are its own, `carriers` those placed before that it needs, but for the frame. `origins` of the links placed
+    so far tell where each base was given, and get those of its own.
+    """
+
+    def __init__(self, linkage: Linkage, part: tuple[str, ...], origins: dict[str, complex]):
+        made = _Maker(linkage, part, origins)
+        self.origins = origins
+        self.part, self.links, self.carriers = part, tuple(made.seated), made.carriers
+        self.layout, self.arms, self._drives = made.layout(), made.arms, made.drives
+        self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
+        self._run = closure.recorded(self.layout)
+        self._flat = [number for arm in self.arms for number in arm]
+
+    # ---- one pose ---------------------------------------------------------------------------------------------
+
+    def corrected(self, placed: Mapping[str, Lies], travel: float, state: Sequence[float]) -> Corrected:
+        """One step of Newton from a state; raises ZeroDivisionError where it is singular."""
+        flat = [number for link in self.carriers for part in placed[link] for number in part]
+        flat += self._flat
+        for turns, rate in self._drives:
+            angle = rate * travel
+            flat += (math.cos(angle), math.sin(angle), rate) if turns else (angle, rate)
+        for angle in state[: self._angles]:
+            flat += math.cos(angle), math.sin(angle)
+        return Corrected(*self._run(*flat, *state[self._angles:]))
+
+    def settled(self, placed: Mapping[str, Lies], travel: float, state: list[float], size: float,
+                ) -> tuple[list[float], Corrected] | None:
+        """The state that closes the group, and the step that led there last; none where it is not to be trusted.
+
+        It is only where the first correction is small beside the `size` of the step that was predicted, and where each
+        further one is small beside the one before.
+        """
+        allowed, settled = NEAR * size, not self.unknowns
+        while True:
+            try:
+                found = self.corrected(placed, travel, state)
+            except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
+                return None
+            far = max(map(abs, found.corrections), default=0.0)
+            if not far <= allowed or abs(found.determinant) < closure.NOTHING:
+                return None
+            state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
+            if settled:
+                return state, found
+            settled = far <= SETTLED * size
+            allowed = NEAR * size if settled else SHRINKING * far
+
+    # ---- many poses -------------------------------------------------------------------------------------------
+
+    def read(self, travel: Array, state: Sequence[Array]) -> tuple[list[closure.Drive], list[Any]]:
+        """The drives of n poses, and their states as the closure has them."""
+        drives = [closure.Drive((np.cos(rate * travel), np.sin(rate * travel)) if turns else rate * travel, None)
+                  for turns, rate in self._drives]
+        return drives, [(np.cos(value), np.sin(value)) if i < self._angles else value for i, value in enumerate(state)]
+
+
+class _Maker:
+    """Finds the layout of one part."""
+
+    def __init__(self, linkage: Linkage, part: tuple[str, ...], origins: dict[str, complex]):
+        self.linkage, self.part, self.origins = linkage, part, origins
+        bonds = [bond for link in part for bond in linkage.bonds[link]]
+        ends = {end for bond in bonds for end in (bond.link, bond.on, getattr(bond, "to", "")) if end}
+        self.carriers = tuple(link for link in linkage.carriers(part) if link in ends and link != FRAME)
+        self.arms: list[tuple[float, float]] = []
+        self.drives: list[tuple[bool, float]] = []
+        self.turnings = [bond for bond in bonds if isinstance(bond, Turning)]
+        self.joints: dict[tuple[str, str, str], list[Along]] = {}
+        for bond in bonds:
+            if isinstance(bond, Along):
+                self.joints.setdefault((bond.link, bond.on, bond.at), []).append(bond)
+        self.seated: list[str] = []
+        seats = list(self._seats())
+        self.place = {link: i for i, link in enumerate((FRAME, *self.carriers, *self.seated))}
+        self.spins = tuple(self._spins())
+        self.seats = tuple(self._seat(*seat) for seat in seats)
+        self.closings = tuple(closing for joint in self.joints.values() for closing in self._closings(joint))
+
+    def layout(self) -> Layout:
+        """What was found."""
+        turnings = tuple(Spin(self.place[bond.link], self.place[bond.on], self._drive(True, float(bond.rate)))
+                         for bond in self.turnings)
+        return Layout(1 + len(self.carriers), len(self.arms), tuple(turns for turns, _ in self.drives), self.spins,
+                      self.seats, self.closings, turnings)
+
+    def _spins(self) -> Iterator[Spin]:
+        """How each link turns: with one that is known to turn, or else by an unknown angle."""
+        known, left = {FRAME, *self.carriers}, dict.fromkeys(self.seated)
+        while left:
+            bond = next((bond for bond in self.turnings if (bond.link in known) != (bond.on in known)), None)
+            link = next(iter(left)) if bond is None else bond.link if bond.on in known else bond.on
+            del left[link]
+            known.add(link)
+            if bond is None:
+                yield Spin(self.place[link], None)
+                continue
+            self.turnings.remove(bond)
+            other, rate = (bond.on, float(bond.rate)) if link == bond.link else (bond.link, -float(bond.rate))
+            yield Spin(self.place[link], self.place[other], self._drive(True, rate))
+
+    def _seats(self) -> Iterator[tuple[str, list[Along]]]:
+        """Each link with the pair that seats it, the whole ones first; none where no pair does."""
+        placed = {FRAME, *self.carriers}
+        while len(self.seated) < len(self.part):
+            whole, half = ([(key, joint) for key, joint in self.joints.items()
+                            if len(joint) == size and (joint[0].link in placed) != (joint[0].on in placed)
+                            and (size > 1 or not joint[0].rate)] for size in (2, 1))
+            found: dict[str, list[Along]] = {}
+            for key, joint in whole or half[:1]:
+                link = joint[0].on if joint[0].link in placed else joint[0].link
+                if link not in found:
+                    found[link] = self.joints.pop(key)
+            if not found:
+                found[next(link for link in self.part if link not in placed)] = []
+            placed.update(found)
+            self.seated += found
+            for link, joint in found.items():
+                at = joint[0].at if joint else ""
+                self.origins[link] = self.linkage.places[at] if at else self.linkage.origins[link]
+                yield link, joint
+
+    def _seat(self, link: str, joint: Sequence[Along]) -> Seat:
+        """A link on the pair that seats it."""
+        if not joint:
+            return Seat(self.place[link], arm=self._arm(FRAME, self.linkage.origins[link]))
+        bond = max(joint, key=lambda bond: bool(bond.rate))
+        on = bond.on if link == bond.link else bond.link
+        seat = Seat(self.place[link], self.place[on], self._arm(on, self.linkage.places[bond.at]))
+        if len(joint) == 2 and not bond.rate:
+            return seat
+        way = direction(bond) if len(joint) == 2 else -1j * direction(bond)
+        rate = float(bond.rate) * (1 if link == bond.link else -1)
+        drive = self._drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
+        return seat._replace(guide=self.place[bond.to or bond.on], way=self._entered(way), drive=drive)
+
+    def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
+        """What closes a loop: a joint at once, or one statement after another."""
+        bond = joint[0]
+        at = self.linkage.places[bond.at]
+        closing = Closing(self.place[bond.link], self._arm(bond.link, at), self.place[bond.on], self._arm(bond.on, at))
+        if len(joint) == 2 and not any(bond.rate for bond in joint):
+            yield closing
+            return
+        for bond in joint:
+            drive = self._drive(False, float(bond.rate) / self.linkage.reach)
+            yield closing._replace(guide=self.place[bond.to or bond.on], way=self._entered(direction(bond)),
+                                   drive=drive)
+
+    def _arm(self, link: str, place: complex) -> int | None:
+        """The arm from a link's base to a place."""
+        arm = (place - self.origins[link]) / self.linkage.reach
+        return self._entered(arm) if arm else None
+
+    def _entered(self, arm: complex) -> int:
+        self.arms.append((arm.real, arm.imag))
+        return len(self.arms) - 1
+
+    def _drive(self, turns: bool, rate: float) -> int | None:
+        """A drive of this rate; none where it does not move."""
+        if not rate:
+            return None
+        self.drives.append((turns, rate))
+        return len(self.drives) - 1

@@ -88,7 +88,7 @@ def test_other_words_change_no_number(monkeypatch: pytest.MonkeyPatch) -> None:
     before = [drawn(plan) for plan in plans]
     monkeypatch.setattr(Phrase, "__call__", lambda self, *put, **named: Said("nichts", "phrases", self.english, put))
     for module in ("methods.motion.acceleration", "methods.forces.loading", "methods.forces.force_plan",
-                   "methods.forces.lever", "methods.forces.friction", "methods.forces.groups", "methods.draughtsman"):
+                   "methods.forces.friction", "methods.forces.groups", "methods.draughtsman"):
         monkeypatch.setattr(f"graphplan.{module}.said", lambda english, *put, **named: Said("x", "", english, put))
     assert [drawn(plan) for plan in plans] == before
 

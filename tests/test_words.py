@@ -144,9 +144,11 @@ def test_advances_are_those_of_the_font() -> None:
 @pytest.mark.parametrize("code", OTHERS)
 @pytest.mark.parametrize("name", packaged())
 def test_every_scene_can_be_said(name: str, code: str) -> None:
-    """Steps, forms and methods of every scene come out in the language: no English phrase is left among them."""
+    """Steps, stages, forms and methods of every scene come out in the language: no English phrase is left among them.
+    """
     drawing, say = drawing_of(name), tongue(code)
-    told = [*drawing.sentences(), *drawing.forms, *(way for ways in drawing.method.values() for way in ways)]
+    told = [*drawing.sentences(), *drawing.forms, *(way for ways in drawing.method.values() for way in ways),
+            *(words for stage, _ in drawing.drawn.stages for words in (stage.title, stage.law))]
     assert all(isinstance(text, Said) for text in told)
     assert all(say(text) and "{" not in say(text) for text in told)
 

@@ -90,7 +90,7 @@ class Expander:
             self.panel = step.panel
             args = tuple(place[arg] for arg in step.args)
             try:
-                with self.board.on(step.panel, step.links):
+                with self.board.on(step.panel, step.links, step.stage):
                     mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None

@@ -255,6 +255,11 @@ class Choice:
     best: Rating
     others: tuple[Rating, ...]
 
+    @property
+    def form(self) -> str:
+        """The form that is drawn, or of which it is a variant."""
+        return plain(self.best.form)
+
     def __str__(self) -> str:
         return f"{self.compound.name}: {self.best.form}"
 

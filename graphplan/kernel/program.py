@@ -11,11 +11,12 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, NoReturn, Self
+from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive
 from graphplan.kernel.numbers import Domain
+from graphplan.kernel.stages import Stage, Teller
 from graphplan.phrases import Said, arranged, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
@@ -65,8 +66,8 @@ class Step:
     """One drawing step: what it makes (`name`), how (`op`), from which earlier steps (`args`, by index).
 
     `panel` is the plan it is drawn on, `why` the law or purpose, `links` the links of the mechanism it speaks of,
-    `names` the names of marks inside a compound, `choice` the form that begins here and why it is drawn. `name` is
-    empty where the mark has no letter of its own.
+    `stage` tells what it is a part of, `names` are those of marks inside a compound, `choice` the form that begins here
+    and why it is drawn. `name` is empty where the mark has no letter of its own.
     """
 
     index: int
@@ -77,6 +78,7 @@ class Step:
     panel: Panel
     why: str = ""
     links: tuple[str, ...] = ()
+    stage: Teller | None = None
     names: dict[str, str] = field(default_factory=dict)
     choice: Choice | None = None
 
@@ -138,7 +140,7 @@ class Board(Verbs):
     """Records drawing steps; its methods are the primitives of the table.
 
     The same operation on the same marks is drawn once. A step is drawn on the plan of the mark that it is drawn at;
-    :meth:`on` says on which plan points are given, and of which links the steps speak.
+    :meth:`on` says on which plan points are given, of which links the steps speak, and which stage they are a part of.
     """
 
     def __init__(self) -> None:
@@ -146,17 +148,19 @@ class Board(Verbs):
         self.marks: list[Mark] = []
         self._drawn: dict[tuple[Any, ...], Mark] = {}
         self._names: set[str] = set()
-        self._panel, self._links = Panel(), tuple[str, ...]()
+        self._panel, self._links, self._stage = Panel(), tuple[str, ...](), cast(Teller | None, None)
 
     @contextmanager
-    def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None) -> Iterator[None]:
-        """Draw the steps inside on this plan, speaking of these links."""
-        before = self._panel, self._links
+    def on(self, panel: Panel | None = None, links: tuple[str, ...] | None = None,
+           stage: Teller | None = None) -> Iterator[None]:
+        """Draw the steps inside on this plan, speaking of these links, in this stage; what is left out stays."""
+        before = self._panel, self._links, self._stage
         self._panel, self._links = before[0] if panel is None else panel, before[1] if links is None else links
+        self._stage = stage or self._stage
         try:
             yield
         finally:
-            self._panel, self._links = before
+            self._panel, self._links, self._stage = before
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
              names: dict[str, str] | None = None, **params: Any) -> Mark:
@@ -174,7 +178,7 @@ class Board(Verbs):
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             return self.named(same, name)
         panel = read[op.where].panel if read else self._panel
-        step = Step(len(self.steps), "", op, places, params, panel, why, self._links, names or {})
+        step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {})
         mark = Mark(self, step, key)
         self.steps.append(step)
         self.marks.append(mark)
@@ -270,6 +274,25 @@ class Program:
         params = {name: _plain(value) for name, value in step.params.items()}
         marks = [self.text(arg) for arg in step.args]
         return step.op.spoken(marks, out=self.text(index), **params)
+
+    @cached_property
+    def stages(self) -> list[tuple[Stage, list[Step]]]:
+        """The stages in drawing order, each with its steps that come one after the other; steps of none are left out.
+
+        A stage that others interrupt, as where its vectors are brought to another plan, is there once more.
+        """
+        told: dict[Teller, set[str]] = {}
+        for step in self.steps:
+            if step.stage:
+                told.setdefault(step.stage, set()).update([step.choice.form] if step.choice else ())
+        said = {teller: teller(forms) for teller, forms in told.items()}
+        found: list[tuple[Stage, list[Step]]] = []
+        for step in self.steps:
+            if step.stage and found and found[-1][0] == said[step.stage]:
+                found[-1][1].append(step)
+            elif step.stage:
+                found.append((said[step.stage], [step]))
+        return found
 
     def told(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""

@@ -7,6 +7,7 @@ its turning from another; one that such pairs tie to the frame has what the driv
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from itertools import combinations
 from typing import NamedTuple
 
@@ -138,7 +139,8 @@ class Draughtsman:
                 self.read(kind, link, given=given)
                 continue
             if (group := frozenset(alike)) not in cheapest:
-                side = cheapest[group] = self._cheapest(plan, link, needed)
+                with self.board.on(stage=partial(plan.stages.rate, link)):
+                    side = cheapest[group] = self._cheapest(plan, link, needed)
                 needed |= needed_steps(self.board, side.marks, needed)
             side = cheapest[group]
             self.read(kind, link, *side.marks, excess=getattr(alike[side.link], kind))
@@ -158,7 +160,9 @@ class Draughtsman:
         names = self.scene.find.slides
         prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
         for slide in self.net.all_slides:
-            if slide.at in asked if names is None else slide.name in names:
+            if not (slide.at in asked if names is None else slide.name in names):
+                continue
+            with self.board.on(stage=partial(plan.stages.slid, slide)):
                 begin = plan.end_in(slide.along, slide.at)
                 end = plan.end_in(slide.link, slide.at)
                 seat = plan.seat(slide, slide.along, slide.link, slide.at)

@@ -7,14 +7,16 @@ drawing board (Ozols 1974, 10-2; Jaanimets 1966, 14).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Iterable
 from fractions import Fraction
 from functools import partial
 
 from graphplan.kernel.program import Mark
+from graphplan.kernel.stages import Known as Told
+from graphplan.kernel.stages import Teller, Vector
 from graphplan.mechanism.model import Balance, Slide
-from graphplan.methods.forces import statics
-from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, signed
+from graphplan.methods.forces import stages, statics
+from graphplan.methods.forces.free_bodies import FreeBodies, Known, Pair, Shown, Span, reaction_letter, signed
 from graphplan.methods.forces.loading import Acting
 from graphplan.methods.forces.unknown_forces import Part, UnknownForce
 from graphplan.methods.panels import MECHANISM, JointForce, listed
@@ -31,8 +33,46 @@ class ForcePolygon(FreeBodies):
     def draw(self, moves: Iterable[statics.StaticMove]) -> None:
         for move in moves:
             links = tuple(move.part) if not isinstance(move, statics.Pin) else (move.site.link,)
-            with self.board.on(self.panel, tuple(link for link in self.group.links if link in links)):
+            with self.board.on(self.panel, tuple(self._in_order(links)), self._stage(move)):
                 self._draw(move)
+
+    def _stage(self, move: statics.StaticMove) -> Teller:
+        """What is told of a move: the equilibrium that it uses, and what is known of its forces."""
+        match move:
+            case statics.LineFact(part, site, about) | statics.ForceFact(part, site, about):
+                line = isinstance(move, statics.LineFact) and isinstance(site, JointForce)
+                letter = self.letter(site, part="T" if line else "")
+                if isinstance(about, statics.AcrossSlide | statics.AcrossLine):
+                    return partial(stages.across, letter, self._in_order(part))
+                told = Vector(letter, Told.DIRECTION) if line else self.unknown(part, site)
+                return self._moments_of(part, letter, self._where(about), told)
+            case statics.Close(part, Balance(at="") as site):
+                at = self.loading.arm_points(site.link)[0]
+                return self._moments_of(part, self.letter(site), at, self.unknown(part, site))
+            case statics.Close(part, site):
+                return self._closing(part, site)
+            case statics.ClosePolygon(part, one, two):
+                return self._closing(part, one, two)
+            case statics.Pin(site):
+                others = [link for link in self.group.scene.links_of[site.point] if link != site.link]
+                forces = [Vector(reaction_letter(self.forces.scene, site.point, link)) for link in others]
+                return partial(stages.joint, site.point, (*forces, Vector(self.letter(site), Told.NOTHING)))
+            case statics.Assume(site=site):
+                return partial(stages.false_position, self.letter(site))
+
+    def _moments_of(self, part: Part, letter: str, about: str, unknown: Vector) -> Teller:
+        """The moments of the forces on a part, and those of couples."""
+        links = self._in_order(part)
+        couples = [name for link in links for pair in self.couples[link] if (name := pair[0].name)]
+        return partial(stages.moments, letter, links, about, (*self.vectors(part), unknown), couples)
+
+    def _closing(self, part: Part, *sites: UnknownForce) -> Teller:
+        """The polygon that forces close."""
+        forces = *self.vectors(part), *(self.unknown(part, site) for site in sites)
+        return partial(stages.closed, ", ".join(map(self.letter, sites)), self._in_order(part), forces)
+
+    def _in_order(self, part: Collection[str]) -> list[str]:
+        return [link for link in self.group.links if link in part]
 
     def _draw(self, move: statics.StaticMove) -> None:
         match move:
@@ -84,8 +124,8 @@ class ForcePolygon(FreeBodies):
         backwards = base is None and self.group.links[0] in part and self.group.outer(site) and sign > 0
         start, end = self.polygon(part) if base is None else (base, base)
         mark = first = start if backwards else end
-        pole, where, weigh = self._weighing(about, X)
-        why = said("moments of {0} about {1}", listed([link for link in self.group.links if link in part]), where)
+        pole, weigh = self._weighing(about, X)
+        why = said("moments of {0} about {1}", listed(self._in_order(part)), self._where(about))
         for force in self.acting(part, self.others(part, site), site):
             if force.at is not pole:
                 mark = weigh(force.at, *signed((force.tail, force.head), -sign if backwards else sign), mark, why=why)
@@ -93,14 +133,17 @@ class ForcePolygon(FreeBodies):
             return None
         return (mark, first) if backwards else (first, mark)
 
-    def _weighing(self, about: statics.About, X: Mark) -> tuple[Mark | None, str, Callable[..., Mark]]:
-        """The point that moments are taken about, if it is a mark; its words; and how a moment is weighed at X."""
+    def _weighing(self, about: statics.About, X: Mark) -> tuple[Mark | None, Callable[..., Mark]]:
+        """The point that moments are taken about, if it is a mark, and how a moment is weighed at X."""
         if isinstance(about, statics.AtPoint):
             pole = self.pose.points[about.point]
-            return pole, self.pose.spoken(about.point), partial(self.board.balance, pole, X)
+            return pole, partial(self.board.balance, pole, X)
         assert isinstance(about, statics.AtCrossing)
-        weigh = partial(self.board.weigh, *self._lines(about), X, names=self._letters(about))
-        return None, said("the auxiliary point"), weigh
+        return None, partial(self.board.weigh, *self._lines(about), X, names=self._letters(about))
+
+    def _where(self, about: statics.About) -> str:
+        """The point that moments are taken about, in words."""
+        return self.pose.spoken(about.point) if isinstance(about, statics.AtPoint) else said("the auxiliary point")
 
     def _slide_line(self, part: Part, slide: Slide, about: statics.About, sign: int) -> Known:
         """A slide's reaction acts through the point about which nothing else has a moment but the known pair."""
@@ -293,8 +336,9 @@ class ForcePolygon(FreeBodies):
         """Tell the groups that follow what was found here."""
         with self.board.on(self.panel, self.group.links):
             for point in self.group.points:
-                for link in self.group.members(point):
-                    self.forces.joints[point, link] = self._at_joint(point, link)
+                with self.board.on(stage=partial(stages.joint, point)):
+                    for link in self.group.members(point):
+                        self.forces.joints[point, link] = self._at_joint(point, link)
         for site, span in self.ends.items():
             self.forces.shown.append(Shown("balance" if isinstance(site, Balance) else "reaction",
                                            self.letter(site), *span))
@@ -310,7 +354,7 @@ class ForcePolygon(FreeBodies):
             if isinstance(site, Balance) and not site.at:
                 self.forces.moments[site] = pair
                 if pair is not None:
-                    self.forces.shown.append(Shown("balance", f"T_{site.link}", pair[0].tail, pair[0].head))
+                    self.forces.shown.append(Shown("balance", self.letter(site), pair[0].tail, pair[0].head))
 
     def _at_joint(self, point: str, link: str) -> Span:
         """The force on a link at a joint, from the pin: found, or what is left by the others there."""

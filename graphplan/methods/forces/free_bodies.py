@@ -6,12 +6,17 @@ R_12 is the force of link 1 on link 2, and 0 is the frame.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.stages import Known as Told
+from graphplan.kernel.stages import Vector
 from graphplan.mechanism.model import FRAME, Balance, Scene, Slide
 from graphplan.methods.forces.loading import Acting, Loading
+from graphplan.methods.forces.stages import joint, known_forces, line_of_action
 from graphplan.methods.forces.unknown_forces import ForceGroup, Part, UnknownForce, has_line
+from graphplan.methods.motion.stages import begun
 from graphplan.methods.panels import MECHANISM, ForcePlan, JointForce
 from graphplan.methods.poses import Pose
 from graphplan.phrases import said
@@ -92,8 +97,9 @@ def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Spa
         return forces.joints[point, link]
     spans = [forces.joints[point, other][::-1] for other in forces.scene.links_of[point] if other != link]
     first, mark = spans[0]
-    for tail, head in spans[1:]:
-        mark = board.transfer(tail, head, mark)
+    with board.on(stage=partial(joint, point)):
+        for tail, head in spans[1:]:
+            mark = board.transfer(tail, head, mark)
     return first, mark
 
 
@@ -101,6 +107,11 @@ def pair_letter(one: str, other: str) -> str:
     """The letter of the force of one link on another."""
     names = ["0" if name == FRAME else name for name in (one, other)]
     return "R_" + ("" if all(len(name) == 1 for name in names) else ",").join(names)
+
+
+def balance_letter(balance: Balance) -> str:
+    """The letter of a balance: of a force, or of that of a pair for a moment."""
+    return f"{'F' if balance.at else 'T'}_{balance.link}"
 
 
 def reaction_letter(scene: Scene, point: str, link: str) -> str:
@@ -121,18 +132,18 @@ class FreeBodies:
         self.seats: dict[UnknownForce, Mark] = {}
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
-        with board.on(self.panel, group.links):
+        with board.on(self.panel, group.links, partial(begun, str(forces.corners + 1), self.panel.words)):
             self.origin = self.numbered(board.begin(plan=self.panel.words, number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None
-            with board.on(MECHANISM, group.links):
+            with board.on(MECHANISM, group.links, partial(line_of_action, self.letter(site))):
                 at = pose.points[site.at]
                 line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
             self.known[site] = Known(None, line, at)
         for slide in group.scene.slides:
             if has_line(slide) and not group.done.intersection(slide.links) and {*slide.links} & {*group.links}:
-                with board.on(MECHANISM, group.links):
+                with board.on(MECHANISM, group.links, partial(line_of_action, self.letter(slide))):
                     line = board.perpendicular(pose.guide(slide), pose.points[slide.at])
                 self.known[slide] = Known(None, line, pose.points[slide.at])
 
@@ -149,10 +160,11 @@ class FreeBodies:
         """The known forces, link after link, head to tail; couples beside them."""
         corner = self.origin
         for link in self.group.links:
-            self.chains[link] = own = self._in_chain(link, corner)
-            corner = own[-1].head if own else corner
-            couples = list(self.loading.couples(link, corner))
-            self._apply(force for pair in couples for force in pair)
+            with self.board.on(stage=partial(known_forces, link)):
+                self.chains[link] = own = self._in_chain(link, corner)
+                corner = own[-1].head if own else corner
+                couples = list(self.loading.couples(link, corner))
+                self._apply(force for pair in couples for force in pair)
             self.couples[link] = couples + list(self._couples_of_slides(link))
 
     def _apply(self, loads: Iterable[Acting]) -> None:
@@ -224,11 +236,13 @@ class FreeBodies:
             return self.seats[site]
         return self.pose.points[site.point if isinstance(site, JointForce) else site.at]
 
-    def letter(self, site: UnknownForce) -> str:
-        """The letter of a site's force: that of the force of one link on another, or of the balance."""
+    def letter(self, site: UnknownForce, sign: int = 1, part: str = "") -> str:
+        """The letter of a site's force: that of the force of one link on another, or of the balance; or of its part."""
         if isinstance(site, JointForce):
-            return reaction_letter(self.forces.scene, site.point, site.link)
-        return pair_letter(site.along, site.link) if isinstance(site, Slide) else f"F_{site.link}"
+            name = reaction_letter(self.forces.scene, site.point, site.link)
+        else:
+            name = pair_letter(site.along, site.link) if isinstance(site, Slide) else balance_letter(site)
+        return ("-" if sign < 0 else "") + (part + name[1:] if part else name)
 
     def polygon(self, part: Part, extra: Iterable[Acting] = (), but: Iterable[UnknownForce] = ()) -> Span:
         """The open polygon of a part's known forces: where it starts and where it ends."""
@@ -276,6 +290,27 @@ class FreeBodies:
             known = self.known.get(site)
             if known is not None and known.pair is not None and site not in self.ends:
                 yield from signed_pair(known.pair, sign)
+
+    def vectors(self, part: Part) -> list[Vector]:
+        """The known forces on a part, by their letters; that of a force on another link is reversed."""
+        chains = [force.name for link in self.group.links if link in part for force in self.chains[link]]
+        passed = [force.name for point in self.group.passed_on(part) if len(self.group.members(point)) > 1
+                  for force in self.from_done(point)]
+        solved = [self.letter(site, sign) for site, sign in self._solved(part) if site in self.ends]
+        parts = [self.letter(site, sign, "T") for site, sign in self.group.boundary(part) if site not in self.ends
+                 and self._parted(site)]
+        return [Vector(name) for name in (*chains, *passed, *solved, *parts) if name]
+
+    def _parted(self, site: UnknownForce) -> bool:
+        """Whether the part of a force across its line is known apart."""
+        known = self.known.get(site)
+        return known is not None and known.part is not None and known.line is not None
+
+    def unknown(self, part: Part, site: UnknownForce) -> Vector:
+        """The unknown force of a site on a part, by its letter; what is known of it across its line is apart."""
+        known = self.known.get(site)
+        told = Told.NOTHING if known is None or known.line is None else Told.DIRECTION
+        return Vector(self.letter(site, self.sign(part, site), "N" if self._parted(site) else ""), told)
 
     def acts_at(self, site: UnknownForce, known: Known) -> Mark:
         return known.at if known.at is not None else self.seat(site)

@@ -13,11 +13,13 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 from graphplan.kernel.program import Mark
 from graphplan.mechanism.model import FRAME, Friction, Scene, Slide
 from graphplan.mechanism.order import by_name
+from graphplan.methods.forces import stages
 from graphplan.methods.forces.free_bodies import DrawnForces, Span, reaction_on
 from graphplan.methods.forces.loading import Loading
 from graphplan.methods.motion.velocity import Velocity
@@ -89,12 +91,11 @@ class Rubbed:
         tail, head = self._reaction(journal)
         if tail is head:
             return points[at]
-        with self.board.on(MECHANISM, pair):
+        why = said("the friction of the journal {0}, of {1} in {2}", at, *map(link_named, pair))
+        with self.board.on(MECHANISM, pair, partial(stages.journal, why)):
             slip = self.velocity.slip(journal.pin, journal.link, arm)
-            return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'",
-                                    radius=journal.friction.radius * journal.friction.coefficient,
-                                    why=said("the friction of the journal {0}, of {1} in {2}", at,
-                                             *map(link_named, pair)))
+            return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'", why=why,
+                                    radius=journal.friction.radius * journal.friction.coefficient)
 
     def _reaction(self, journal: Journal) -> Span:
         """The force of a journal, in a round or without friction."""
@@ -108,12 +109,11 @@ class Rubbed:
 
     def _leaning(self, slide: Slide, friction: Friction) -> Mark:
         """The guide of a slide, turned by the friction angle."""
-        pose = self.loading.pose
-        with self.board.on(MECHANISM, (slide.link, slide.along)):
+        pose, why = self.loading.pose, said("the friction of the slide {0}", slide_named(slide))
+        with self.board.on(MECHANISM, (slide.link, slide.along), partial(stages.guide, why)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)
             return self.board.lean(pose.guide(slide), pose.points[slide.at], slip, *self.forces.slides[slide],
-                                   coefficient=friction.coefficient,
-                                   why=said("the friction of the slide {0}", slide_named(slide)))
+                                   coefficient=friction.coefficient, why=why)
 
     def stands(self, then: Rubbed, valued: Valued) -> bool:
         """Whether the forces of this round act as they themselves say: so `then` would have them act.

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import cached_property
+from functools import cached_property, partial
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import ordered
 from graphplan.methods import kinds
+from graphplan.methods.forces import stages as told
 from graphplan.methods.forces.force_plan import ForcePolygon
 from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
 from graphplan.methods.forces.friction import rough
@@ -134,7 +135,7 @@ def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Ite
     """Where the reactions of these slides act: from the slide's point along the guide to their lines."""
     for slide in (slide for slide in scene.slides if slide.name in named):
         seat, pair = forces.seats[slide], forces.pairs[slide]
-        with board.on(MECHANISM, (slide.link, slide.along)):
+        with board.on(MECHANISM, (slide.link, slide.along), partial(told.seat, slide)):
             H = seat if pair is None else board.resultant(
                 seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head, name=f"H_{slide.link}",
                 why=said("the reaction of the slide {0} acts here", slide_named(slide)))

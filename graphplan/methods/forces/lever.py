@@ -16,6 +16,7 @@ from collections.abc import Collection, Iterator
 from copy import copy
 from dataclasses import replace
 from fractions import Fraction
+from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.program import Mark
@@ -25,18 +26,19 @@ from graphplan.mechanism.order import ordered_drives
 from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.methods import kinds
 from graphplan.methods.draughtsman import Draughtsman
-from graphplan.methods.forces.free_bodies import Shown, Span, pair_letter
+from graphplan.methods.forces import stages
+from graphplan.methods.forces.free_bodies import Shown, Span, balance_letter, pair_letter
 from graphplan.methods.forces.groups import ForceTransfer, Result, pairs
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.motion.alternatives import ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.stages import begun
 from graphplan.methods.motion.time_scale import Tempo, round_number
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import MECHANISM, JointForce, LeverPlan
 from graphplan.methods.poses import Pose
 from graphplan.methods.styles import Style
-from graphplan.phrases import said
 
 AXES: tuple[Pair, Pair] = (Fraction(1), Fraction(0)), (Fraction(0), Fraction(1))
 
@@ -56,10 +58,9 @@ class Levers:
         for mode, (name, balance) in enumerate(named.items()):
             own = len(drives) == 1 and drives[0].rate
             lever = self._lever(None if own else working(self.scene, mode),
-                                LeverPlan.of(None if len(named) == 1 else mode + 1))
+                                LeverPlan.of(None if len(named) == 1 else mode + 1), balance_letter(balance))
             marks = lever.force(balance) if balance.at else lever.turning(balance.link)
-            self._found(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks,
-                        "balance", f"{'F' if balance.at else 'T'}_{balance.link}")
+            self._found(lever, kinds.balance_kind(kinds.BY_LEVER, balance), name, marks, "balance")
         return self
 
     def reactions(self, asked: Collection[str]) -> Levers:
@@ -70,12 +71,11 @@ class Levers:
                 self._joint(JointForce(point, link), pin)
         for slide in self.scene.slides:
             if slide.name in asked and slide.name not in scene.indeterminate_pairs:
-                lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of(slide, "F"))
-                self._found(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide),
-                            "reaction", pair_letter(slide.along, slide.link))
-                lever = self._lever(freed_turning(self.scene, slide), LeverPlan.of(slide, "M"))
-                self._found(lever, kinds.SLIDE_MOMENT, slide.name, lever.turning(slide.link, slide.along),
-                            "reaction", f"M_{slide.link}")
+                lever = self._lever(freed_slide(self.scene, slide), LeverPlan.of(slide, "F"),
+                                    pair_letter(slide.along, slide.link))
+                self._found(lever, kinds.SLIDE_REACTION, slide.name, lever.off_guide(slide), "reaction")
+                lever = self._lever(freed_turning(self.scene, slide), LeverPlan.of(slide, "M"), f"M_{slide.link}")
+                self._found(lever, kinds.SLIDE_MOMENT, slide.name, lever.turning(slide.link, slide.along), "reaction")
         return self
 
     def _joint(self, force: JointForce, pin: str) -> None:
@@ -83,22 +83,21 @@ class Levers:
         spans = []
         for axis, letter in zip(AXES, "xy", strict=True):
             lever = self._lever(freed_joint(self.scene, force.point, force.link, pin, axis),
-                                LeverPlan.of(force, letter))
+                                LeverPlan.of(force, letter), f"R_{letter}")
             spans.append(lever.across(force.point, force.link, pin))
-            self.shown += [*lever.shown, Shown("reaction", f"R_{letter}", *spans[-1])]
+            self.shown += [*lever.shown, Shown("reaction", lever.letter, *spans[-1])]
         (tail, corner), other = spans
-        with self.pose.board.on(lever.panel):
+        with self.pose.board.on(lever.panel, stage=lever.stage):
             self.results.append((kinds.REACTION, force.name, (tail, self.pose.board.transfer(*other, corner))))
 
-    def _found(self, lever: Lever, kind: kinds.ResultKind, name: str, marks: tuple[Mark, ...],
-               shown: str, letter: str) -> None:
+    def _found(self, lever: Lever, kind: kinds.ResultKind, name: str, marks: tuple[Mark, ...], shown: str) -> None:
         self.results.append((kind, name, marks))
-        self.shown += [*lever.shown, Shown(shown, letter, *marks[-2:])]
+        self.shown += [*lever.shown, Shown(shown, lever.letter, *marks[-2:])]
 
-    def _lever(self, assumed: Assumed | None, panel: LeverPlan) -> Lever:
-        """The lever of an assumed motion, or of the scene's own."""
+    def _lever(self, assumed: Assumed | None, panel: LeverPlan, letter: str) -> Lever:
+        """The lever of an assumed motion, or of the scene's own, for a force or moment of this letter."""
         if assumed is None:
-            return Lever(self.velocity, self.loading, panel, {})
+            return Lever(self.velocity, self.loading, panel, {}, letter)
         if panel not in self.plans.planners:
             self.plans.planners[panel] = planned(assumed.scene)
         own, planner = copy(self.pose), self.plans.planners[panel]
@@ -106,19 +105,26 @@ class Levers:
         renamed = {new: self.pose.points[old] for (_, old), new in assumed.renamed.items()}
         own.points = ChainMap(renamed, self.pose.standing)
         velocity = Orthogonal(self.pose.board, planner.net, own, Tempo(Fraction(1)))
+        velocity.stages = replace(velocity.stages, purpose=panel.words)
         with self.pose.board.on(MECHANISM):
             velocity.draw(planner.moves)
-        return Lever(velocity, self.loading, panel, assumed.renamed)
+        return Lever(velocity, self.loading, panel, assumed.renamed, letter)
 
 
 class Lever:
-    """One lever: the loads of a scene at the ends of one set of velocities, on a panel of its own."""
+    """One lever: the loads of a scene at the ends of one set of velocities, on a panel of its own.
 
-    def __init__(self, velocity: Velocity, loading: Loading, panel: LeverPlan, renamed: dict[tuple[str, str], str]):
+    `letter` is that of the force or moment which it tells.
+    """
+
+    def __init__(self, velocity: Velocity, loading: Loading, panel: LeverPlan, renamed: dict[tuple[str, str], str],
+                 letter: str):
         self.board, self.velocity, self.loading, self.panel = loading.board, velocity, loading, panel
-        self.renamed = renamed
+        self.renamed, self.letter = renamed, letter
         self.shown: list[Shown] = []
-        with self.board.on(panel):
+        self.loads: list[str] = []
+        self.stage = partial(stages.lever, panel, letter, self.loads)
+        with self.board.on(panel, stage=partial(begun, "o", panel.words)):
             self.pole = self.board.begin(plan=panel.words, number=1, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
@@ -164,14 +170,15 @@ class Lever:
         mark = X
         for force in self.forces():
             self.shown.append(Shown("load", force.name, force.tail, force.head))
+            self.loads.append(force.name)
             mark = self.board.balance(self.pole, X, force.at, force.tail, force.head, mark,
-                                      why=said("moments about the pole balance, since powers do"))
+                                      why=stages.POWERS)
         return mark
 
     def turning(self, link: str, on: str = FRAME) -> tuple[Mark, ...]:
         """The moment on a link that turns on another, as a pair of forces: a pole, a point, tail and head."""
         P, R = names = self.loading.arm_points(link)
-        with self.board.on(self.panel, (link,)):
+        with self.board.on(self.panel, (link,), self.stage):
             X = self._relative(*(self.end(link, point) for point in names))
             if on != FRAME:
                 X = self._relative(self._relative(*(self.end(on, point) for point in names)), X)
@@ -181,7 +188,7 @@ class Lever:
     def force(self, balance: Balance) -> Span:
         """The balancing force of known line."""
         assert balance.direction is not None
-        with self.board.on(self.panel, (balance.link,)):
+        with self.board.on(self.panel, (balance.link,), self.stage):
             X = self.end(balance.link, balance.at)
             dx, dy = balance.direction
             return self._along(X, self.board.guide(X, dx=dx, dy=dy))
@@ -192,14 +199,14 @@ class Lever:
 
     def across(self, point: str, link: str, pin: str) -> Span:
         """The force on a link at a freed pin, along the direction in which it may move there."""
-        with self.board.on(self.panel, (link,)):
+        with self.board.on(self.panel, (link,), self.stage):
             X = self._relative(self.end(pin, point), self.end(link, point))
             return X, self._held(X)
 
     def off_guide(self, slide: Slide) -> Span:
         """The force on a sliding link that may leave its guide."""
         guide = self.velocity.pose.guide(slide)
-        with self.board.on(self.panel, (slide.link,)):
+        with self.board.on(self.panel, (slide.link,), self.stage):
             X = self._relative(self.end(slide.along, slide.at), self.end(slide.link, slide.at))
             return self._along(X, self.board.perpendicular(guide, X))
 

@@ -15,6 +15,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
 from graphplan.mechanism.order import by_name, ordered
 from graphplan.mechanism.units import inertia, metre, weight
+from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.time_scale import apart, round_number, tempo
@@ -112,9 +113,10 @@ class Loading:
         name, points = _replaced(link), self.pose.standing
         if name not in points:
             home, end, P, R, tip = self._couple_of(link, mass, radius2)
-            points[name] = self.board.resultant(
-                points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
-                why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
+            with self.board.on(stage=partial(stages.inertia, link)):
+                points[name] = self.board.resultant(
+                    points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
+                    why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
         return name
 
     def _couple_of(self, link: str, mass: Mass, radius2: Number) -> tuple[Mark, Mark, Mark, Mark, Mark]:
@@ -122,9 +124,10 @@ class Loading:
         the second, from that end; both for a mass of one."""
         assert self.motion is not None
         one, two = self.arm_points(link)
-        home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
-        P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
-        return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
+        with self.board.on(stage=partial(stages.inertia, link)):
+            home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
+            P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
+            return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
 
     def shifts(self) -> Iterator[tuple[str, tuple[Mark, ...]]]:
         """Of each link whose inertia force is shifted: its acceleration and its couple, as five marks."""
@@ -136,7 +139,7 @@ class Loading:
         """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
         name, points = _replaced(link), self.pose.standing
         if name not in points:
-            with self.board.on(MECHANISM, (link,)):
+            with self.board.on(MECHANISM, (link,), partial(stages.inertia, link)):
                 points[name] = self.board.step_off(
                     points[pivot], points[centre], points[centre], ratio=part, name=f"K_{link}",
                     why=said("the radius of gyration is the mean of the distances from {0}", centre))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterable
+from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.kinds import Movement
@@ -18,10 +19,11 @@ from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
+from graphplan.methods.motion.stages import ACCELERATIONS, begun
 from graphplan.methods.motion.velocity import Velocity
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, slide_named
 from graphplan.methods.poses import Pose
-from graphplan.phrases import phrase, said
+from graphplan.phrases import Said, phrase, said
 
 GREEK = {
     "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
@@ -31,7 +33,7 @@ GREEK = {
 
 NORMAL = phrase("the relative normal acceleration of {0} about {1}")
 CORIOLIS = phrase("the Coriolis acceleration of the pair {0}, twice the half-vector")
-LAWS: dict[type, str] = {
+LAWS: dict[type, Said] = {
     Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
     Carry: said("the end lies on a line through the auxiliary point's end, square to the line joining the points"),
@@ -54,6 +56,7 @@ class Normal(MotionPlan):
     """The plan of relative normal accelerations."""
 
     panel, turn, across, laws, ending = N_PLAN, "perpendicular", False, LAWS, "{1}_1"
+    words = ACCELERATIONS
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
         super().__init__(board, net, pose, velocity.tempo)
@@ -154,7 +157,10 @@ class Normal(MotionPlan):
         A, X = self.pose.points[joint], self.pose.points[point]
         if self.net.spot(point) == self.net.spot(joint) or not omega:
             return base
-        return X if omega * omega == 1 and base is A else self.board.step_off(A, X, base, ratio=omega * omega)
+        if omega * omega == 1 and base is A:
+            return X
+        with self.board.on(stage=partial(self.stages.normal, joint, point)):
+            return self.board.step_off(A, X, base, ratio=omega * omega)
 
     def _driven_seat(self, weld: DrivenPair, joint: str) -> Mark:
         if weld.slide is None:
@@ -166,40 +172,34 @@ class Normal(MotionPlan):
         anchor = self.anchors[link]
         if point == self.net.place(anchor.point, link)[0]:
             return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
-        if self._still(link) or self.net.spot(point) == self.net.spot(anchor.point):
+        if self.net.still(link) or self.net.spot(point) == self.net.spot(anchor.point):
             return self.figure(link, anchor.point)
         mark = self._scaled(link, anchor.point, point)
         return self.board.named(mark, self.figure_name(link, point))
 
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
-            with self.board.on(self.panel):
+            name = self.figure_name(link, anchor.point)
+            with self.board.on(self.panel, stage=partial(begun, name, self.panel.words)):
                 begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
-                begun = sum(step.panel == self.panel for step in begins)
-                name = self.figure_name(link, anchor.point)
-                return self.board.begin(plan=self.panel.words, number=begun + 1, name=name)
+                before = sum(step.panel == self.panel for step in begins)
+                return self.board.begin(plan=self.panel.words, number=before + 1, name=name)
         if anchor.slide is None:
             return self.figure(anchor.link, anchor.point)
         return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
-
-    def _still(self, link: str) -> bool:
-        """Whether the link is known never to turn: it slides on the frame, or on what slides there."""
-        net = self.net
-        body = net.body[link]
-        if not net.ground or net.classes[body] != net.classes[net.ground] or link in net.welds:
-            return False
-        return not net.excess(body, net.ground).omega
 
     def _scaled(self, link: str, K: str, X: str) -> Mark:
         """The figure's side KX, by the semicircle on the link's first side from K or in proportion to it."""
         side = self._side(link, K) or X
         points = self.pose.points
         if side == X:
-            m, w = self.velocity.relative(link, K, X)
-            why = NORMAL(X, K)
-            return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
+            with self.board.on(stage=partial(self.stages.normal, K, X)):
+                m, w = self.velocity.relative(link, K, X)
+                why = NORMAL(X, K)
+                return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
         ends = self.figure(link, K), self.figure(link, side)
-        return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
+        with self.board.on(stage=partial(self.stages.figure, link)):
+            return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
 
     def _side(self, link: str, K: str) -> str | None:
         """The other end of the side on which the semicircle is drawn: a joint if there is one."""
@@ -238,13 +238,15 @@ class Normal(MotionPlan):
     def _less_coriolis(self, slide: Slide, known: str, new: str, B: str) -> Mark:
         """The coincident point's mark in the known link's figure, less the Coriolis vector of `new` about `known`."""
         start = self.figure(known, B)
-        if any(link == FRAME or self._still(link) for link in slide.guiding):
+        if any(link == FRAME or self.net.still(link) for link in slide.guiding):
             return start
         link, P = self._pivot(slide.guiding, B)
-        turning = self.velocity.about(link, P, B)
-        slip = self.velocity.slip(known, new, B)
-        why = CORIOLIS(slide_named(slide))
-        return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
+        one, two = (self.net.place(B, end) for end in (new, known))
+        with self.board.on(stage=partial(self.stages.coriolis, slide, link, one, two)):
+            turning = self.velocity.about(link, P, B)
+            slip = self.velocity.slip(known, new, B)
+            why = CORIOLIS(slide_named(slide))
+            return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, links: tuple[str, ...], B: str) -> tuple[str, str]:
         """A point to measure the turning of a guide about: one of its links', fixed to the frame if there is such."""
@@ -298,7 +300,7 @@ class PolarAcceleration(Normal):
     panel, ending = ACCELERATION_PLAN, "{0}'"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        with board.on(self.panel):
+        with board.on(self.panel, stage=partial(begun, "pi", self.panel.words)):
             self.pole = board.begin(plan=self.panel.words, number=1, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 

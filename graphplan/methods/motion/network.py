@@ -188,6 +188,13 @@ class Network:
             _unite(top, *sorted(_followed(top, self.body[link]) for link in (one, two)))
         return {body: _followed(top, body) for body in self.members}
 
+    def still(self, link: str) -> bool:
+        """Whether a link is known never to turn: it slides on the frame, or on what slides there."""
+        body = self.body[link]
+        if not self.ground or self.classes[body] != self.classes[self.ground] or link in self.welds:
+            return False
+        return not self.excess(body, self.ground).omega
+
     def place(self, point: str, link: str) -> BodyPoint:
         """The place of a point in a link's plane."""
         point = self.name(point)

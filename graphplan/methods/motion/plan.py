@@ -15,6 +15,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from copy import copy
 from fractions import Fraction
+from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT
@@ -23,8 +24,10 @@ from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
+from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
+from graphplan.phrases import Said
 
 Vector = tuple[Mark, Mark]
 STATE = "ends", "loci", "known", "_told", "pole_vectors"  # of a plan: what a trial figure may not pass on
@@ -37,7 +40,8 @@ class MotionPlan:
     panel: Panel
     turn: str
     across: bool  # whether a sliding pair's free vector lies square to the guide
-    laws: Mapping[type, str]  # by which each kind of move is drawn
+    laws: Mapping[type, Said]  # by which each kind of move is drawn
+    words: Words
     turned = False  # whether all vectors are drawn a quarter ahead
     ending: str  # the letter of an end, made from that of its point in small letters, or as it is
 
@@ -49,6 +53,7 @@ class MotionPlan:
         self.known: dict[str, tuple[BodyPoint, ...]] = dict.fromkeys(net.members, ())
         self._told: set[tuple[str, str]] = set()
         self.pole_vectors: dict[tuple[BodyPoint, str], Vector] = {}
+        self.stages = MotionStages(net, self.words, self.laws, self.ending, {})
 
     # ---- what a plan says of itself -------------------------------------------------------------------------
 
@@ -109,8 +114,7 @@ class MotionPlan:
         return None
 
     def end_name(self, place: BodyPoint) -> str:
-        name = self.pose.spoken(place[0])
-        return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
+        return self.stages.end(self.pose.spoken(place[0]), place)
 
     def locus_name(self, place: BodyPoint) -> str:
         return ""
@@ -118,12 +122,16 @@ class MotionPlan:
     # ---- drawing moves --------------------------------------------------------------------------------------
 
     def draw(self, planned: Iterable[Move]) -> None:
-        for move in planned:
-            with self.board.on(self.panel, self._links(move)):
-                if isinstance(move, moves.FalsePosition):
-                    self._trial(move)
-                else:
-                    self._draw(move)
+        for group in self.stages.grouped(planned):
+            place = self.stages.place(group[-1])
+            located = any(known == place for known, _ in self.loci)
+            stage = partial(self.stages.tell, group, self.prime, located)
+            for move in group:
+                with self.board.on(self.panel, self._links(move), stage):
+                    if isinstance(move, moves.FalsePosition):
+                        self._trial(move)
+                    else:
+                        self._draw(move)
 
     def _draw(self, move: Move) -> None:
         match move:
@@ -342,12 +350,13 @@ class MotionPlan:
         homes = [getattr(self.board, self.turn)(self.loci[locus], self.point(locus[0])) for locus in (A, B)]
         if place[0] not in self.pose.points:
             self.pose.points[place[0]] = self.board.meet(*homes, name=self.pose.letter(body))
+        self.stages.letters[place[0]] = self.pose.spoken(place[0])
         end = self.board.meet(self._locus_in(body, A), self._locus_in(body, B))
         self._end(place, self._outward(body, place, end), move)
 
     def _letters(self, body: str, A: Locus, B: Locus, X: BodyPoint) -> dict[str, str]:
         """Letters for the auxiliary point of a body and its end, and for the corners of trial figures."""
-        letter = self.pose.letter(body)
+        letter = self.stages.letters[auxiliary(body)] = self.pose.letter(body)
         trial = {f"{letter}{mark}": f"{place}{mark}" for letter, place in (("A", A[0][0]), ("B", B[0][0]), ("C", X[0]))
                  for mark in ("'", "''")}
         return {"Q": letter, "q": self.end_name((letter, "")) + self.prime, "U": f"U_{body}", **trial}
@@ -358,6 +367,7 @@ class MotionPlan:
         if move.place[0] not in self.pose.points:
             bars = [self.board.side(self.point(one), self.point(two)) for _, one, two in move.bars]
             self.pose.points[move.place[0]] = self.board.meet(*bars, name=f"P_{move.bodies[0]}{move.bodies[1]}")
+        self.stages.letters[move.place[0]] = self.pose.spoken(move.place[0])
         if (vector := self.pole_shift(move)) is not None:
             self.pole_vectors[move.place, move.bodies[1]] = vector
 

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion.moves import Carry, Guide, Meet, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
+from graphplan.methods.motion.stages import VELOCITIES, begun
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.methods.poses import Pose
-from graphplan.phrases import said
+from graphplan.phrases import Said, said
 
-LAWS: dict[type, str] = {
+LAWS: dict[type, Said] = {
     Swing: said("the ends of two points of a link lie on a parallel to their line"),
     Slip: said("the link's turning is known, so its points' ends differ by a known vector"),
     Carry: said("the end lies on a line through the auxiliary point's end, parallel to the line joining the points"),
@@ -32,6 +35,8 @@ POLAR_LAWS = LAWS | {
 
 class Velocity(MotionPlan):
     """What both velocity plans share: drives, guides, and the relative velocities that accelerations need."""
+
+    words = VELOCITIES
 
     def origin(self, point: str) -> Mark:
         """Where the velocity of a point begins."""
@@ -89,7 +94,7 @@ class Polar(Velocity):
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
-        with board.on(self.panel):
+        with board.on(self.panel, stage=partial(begun, "p", self.panel.words)):
             self.pole = board.begin(plan=self.panel.words, number=1, name="p")
 
     def far_from(self, place: BodyPoint) -> Mark:

@@ -1,0 +1,82 @@
+"""Stages: what textbooks tell of some steps at once, such as the velocity of a point, or of a form a semicircle.
+
+A step bears the teller of its stage and not the words: these hang on the forms in which compounds are drawn, and of
+most programs that are recorded nothing is told.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable
+from dataclasses import dataclass
+from enum import Enum
+from typing import NamedTuple, Self
+
+from graphplan.phrases import Said
+
+
+class Known(Enum):
+    """What is known of a vector before its equation is drawn; textbooks underline it twice, once or not at all."""
+
+    WHOLLY = "magnitude and direction"
+    DIRECTION = "direction"
+    LOCUS = "locus"  # a line on which it ends, drawn in a stage before
+    NOTHING = "nothing"
+
+
+class Vector(NamedTuple):
+    """A vector by its letter, such as a^n_BA, the normal acceleration of B about A."""
+
+    name: str
+    known: Known = Known.WHOLLY
+
+
+class Equation(NamedTuple):
+    """An equation as it is written, and the vectors in it."""
+
+    text: str
+    vectors: tuple[Vector, ...]
+
+    @classmethod
+    def sum(cls, left: Vector, right: Iterable[Vector]) -> Self:
+        """A vector is the sum of others."""
+        vectors = left, *right
+        return cls(f"{left.name} = {_added(vectors[1:])}", vectors)
+
+    @classmethod
+    def closed(cls, vectors: Iterable[Vector]) -> Self:
+        """Vectors whose sum is nothing."""
+        found = tuple(vectors)
+        return cls(f"{_added(found)} = 0", found)
+
+    @classmethod
+    def moments(cls, forces: Iterable[Vector], about: str, couples: Iterable[str] = ()) -> Self:
+        """Forces whose moments about a point are nothing together, with those of couples."""
+        found = tuple(forces)
+        return cls(f"{_added([*(Vector(f'M_{about}({force.name})') for force in found), *map(Vector, couples)])} = 0",
+                   found)
+
+
+def _added(vectors: Iterable[Vector]) -> str:
+    return " + ".join(vector.name for vector in vectors).replace("+ -", "- ")
+
+
+@dataclass(frozen=True)
+class Stage:
+    """A part of a construction: its title, the law by which it is drawn, and the equations that it solves."""
+
+    title: Said
+    law: Said
+    equations: tuple[Equation, ...] = ()
+
+    @property
+    def equation(self) -> str:
+        """The equations, one after the other; nothing where there is none."""
+        return "; ".join(equation.text for equation in self.equations)
+
+    @property
+    def vectors(self) -> dict[str, Known]:
+        """What is known of each vector of the equations."""
+        return {vector.name: vector.known for equation in self.equations for vector in equation.vectors}
+
+
+Teller = Callable[[Collection[str]], Stage]  # tells a stage of which compounds are drawn in these forms

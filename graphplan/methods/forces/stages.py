@@ -1,0 +1,92 @@
+"""The stages of forces: the equilibrium of free bodies, joint by joint, levers, friction."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+
+from graphplan.kernel.stages import Equation, Known, Stage, Vector
+from graphplan.mechanism.model import Slide
+from graphplan.methods.motion.moves import FalsePosition
+from graphplan.methods.motion.stages import LAWS
+from graphplan.methods.panels import LeverPlan, link_named, listed, slide_named
+from graphplan.phrases import Said, arranged, joined, said
+
+CHAIN = said("the known forces on a link are laid off one after the other, each from the head of the last")
+DIRECTED = said("the line on which the force acts is given by its point and direction")
+MOMENTS = said("the moments of all forces on a body in equilibrium balance, about any point")
+CLOSED = said("the forces on a body in equilibrium close their polygon")
+ACROSS = said("the parts of all forces in any one direction balance: across the unknown forces the others do")
+JOINT = said("the forces on the links of a joint balance")
+INERTIA = said("the inertia force is against the acceleration of the mass centre, the inertia couple against the "
+               "angular acceleration")
+JOURNAL = said("the force of a journal touches its friction circle, on the side that is against the turning")
+GUIDE = said("the force of a slide leans from the normal of the guide by the friction angle, against the sliding")
+SEAT = said("a force and a couple are one force, shifted by the couple over the force")
+POWERS = said("moments about the pole balance, since powers do")
+
+
+def known_forces(link: str, forms: Collection[str] = ()) -> Stage:
+    """The known forces on a link."""
+    return Stage(said("Known forces on {0}", link_named(link)), CHAIN)
+
+
+def line_of_action(letter: str, forms: Collection[str] = ()) -> Stage:
+    """The line of a force of known direction."""
+    return Stage(said("Line of action of {0}", letter), DIRECTED)
+
+
+def moments(letter: str, links: Sequence[str], about: str, forces: Iterable[Vector], couples: Iterable[str],
+            forms: Collection[str] = ()) -> Stage:
+    """A force from moments of some links about a point, those of forces and of couples."""
+    title = arranged("{0}: {1}", letter, said("moments of {0} about {1}", listed(links), about))
+    return Stage(title, MOMENTS, (Equation.moments(forces, "Q" if isinstance(about, Said) else about, couples),))
+
+
+def across(letter: str, links: Sequence[str], forms: Collection[str] = ()) -> Stage:
+    """A force from the equilibrium of some links in one direction."""
+    return Stage(_equilibrium(letter, links), ACROSS)
+
+
+def closed(letter: str, links: Sequence[str], forces: tuple[Vector, ...], forms: Collection[str] = ()) -> Stage:
+    """Forces that close the polygon of some links."""
+    return Stage(_equilibrium(letter, links), CLOSED, (Equation.closed(forces),))
+
+
+def _equilibrium(letter: str, links: Sequence[str]) -> Said:
+    return said("{0}: equilibrium of {1}", letter, listed(links))
+
+
+def joint(point: str, forces: tuple[Vector, ...] = (), forms: Collection[str] = ()) -> Stage:
+    """The last force of a joint from those of its other links."""
+    return Stage(said("Forces at the joint {0}", point), JOINT, (Equation.closed(forces),) if forces else ())
+
+
+def false_position(letter: str, forms: Collection[str] = ()) -> Stage:
+    """A force that is assumed, twice."""
+    return Stage(arranged("{0:capital}", said("false position of {0}", letter)), LAWS[FalsePosition])
+
+
+def inertia(link: str, forms: Collection[str] = ()) -> Stage:
+    """Where the inertia force of a link acts."""
+    return Stage(said("Inertia force of {0}", link_named(link)), INERTIA)
+
+
+def journal(why: Said, forms: Collection[str] = ()) -> Stage:
+    """Where the force of a journal that rubs acts."""
+    return Stage(arranged("{0:capital}", why), JOURNAL)
+
+
+def guide(why: Said, forms: Collection[str] = ()) -> Stage:
+    """How the force of a slide that rubs leans."""
+    return Stage(arranged("{0:capital}", why), GUIDE)
+
+
+def seat(slide: Slide, forms: Collection[str] = ()) -> Stage:
+    """Where the reaction of a slide acts."""
+    return Stage(said("Line of action of the reaction of the slide {0}", slide_named(slide)), SEAT)
+
+
+def lever(panel: LeverPlan, letter: str, loads: Iterable[str], forms: Collection[str] = ()) -> Stage:
+    """A lever, which tells one force from its loads."""
+    forces = [*map(Vector, dict.fromkeys(loads)), Vector(letter, Known.DIRECTION)]
+    return Stage(joined((panel.heading, letter), ": "), POWERS, (Equation.moments(forces, "o"),))

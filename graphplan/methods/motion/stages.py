@@ -1,0 +1,270 @@
+"""The stages of velocities and accelerations: what textbooks tell of the planner's moves.
+
+The loci of a point and where they meet are one stage, such as v_B = v_A + v_BA = v_BC. Vectors of fixed points are
+nothing and left out.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import NamedTuple
+
+from graphplan.kernel.stages import Equation, Known, Stage, Vector
+from graphplan.mechanism.model import FRAME, Slide
+from graphplan.methods.motion.moves import (
+    Auxiliary,
+    Carry,
+    FalsePosition,
+    Guide,
+    Meet,
+    Move,
+    Pole,
+    Rest,
+    Seed,
+    Settle,
+    SimilarFigure,
+    Slip,
+    Swing,
+)
+from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
+from graphplan.methods.panels import link_named, listed, slide_named
+from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+
+LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
+    Rest: said("a drive prescribes how its links move; points of the frame stand still"),
+    Seed: said("the motion of the point is given"),
+    Auxiliary: said("the end of the auxiliary point lies on the loci of both points that it was found from"),
+    Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
+    FalsePosition: said("the error of a trial changes in proportion to what is assumed, so two trials tell where it is "
+                        "nothing"),
+}
+BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
+BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),
+      "companion": phrase("Normal acceleration of {0} about {1}, by the right triangle")}
+BEGUN = said("a plan may be begun wherever there is room")
+NORMAL = said("it is v²/r and directed to the other point: on the plan from the new mark back to the one that this is "
+              "laid off from")
+FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
+CORIOLIS = said("it is 2 ω v and square to v: on the plan from the new mark back to the one that this is laid off from")
+RATE = said("the difference of the vectors of two points of a link is in proportion to their distance")
+SLIDING = said("the vectors of two coincident points differ by that of one relative to the other")
+
+
+class Words(NamedTuple):
+    """What is said of plans of one kind: the letter of their vectors, and titles."""
+
+    symbol: str
+    point: Phrase
+    figure: Phrase
+    link: Phrase
+    slide: Phrase
+
+
+VELOCITIES = Words("v", phrase("Velocity of {0}"), phrase("Velocity of {0}, by the similar figure of {1}"),
+                   phrase("Angular velocity of {0}"), phrase("Relative velocity of the slide {0}"))
+ACCELERATIONS = Words("a", phrase("Acceleration of {0}"), phrase("Acceleration of {0}, by the similar figure of {1}"),
+                      phrase("Angular acceleration of {0}"), phrase("Relative acceleration of the slide {0}"))
+
+
+@dataclass(frozen=True)
+class MotionStages:
+    """The stages of one plan. `letters` are those of auxiliary points, which get them as they are drawn.
+
+    `ending` is the letter of an end, made from that of its point in small letters, or as it is; `purpose` is what an
+    assumed motion is for.
+    """
+
+    net: Network
+    words: Words
+    laws: Mapping[type, Said]
+    ending: str
+    letters: dict[str, str]
+    purpose: Said | None = None
+
+    def grouped(self, planned: Iterable[Move]) -> Iterator[tuple[Move, ...]]:
+        """The moves, those that textbooks make one together: the loci of a place, and where they meet."""
+        group: list[Move] = []
+        for move in planned:
+            locus = isinstance(move, Swing | Slip | Guide)
+            if group and not ((locus or isinstance(move, Meet)) and self.place(move) == self.place(group[0])):
+                yield tuple(group)
+                group = []
+            group.append(move)
+            if not locus:
+                yield tuple(group)
+                group = []
+        if group:
+            yield tuple(group)
+
+    def place(self, move: Move) -> BodyPoint:
+        """The place whose locus or end a move gives."""
+        match move:
+            case Swing(X=X) | Slip(X=X) | Carry(X=X) | SimilarFigure(X=X) | Settle(X=(X, _)) | FalsePosition(at=(X, _)):
+                return X
+            case Guide(point=point, new=new):
+                return self.net.place(point, new)
+            case Meet(place=X) | Rest(place=X) | Seed(place=X) | Auxiliary(place=X) | Pole(place=X):
+                return X
+
+    # ---- what is called how -------------------------------------------------------------------------------------
+
+    def end(self, name: str, place: BodyPoint) -> str:
+        """The letter of the end of a place whose point has this name."""
+        return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
+
+    def name(self, point: str, link: str = "") -> str:
+        """A point, or that of a link's plane which coincides with it: B2 of link 2, where nothing else is called so."""
+        name = self.letters.get(point, point).replace("_", "")
+        if not link or link not in self.net.links:
+            return name
+        together = f"{name}{'0' if link == FRAME else link}"
+        plain = name.isalpha() and together[len(name) :].isdigit() and together not in self.net.scene.points
+        return together if plain else f"{name}({link})"
+
+    def vector(self, symbol: str, of: BodyPoint, about: BodyPoint | None = None, known: Known = Known.WHOLLY) -> Vector:
+        """The vector of a point, or its part of a kind relative to another point."""
+        names = [self.name(*place) for place in (of, about) if place]
+        plain = len(names) == 1 or all(re.fullmatch(r"[A-Z]\d*'*", name) for name in names)
+        return Vector(f"{symbol}_{('' if plain else ',').join(names)}", known)
+
+    def sum(self, known: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+        """What the vector of X is made of, from that of a point of its link; `spare` is known of what is tangential."""
+        start = self._start(known)
+        if self.words.symbol == "v":
+            return [*start, self.vector("v", X, known, spare)]
+        return [*start, self.vector("a^n", X, known), self.vector("a^t", X, known, spare)]
+
+    def _start(self, place: BodyPoint) -> list[Vector]:
+        """The vector of a place, if it is any."""
+        point, link = place
+        fixed = FRAME in ((link,) if link else self.net.links_of.get(point, ()))
+        return [] if fixed else [self.vector(self.words.symbol, place)]
+
+    def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+        """The same from the coincident point of the other link of a slide; a guide at rest leaves what slides alone."""
+        start = self._start(on)
+        if self.words.symbol == "v":
+            return [*start, self.vector("v", B, on, spare)]
+        turns = not any(link == FRAME or self.net.still(link) for link in slide.guiding)
+        return [*start, *([self.vector("a^C", B, on)] if turns else []), self.vector("a^r", B, on, spare)]
+
+    # ---- the stages of moves ------------------------------------------------------------------------------------
+
+    def tell(self, moves: tuple[Move, ...], prime: str, located: bool, forms: Collection[str]) -> Stage:
+        """The stage of moves of one place, which has a locus already where it is `located`; a trial's has a `prime`."""
+        place = self.place(moves[-1])
+        end = self.end(self.letters.get(place[0], place[0]), place) + prime
+        title = self._title(moves[-1], end, forms)
+        title = arranged("{0:capital}: {1}", self.purpose, title) if self.purpose else title
+        laws = dict.fromkeys({**self.laws, **LAWS}[type(move)] for move in moves)
+        known = Known.LOCUS if located or isinstance(moves[-1], Settle) else Known.NOTHING
+        equations = [Equation.sum(left._replace(known=known if left.known is Known.NOTHING else left.known), right)
+                     for move in moves for left, right in self._equations(move, forms) if right]
+        return Stage(arranged("{0} ({1})", title, end) if prime else title, joined(laws, "; "), tuple(equations))
+
+    def _title(self, move: Move, end: str, forms: Collection[str]) -> Said:
+        match move:
+            case Carry(body=body):
+                if "auxiliary point" in forms:
+                    letter = self.letters[auxiliary(body)]
+                    return said("Auxiliary point {0} of {1}, locus of {2}", letter, self._links(body), end)
+                if not {*BY_TRIALS}.isdisjoint(forms):
+                    return said("Trial figure of {0}, locus of {1}", self._links(body), end)
+                return said("Locus of {0}", end)
+            case Swing() | Slip() | Guide():
+                return said("Locus of {0}", end)
+            case SimilarFigure(body=body, X=X):
+                return self.words.figure(self.name(*X), self._links(body))
+            case Auxiliary(body=body, place=place):
+                return said("Auxiliary point {0} of {1}", self.name(place[0]), self._links(body))
+            case Pole(bodies=bodies, place=place):
+                return said("Relative pole {0} of {1}", self.name(place[0]), listed(bodies))
+            case FalsePosition():
+                return arranged("{0:capital}", said("false position of {0}", end))
+            case Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):
+                return self.words.point(self.name(*place))
+
+    def _links(self, body: str) -> Said:
+        return listed([link for link in self.net.members[body] if link != FRAME])
+
+    def _equations(self, move: Move, forms: Collection[str]) -> Iterator[tuple[Vector, list[Vector]]]:
+        """The equations of a move: of which vector, and what it is the sum of."""
+        unknown = partial(self.vector, self.words.symbol, known=Known.NOTHING)
+        match move:
+            case Swing(K=K, X=X) | Settle(K=K, X=(X, _)) | SimilarFigure(K=K, X=X, R=None):
+                yield unknown(X), self.sum(K, X, Known.WHOLLY if isinstance(move, SimilarFigure) else Known.DIRECTION)
+            case SimilarFigure(K=K, X=X, R=R) if R:
+                yield unknown(X), self.sum(K, X)
+                yield unknown(X), self.sum(R, X)
+            case Slip(A=(A, _), X=X):
+                yield unknown(X), self._located(A, X, Known.WHOLLY)
+            case Carry(body=body, A=(A, _), B=(B, _), X=X) if "auxiliary point" in forms:
+                Q = auxiliary(body), ""
+                yield unknown(Q), self._located(A, Q)
+                yield unknown(Q), self._located(B, Q)
+                yield unknown(X), self.sum(Q, X)
+            case Auxiliary(A=(A, _), B=(B, _), place=Q):
+                yield unknown(Q), self._located(A, Q)
+                yield unknown(Q), self._located(B, Q)
+            case Guide(slide, point, known, new) if FRAME not in (known, new):
+                B, on = (self.net.place(point, link) for link in (new, known))
+                yield unknown(B), self.sliding(slide, B, on)
+            case Rest(place):
+                yield from ((unknown(place), right) for right in self._driven(place))
+
+    def _located(self, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+        """What the vector of X is made of, from that of a point of which a locus is known."""
+        base, *rest = self.sum(A, X, spare)
+        return [base._replace(known=Known.LOCUS), *rest]
+
+    def _driven(self, place: BodyPoint) -> Iterator[list[Vector]]:
+        """What the vector of a point is made of whose link a drive moves."""
+        weld: DrivenPair | None = self.net.welds.get(self.net.link_at(self.net.ground, place))
+        if weld and weld.slide:
+            yield self.sliding(weld.slide, place, self.net.place(place[0], weld.to), Known.WHOLLY)
+        elif weld and weld.at != place[0]:
+            found = self.sum((weld.at, ""), place, Known.WHOLLY)
+            yield found if weld.drive.rates[1] or self.words.symbol == "v" else found[:-1]
+
+    # ---- others -------------------------------------------------------------------------------------------------
+
+    def normal(self, K: str, X: str, forms: Collection[str] = ()) -> Stage:
+        """The normal acceleration of X about K, points of one link."""
+        part = self.vector("a^n", (X, ""), (K, ""))
+        square = f"{self.vector('v', (X, ''), (K, '')).name}²"
+        equation = Equation(f"{part.name} = {square}/{self.name(K)}{self.name(X)}", (part,))
+        how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
+        return Stage(how(self.name(X), self.name(K)), NORMAL, (equation,))
+
+    def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
+        """The normal accelerations of a link's other points."""
+        return Stage(said("Normal accelerations of {0}, by the similar figure", link_named(link)), FIGURE)
+
+    def coriolis(self, slide: Slide, guide: str, B: BodyPoint, on: BodyPoint, forms: Collection[str] = ()) -> Stage:
+        """The Coriolis acceleration of a slide whose guide turns as a link does."""
+        part, slip = self.vector("a^C", B, on), self.vector("v", B, on)
+        equation = Equation(f"{part.name} = 2 ω_{guide} {slip.name}", (part, slip))
+        return Stage(said("Coriolis acceleration of the slide {0}", slide_named(slide)), CORIOLIS, (equation,))
+
+    def rate(self, link: str, forms: Collection[str] = ()) -> Stage:
+        """The turning of a link."""
+        return Stage(self.words.link(link_named(link)), RATE)
+
+    def slid(self, slide: Slide, forms: Collection[str] = ()) -> Stage:
+        """The motion of a slide's links relative to each other."""
+        B, on = (self.net.place(slide.at, link) for link in (slide.link, slide.along))
+        equation = Equation.sum(self.vector(self.words.symbol, B), self.sliding(slide, B, on, Known.NOTHING))
+        return Stage(self.words.slide(slide_named(slide)), SLIDING, (equation,))
+
+
+def auxiliary(body: str) -> str:
+    """The place of a body's auxiliary point."""
+    return f"auxiliary point of {body}"
+
+
+def begun(name: str, plan: Said, forms: Collection[str] = ()) -> Stage:
+    """Where a plan begins."""
+    return Stage(said("Origin {0} of the {1}", name, plan), BEGUN)

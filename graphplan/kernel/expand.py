@@ -245,13 +245,13 @@ class Expander:
         return step.op.spans and len({self.board.steps[arg].panel for arg in step.args}) > 1
 
     def _explain(self, op: Primitive, before: int, ranked: list[Rating], why: str, out: Mark) -> None:
-        """Tell at the first step of a form which it is and why; at its last what it is good for."""
+        """Tell at the first step of a form which it is, and beside which others if they were weighed; at its last what
+        it is good for."""
         if out.step.index < before or len(self.board.steps) == before:
             return
         if why:
             self.board.annotate(out.step.index, why=why)
-        if op.weighed:
-            self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:])))
+        self.board.annotate(before, choice=Choice(op, ranked[0], tuple(ranked[1:]) if op.weighed else ()))
 
 
 class FormBoard(Verbs):

@@ -16,7 +16,7 @@ from typing import Any, NoReturn, Self, cast
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.stages import Stage, Teller
+from graphplan.kernel.stages import Stage, Teller, staged
 from graphplan.phrases import Said, arranged, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
@@ -277,22 +277,8 @@ class Program:
 
     @cached_property
     def stages(self) -> list[tuple[Stage, list[Step]]]:
-        """The stages in drawing order, each with its steps that come one after the other; steps of none are left out.
-
-        A stage that others interrupt, as where its vectors are brought to another plan, is there once more.
-        """
-        told: dict[Teller, set[str]] = {}
-        for step in self.steps:
-            if step.stage:
-                told.setdefault(step.stage, set()).update([step.choice.form] if step.choice else ())
-        said = {teller: teller(forms) for teller, forms in told.items()}
-        found: list[tuple[Stage, list[Step]]] = []
-        for step in self.steps:
-            if step.stage and found and found[-1][0] == said[step.stage]:
-                found[-1][1].append(step)
-            elif step.stage:
-                found.append((said[step.stage], [step]))
-        return found
+        """The stages in drawing order, each with its steps; see :func:`graphplan.kernel.stages.staged`."""
+        return staged(self.steps)
 
     def told(self, index: int) -> Said:
         """A step in words, with the law or purpose where there is one."""

@@ -6,11 +6,12 @@ most programs that are recorded nothing is told.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable
+from collections.abc import Callable, Collection, Iterable, Sequence
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple, Self
+from typing import NamedTuple, Protocol, Self, TypeVar
 
+from graphplan.kernel.kinds import Choice
 from graphplan.phrases import Said
 
 
@@ -80,3 +81,35 @@ class Stage:
 
 
 Teller = Callable[[Collection[str]], Stage]  # tells a stage of which compounds are drawn in these forms
+
+
+class Staged(Protocol):
+    """A step as far as its stage is concerned."""
+
+    @property
+    def stage(self) -> Teller | None: ...
+
+    @property
+    def choice(self) -> Choice | None: ...
+
+
+S = TypeVar("S", bound=Staged)
+
+
+def staged(steps: Sequence[S]) -> list[tuple[Stage, list[S]]]:
+    """The stages of steps in their order, each with those that come one after the other; steps of none are left out.
+
+    A stage that others interrupt, as where its vectors are brought to another plan, is there once more.
+    """
+    forms: dict[Teller, set[str]] = {}
+    for step in steps:
+        if step.stage:
+            forms.setdefault(step.stage, set()).update([step.choice.form] if step.choice else ())
+    told = {teller: teller(drawn) for teller, drawn in forms.items()}
+    found: list[tuple[Stage, list[S]]] = []
+    for step in steps:
+        if step.stage and found and found[-1][0] == told[step.stage]:
+            found[-1][1].append(step)
+        elif step.stage:
+            found.append((told[step.stage], [step]))
+    return found

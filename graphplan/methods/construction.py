@@ -132,7 +132,7 @@ class Construction(Recorded, Given):
 
     def _forms(self, rivals: int | None = None) -> list[str]:
         chosen = [(self.drawn.number(step.index), step.choice.reason(rivals)) for step in self.drawn.steps
-                  if step.choice and step.choice.others and step.choice.compound.weighed]
+                  if step.choice and step.choice.others]
         return self.notes + [said("step {0}: {1}", *told) for told in chosen]
 
     @cached_property

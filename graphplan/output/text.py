@@ -77,7 +77,7 @@ def steps(drawing: Construction, structure: Iterable[str] = (), say: Tongue = EN
             "sentence": say(drawn.told(step.index)),
             "why": say(step.why),
             "form": str(step.choice or ""),
-            "reason": step.choice.reason() if step.choice else "",
+            "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
             "links": list(step.links),
             "value": list(values[step.index]),
         })

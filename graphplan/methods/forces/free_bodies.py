@@ -309,7 +309,8 @@ class FreeBodies:
     def unknown(self, part: Part, site: UnknownForce) -> Vector:
         """The unknown force of a site on a part, by its letter; what is known of it across its line is apart."""
         known = self.known.get(site)
-        told = Told.NOTHING if known is None or known.line is None else Told.DIRECTION
+        free = isinstance(site, JointForce) and (known is None or known.line is None)
+        told = Told.NOTHING if free else Told.DIRECTION
         return Vector(self.letter(site, self.sign(part, site), "N" if self._parted(site) else ""), told)
 
     def acts_at(self, site: UnknownForce, known: Known) -> Mark:

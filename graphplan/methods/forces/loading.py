@@ -210,7 +210,7 @@ class Loading:
         """A point beside this one, where all points of the scene coincide: couples need an arm."""
         name, points = "point aside", self.pose.standing
         if name not in points:
-            with self.board.on(MECHANISM):
+            with self.board.on(MECHANISM, stage=stages.arm):
                 points[name] = self.board.lay_off(points[point], dx=Fraction(1), dy=Fraction(0),
                                                   name=self.pose.letter(name), why=said("an arm for couples"))
         return name

@@ -21,6 +21,7 @@ INERTIA = said("the inertia force is against the acceleration of the mass centre
                "angular acceleration")
 JOURNAL = said("the force of a journal touches its friction circle, on the side that is against the turning")
 GUIDE = said("the force of a slide leans from the normal of the guide by the friction angle, against the sliding")
+COUPLE = said("a couple is a pair of equal and opposite forces, with any arm")
 SEAT = said("a force and a couple are one force, shifted by the couple over the force")
 POWERS = said("moments about the pole balance, since powers do")
 
@@ -69,6 +70,11 @@ def false_position(letter: str, forms: Collection[str] = ()) -> Stage:
 def inertia(link: str, forms: Collection[str] = ()) -> Stage:
     """Where the inertia force of a link acts."""
     return Stage(said("Inertia force of {0}", link_named(link)), INERTIA)
+
+
+def arm(forms: Collection[str] = ()) -> Stage:
+    """A point beside another, where couples need an arm."""
+    return Stage(arranged("{0:capital}", said("an arm for couples")), COUPLE)
 
 
 def journal(why: Said, forms: Collection[str] = ()) -> Stage:

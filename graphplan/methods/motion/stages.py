@@ -160,10 +160,17 @@ class MotionStages:
         title = self._title(moves[-1], end, forms)
         title = arranged("{0:capital}: {1}", self.purpose, title) if self.purpose else title
         laws = dict.fromkeys({**self.laws, **LAWS}[type(move)] for move in moves)
-        known = Known.LOCUS if located or isinstance(moves[-1], Settle) else Known.NOTHING
-        equations = [Equation.sum(left._replace(known=known if left.known is Known.NOTHING else left.known), right)
-                     for move in moves for left, right in self._equations(move, forms) if right]
-        return Stage(arranged("{0} ({1})", title, end) if prime else title, joined(laws, "; "), tuple(equations))
+        equations = [(left, right) for move in moves for left, right in self._equations(move, forms) if right]
+        found = self.vector(self.words.symbol, place, known=self._known_of(moves, located))
+        sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
+        return Stage(arranged("{0} ({1})", title, end) if prime else title, joined(laws, "; "), tuple(sums))
+
+    def _known_of(self, moves: tuple[Move, ...], located: bool) -> Known:
+        """What is known beforehand of the vector that moves give: its direction where a guide is at rest."""
+        guided = any(isinstance(move, Guide) and FRAME in (move.known, move.new) for move in moves)
+        if guided and len(moves) > 1:
+            return Known.DIRECTION
+        return Known.LOCUS if located or isinstance(moves[-1], Settle) else Known.NOTHING
 
     def _title(self, move: Move, end: str, forms: Collection[str]) -> Said:
         match move:

@@ -33,8 +33,8 @@ from graphplan.mechanism.scene import load, packaged
 class Survey(NamedTuple):
     """What is measured for a chart, by the module of its name: what its rows are, what it gives of all, or of a scene.
 
-    Of all it is called with the module alone, and `progress` says what a row is about; of a scene also with this,
-    the pencil, and whether scenes are named.
+    Of all it is called with the module, the pencil and what tells how far it is, and `progress` says what a row is
+    about; of a scene with the module, the scene, the pencil, and whether scenes are named.
     """
 
     row: str
@@ -46,9 +46,9 @@ CHARTS = {
     "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
         scene, compiled=module.ALL if named else 1)),  # compiling takes seconds
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
-    "stability": Survey("Sample", lambda module: module.samples(*module.DEGENERACIES), "{0.degeneracy}"),
+    "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES), "{0.degeneracy}"),
     "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
-    "growth": Survey("Stage", lambda module: module.stages(), "{0.links} links"),
+    "growth": Survey("Stage", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
 PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
 
@@ -109,7 +109,7 @@ def _rows(name: str, module: Any, scenes: list[Scene], hand: object, messages: M
     """The rows of a chart, of these scenes or else of those that it is of; progress names each scene as it begins."""
     survey = CHARTS[name]
     if survey.progress:
-        for row in survey.rows(module):
+        for row in survey.rows(module, hand, lambda said: messages.progress(f"{name}: {said}")):
             messages.progress(f"{name}: {survey.progress.format(row)}")
             yield row
         return

@@ -100,11 +100,14 @@ def test_strips_cover_the_cycle() -> None:
 def test_the_exponent_is_that_of_long_chains() -> None:
     """A time that is the square of the number of links is told as such, whatever short chains take."""
     rows = [growth.Stage(n, 6 * n - 10, stage, float(n * n) if n > 10 else 1e9, 1.0, 1.0)
-            for n in (4, 100, 500) for stage in growth.STAGES]
-    assert growth.exponent(rows, growth.STAGES[0]) == pytest.approx(2)
-    words = [words for words, _ in growth.picture(rows).key]
-    assert words[0] == f"{growth.STAGES[0]}: n^2.00"
-    assert words[-1] == "steps: 6 n − 10"
+            for n in (4, 100, 500, 1000) for stage in growth.STAGES]
+    rows.append(growth.Stage(2000, 11990, growth.DRAW, None, why="sheet: words do not fit; a larger one"))
+    assert growth.exponent(rows, growth.SOLVE) == pytest.approx(2)
+    chart = growth.picture(rows)
+    labels = [series.label for series in chart.panels[0].series]
+    assert f"{growth.SOLVE}: n^2.00" in labels
+    assert f"{growth.DRAW}: n^2.00 (words do not fit)" in labels
+    assert "6 n − 10 steps" in chart.remarks
 
 
 def test_the_same_picture_is_the_same_text() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey import forms
+from graphplan.accuracy.survey import forms, growth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, Measure, measures
@@ -117,11 +117,20 @@ def test_best_forms_over_a_cycle() -> None:
 
 def test_steps_grow_by_equal_increments() -> None:
     """Every dyad of a chain adds as many steps as the one before."""
-    rows = list(stages((4, 6, 8, 10, 12), rounds=1))
-    assert [row.stage for row in rows] == [*STAGES] * 5
+    rows = list(stages((4, 6, 8, 10), rounds=1))
+    assert [row.stage for row in rows] == [*STAGES] * 4
+    assert all(row.time for row in rows)
     steps = [row.steps for row in rows if row.stage == STAGES[0]]
     assert len(set(np.diff(steps))) == 1
     assert steps[1] > steps[0]
+
+
+def test_a_stage_that_takes_long_is_not_tried_on_longer_chains(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where a stage is too long or refused, it has a reason there and on every longer chain, and no time."""
+    monkeypatch.setattr(growth, "LONGEST", 0.0)
+    rows = list(stages((4, 6), rounds=1))
+    assert {(row.links, row.stage) for row in rows} == {(links, stage) for links in (4, 6) for stage in STAGES}
+    assert all(row.time is None and row.why == "longer than 0 s" for row in rows)
 
 
 def test_velocities_neither_die_away_nor_grow_along_a_chain() -> None:

@@ -1,10 +1,11 @@
-"""Growth: the time of each stage of the work, and the number of steps, from four links to a thousand.
+"""Growth: the time of each stage of the work from four links to two thousand, and the number of steps.
 
 The chains are a crank and dyads, each between a pivot of the frame and the joint of the dyad before. All rockers are of
 one length and stand aslant by turns to the right and to the left, so that all turn equally fast: velocities neither die
 away along the chain nor grow.
 
-Times are told in single poses of the four-link chain that the analytic solver solves in the same round.
+Times are told in single poses of the four-link chain that the analytic solver solves in the same round; all chains take
+turns. A stage that takes too long for one chain is not tried on longer ones.
 """
 
 from __future__ import annotations
@@ -12,23 +13,28 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from typing import Any
 
 import numpy as np
 
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Series, SubChart
-from graphplan.accuracy.survey.timing import ROUNDS, ratios
+from graphplan.accuracy.survey.timing import ROUNDS, ratios, spent
+from graphplan.check.trusted import report
+from graphplan.cycle import follow
+from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME, Find, Pair, Scene, TurningDrive, Units
 from graphplan.methods.construct import construct
-from graphplan.methods.motion.network import Network
-from graphplan.methods.motion.planner import Planner
-from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED
+from graphplan.methods.construction import Construction
+from graphplan.sheet import svg
+from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, INK, RED, VIOLET
 from graphplan.solver import poses, solve
 
-LINKS = (4, 10, 20, 50, 100, 200, 500, 1000)
+LINKS = (4, 10, 20, 50, 100, 200, 500, 1000, 2000)
 POSES = 1000  # evaluated at once
+POSITIONS, TRAVEL = 36, (0.0, 5.0)  # that are followed, and how far, in degrees
 LONG = 50  # links from which an exponent is fitted: below, what is done once for any mechanism counts as well
-STAGES = ("planning", "construction", "first replay", "pose in blocks", "pose by replay")
+LEAST, LONGEST = 0.02, 10.0  # seconds of a measurement, and that a stage may take
+CONSTRUCT, SOLVE, CHECK, FOLLOW, DRAW, EVALUATE = STAGES = (
+    "construct", "solve", "check", "follow, a pose", "draw", "evaluate, a pose of many")
 UNIT = "four links solved"
 ACROSS, UP, PITCH = 3, 4, 10  # of a rocker; from one pivot to the next
 
@@ -55,84 +61,105 @@ def chain(dyads: int) -> Scene:
 
 @dataclass(frozen=True)
 class Stage:
-    """One stage for a chain of so many links: its time, between quartiles, and the steps of the program."""
+    """One stage for a chain of so many links: its time, between quartiles, and the steps of the program; or why there
+    is no time."""
 
     links: int
     steps: int
     stage: str
-    time: float
-    low: float
-    high: float
+    time: float | None
+    low: float | None = None
+    high: float | None = None
+    why: str = ""
 
 
-def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS) -> Iterator[Stage]:
-    """Every stage of every chain; an even number of links each, four at least."""
-    four = poses.posed(chain(1), {}, {})
+def stages(links: Sequence[int] = LINKS, rounds: int = ROUNDS,
+           tell: Callable[[str], None] = lambda said: None) -> Iterator[Stage]:
+    """Every stage of every chain, an even number of links each, four at least; all take turns. What is under way is
+    told."""
+    four, steps = poses.posed(chain(1), {}, {}), dict[int, int]()
+    runs: dict[tuple[int, str], tuple[Callable[[], object], int]] = {(0, ""): (lambda: solve(four), 1)}
+    left = dict[str, str]()
     for count in links:
-        runs, steps = _runs(chain(count // 2 - 1))
-        times = ratios({**runs, UNIT: (lambda: solve(four), 1)}, UNIT, rounds)
-        for stage in runs:
-            low, middle, high = times[stage]
-            yield Stage(count, steps, stage, middle, low, high)
+        tell(f"{count} links")
+        drawing = construct(chain(count // 2 - 1))
+        steps[count] = len(drawing.program) - drawing.program.givens
+        for stage, run in _runs(drawing).items():
+            if stage not in left and not (why := _hindered(run[0])):
+                runs[count, stage] = run
+            else:
+                left.setdefault(stage, why)
+                yield Stage(count, steps[count], stage, None, why=left[stage])
+    times = ratios(runs, (0, ""), rounds, LEAST, lambda done: tell(f"round {done + 1} of {rounds}"))
+    for (count, stage), (low, middle, high) in times.items():
+        if count:
+            yield Stage(count, steps[count], stage, middle, low, high)
 
 
-def _runs(scene: Scene) -> tuple[dict[str, tuple[Callable[[], Any], int]], int]:
-    """What is done in each stage, for how many poses, and the steps of the program.
-
-    A replay is written down at its first pose: a copy of the construction has none yet.
-    """
-    drawing = construct(scene)
-    places = {name: complex(*map(float, at)) for name, at in scene.points.items()}
-    many = {name: np.full(POSES, z) for name, z in places.items()}
-    drawing.evaluate(many)
-    drawing.replay(places)
-    done: tuple[tuple[Callable[[], Any], int], ...] = (
-        (lambda: Planner(Network(scene), "").plan(), 1), (lambda: construct(scene), 1),
-        (lambda: replace(drawing).replay(places), 1), (lambda: drawing.evaluate(many), POSES),
-        (lambda: drawing.replay(places), 1))
-    return dict(zip(STAGES, done, strict=True)), len(drawing.program) - drawing.program.givens
+def _hindered(run: Callable[[], object]) -> str:
+    """Why a stage cannot be measured; nothing where it can."""
+    try:
+        time = spent(run)
+    except GraphplanError as refusal:
+        return refusal.lines[0]
+    return f"longer than {LONGEST:g} s" if time > LONGEST else ""
 
 
-def exponent(rows: Sequence[Stage], stage: str) -> float:
-    """The power of the number of links with which the time of a stage grows, fitted where chains are long."""
-    long = [row for row in rows if row.stage == stage and row.links >= LONG]
-    return float(np.polyfit(np.log([row.links for row in long]), np.log([row.time for row in long]), 1)[0])
+def _runs(drawing: Construction) -> dict[str, tuple[Callable[[], object], int]]:
+    """What is done in each stage, and for how many poses."""
+    scene = drawing.scene
+    many = {name: np.full(POSES, complex(*map(float, at))) for name, at in scene.points.items()}
+    return {
+        CONSTRUCT: (lambda: construct(scene), 1), SOLVE: (lambda: solve(scene), 1), CHECK: (lambda: report(scene), 1),
+        FOLLOW: (lambda: follow(scene, POSITIONS, TRAVEL), POSITIONS), DRAW: (lambda: svg(replace(drawing)), 1),
+        EVALUATE: (lambda: drawing.evaluate(many), POSES)}
 
 
-LOOKS = {stage: Look(colour, marker, size=1.8, width=0.25, dash=dash) for stage, (colour, marker, dash) in zip(STAGES, (
-    (INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8)),
-    (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6)), (BROWN, "down", (3.2, 1.2))), strict=True)}
-STEPS = Look(INK, "circle", hollow=True, size=1.8, width=0.25)
+def exponent(rows: Sequence[Stage], stage: str) -> float | None:
+    """The power of the number of links with which the time of a stage grows, fitted where chains are long, three at
+    least."""
+    long = [(row.links, row.time) for row in rows if row.stage == stage and row.links >= LONG and row.time]
+    if len(long) < 3:
+        return None
+    links, times = np.log(np.array(long, float)).T
+    return float(np.polyfit(links, times, 1)[0])
+
+
+_STROKES = ((INK, "circle", ()), (BLUE, "square", (2.4, 0.8)), (RED, "up", (0.6, 0.8)),
+            (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6)), (BROWN, "down", (3.2, 1.2)), (VIOLET, "plus", (1.2, 0.5)))
+LOOKS = {stage: Look(colour, marker, size=2.2, width=0.3, dash=dash)
+         for stage, (colour, marker, dash) in zip(STAGES, _STROKES, strict=True)}
+SIZE = Axis("links", shows=(LINKS[0], 20 * LINKS[-1]))  # words stand behind the lines
+TIME = Axis("time; 1 is one pose of four links solved")
 REMARKS = (
-    "A crank and a chain of dyads. Times are medians within one run, in the time that the analytic solver takes "
-    "for one pose of the four-link chain, with the quartiles; a first replay writes the replay down. The "
-    f"exponents are those of powers fitted from {LONG} links."
+    "A crank and a chain of dyads; a program has {steps} steps. Times are medians within one run, beside the time that "
+    f"the analytic solver takes for one pose of four links, with the quartiles; the powers of "
+    f"the number n of links are fitted from {LONG} links."
 )
 
 
 def picture(rows: Sequence[Stage]) -> Chart:
     """The chart of these stages."""
-    times = SubChart("time", Axis("links"), Axis("time, in single poses of four links solved"), tuple(
-        Series(look, tuple((row.links, row.time) for row in rows if row.stage == stage),
-               tuple(((row.links, row.low), (row.links, row.high)) for row in rows if row.stage == stage))
-        for stage, look in LOOKS.items()))
-    counts = sorted({(row.links, row.steps) for row in rows})
-    steps = SubChart("size of the program", Axis("links"), Axis("steps"), (Series(STEPS, tuple(counts)),))
-    return Chart("Growth with the number of links", REMARKS, (times, steps), 2, (120.0, 90.0),
-                 (*((_told(rows, stage), look) for stage, look in LOOKS.items()), (_steps(counts), STEPS)))
+    lines = tuple(_line(rows, stage, look) for stage, look in LOOKS.items())
+    remarks = REMARKS.format(steps=_steps(sorted({(row.links, row.steps) for row in rows})))
+    return Chart("Growth with the number of links", remarks, (SubChart("", SIZE, TIME, lines),), 1, (240.0, 140.0), ())
 
 
-def _told(rows: Sequence[Stage], stage: str) -> str:
-    """A stage with its exponent, where there are chains enough for one."""
-    if len({row.links for row in rows if row.links >= LONG}) < 2:
-        return stage
-    return f"{stage}: n^{exponent(rows, stage):.2f}"
+def _line(rows: Sequence[Stage], stage: str, look: Look) -> Series:
+    """A stage's times with their quartiles, its exponent at the end of the line, and why it ends there."""
+    there = [row for row in rows if row.stage == stage and row.time]
+    why = next((row.why for row in rows if row.stage == stage and row.why), "")
+    power = exponent(rows, stage)
+    told = stage if power is None else f"{stage}: n^{power:.2f}"
+    return Series(look, tuple((row.links, row.time) for row in there if row.time),
+                  tuple(((row.links, row.low), (row.links, row.high)) for row in there if row.low and row.high),
+                  label=f"{told} ({why.split(': ')[-1].split(';')[0]})" if why else told)
 
 
 def _steps(counts: Sequence[tuple[int, int]]) -> str:
     """The steps as a straight line over the links."""
     if len(counts) < 2:
-        return "steps"
-    links, steps = zip(*counts, strict=True)
+        return str(counts[0][1]) if counts else "no"
+    links, steps = np.array(counts, float).T
     slope, rest = np.polyfit(links, steps, 1)
-    return f"steps: {slope:.4g} n {'+' if rest > 0 else '−'} {abs(rest):.4g}"
+    return f"{slope:.4g} n {'+' if rest > 0 else '−'} {abs(rest):.4g}"

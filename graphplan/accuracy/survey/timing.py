@@ -16,26 +16,28 @@ Quartiles = tuple[float, float, float]  # the middle one is the median
 
 
 def ratios(runs: Mapping[Key, tuple[Callable[[], object], int]], unit: Key,
-           rounds: int = ROUNDS) -> dict[Key, Quartiles]:
+           rounds: int = ROUNDS, least: float = LONG_ENOUGH,
+           told: Callable[[int], None] = lambda done: None) -> dict[Key, Quartiles]:
     """The time of each run for one of the things that it does, over that of the run `unit` in the same round.
 
     Reads each run with how many things it does.
     """
-    times = alternated({name: run for name, (run, _) in runs.items()}, rounds)
+    times = alternated({name: run for name, (run, _) in runs.items()}, rounds, least, told)
     count = runs[unit][1]
     return {name: spread([count * a / (runs[name][1] * b) for a, b in zip(values, times[unit], strict=True)])
             for name, values in times.items()}
 
 
 def alternated(runs: Mapping[Key, Callable[[], object]], rounds: int = ROUNDS,
-               least: float = LONG_ENOUGH) -> dict[Key, list[float]]:
-    """The seconds of each run in each round, each measured over `least` seconds at least.
+               least: float = LONG_ENOUGH, told: Callable[[int], None] = lambda done: None) -> dict[Key, list[float]]:
+    """The seconds of each run in each round, each measured over `least` seconds at least; `told` hears of each round.
 
-    Every run is called twice beforehand, to warm up and to find how often.
+    Every run is called beforehand, to warm up and to find how often.
     """
-    repeats = {name: math.ceil(least / max(_warm(run), 1e-9)) for name, run in runs.items()}
+    repeats = {name: math.ceil(least / max(_warm(run, least), 1e-9)) for name, run in runs.items()}
     found: dict[Key, list[float]] = {name: [] for name in runs}
-    for _ in range(rounds):
+    for done in range(rounds):
+        told(done)
         for name, run in runs.items():
             found[name].append(spent(run, repeats[name]))
     return found
@@ -55,6 +57,7 @@ def spent(run: Callable[[], object], repeats: int = 1) -> float:
     return (perf_counter() - start) / repeats
 
 
-def _warm(run: Callable[[], object]) -> float:
-    run()
-    return spent(run)
+def _warm(run: Callable[[], object], least: float) -> float:
+    """The seconds of a call: of the second one where the first was short."""
+    first = spent(run)
+    return spent(run) if first < 10 * least else first

@@ -46,14 +46,14 @@ OUTSIDE = {
     "cv2": {"marking"},
     "pypdfium2": {"marking"},
     "svgelements": {"marking"},
-    "numba": {"kernel/tape/blocks.py"},
+    "llvmlite": {"kernel/tape/compiled.py"},
     "distributed": {"methods/batch.py"},
     "flint": {"kernel/numbers/enclosures.py"},
     "shtab": {"commands/completion.py"},
 }
 # Where the kernel reckons beyond Python alone.
 NUMBERS = {*(f"kernel/numbers/{domain}.py" for domain in ("arrays", "gradients", "enclosures")),
-           "kernel/tape/blocks.py"}
+           *(f"kernel/tape/{reading}.py" for reading in ("blocks", "machine", "compiled"))}
 
 
 def folder(path: Path) -> str:

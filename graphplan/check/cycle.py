@@ -69,8 +69,8 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
           progress: Progress | None = None) -> Cycle:
     """The construction in so many poses of the drive's turn, or of a span of its travel, and the check in each.
 
-    Reads a scene with a drive; `workers` and `machine` are those of :meth:`Construction.evaluate`; `progress` is told
-    what is being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
+    Reads a scene with a drive; `workers` and `machine` are `workers` and `compiled` of :meth:`Construction.evaluate`;
+    `progress` is told what is being done, how many poses are done, of how many. Fails as `follow` and `construct` do.
     """
     def told(what: str) -> Callable[[int, int], None]:
         return lambda done, of: progress(what, done, of) if progress else None
@@ -84,7 +84,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     for name, other in _forms(drawing, method, plan, inertia):
         if not left.places.size:
             break
-        drawn = other.evaluate(left.points, left.guides, workers=workers, machine=machine, progress=told("plans"))
+        drawn = other.evaluate(left.points, left.guides, workers=workers, compiled=machine, progress=told("plans"))
         apart = gaps(left, other, drawn.results, told("check"))
         kept = sound(left, other, drawn.results, apart)
         if other is drawing:

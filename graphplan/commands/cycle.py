@@ -42,7 +42,7 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--strips", type=int, metavar="N",
         help="in how many strips the diagrams are divided; without it 24, 12 or as positions allow")
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
-    add("--compiled", action="store_true", help="machine code by numba, if installed: pays for millions of poses")
+    add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
     add_choices(command)
     add_language(command)
 

@@ -19,7 +19,8 @@ from functools import lru_cache
 from itertools import count
 from typing import Any, NamedTuple
 
-from graphplan.kernel.tape.record import Symbol, Symbols, function
+from graphplan.kernel.tape.record import Symbol, Symbols
+from graphplan.kernel.tape.written import function
 from graphplan.mechanism.plane import dot, less, plus, times, turned
 
 RESIDUE, TRAVEL = -1, -2

@@ -53,17 +53,18 @@ class Poses(Given):
 
 
 def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any],
-          only: Collection[str] | None = None, workers: int | str = 1, machine: bool = False,
+          only: Collection[str] | None = None, workers: int | str = 1, compiled: bool = False,
           progress: Progress | None = None) -> Poses:
     """The construction replayed over the poses in `points` and `guides`, for all kinds of results or `only` some.
 
-    `workers` is how many processes share the poses out, or the address of a dask scheduler; with `machine` numba
-    compiles the replay; `progress` is told after each stretch how many poses are done, of how many.
+    `workers` is how many processes share the poses out, or the address of a dask scheduler; `compiled` replays in
+    machine code; `progress` is told after each stretch how many poses are done, of how many.
     """
     n, given = _given(construction, points, guides)
     stretches = [slice(start, min(start + STRETCH, n)) for start in range(0, n, STRETCH)] if given else [slice(0, n)]
     results, faults = _wanted(construction, n, only), dict[int, str]()
-    for place, wrong in zip(stretches, _filled(construction, given, stretches, results, workers, machine), strict=True):
+    found = _filled(construction, given, stretches, results, workers, compiled)
+    for place, wrong in zip(stretches, found, strict=True):
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
             progress(place.stop, n)
@@ -79,13 +80,13 @@ def _wanted(construction: Recorded, n: int, only: Collection[str] | None) -> Res
 
 
 def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slice], results: Results,
-            workers: int | str, machine: bool) -> Iterator[Faults]:
+            workers: int | str, compiled: bool) -> Iterator[Faults]:
     """Fill the results stretch by stretch, by one hand or many; the faults of each."""
     if workers == 1:
         for place in stretches:
-            yield _stretch(construction, _cut(given, place), _cut(results, place), machine)
+            yield _stretch(construction, _cut(given, place), _cut(results, place), compiled)
         return
-    work = partial(_errand, construction, kinds=tuple(results), machine=machine)
+    work = partial(_errand, construction, kinds=tuple(results), compiled=compiled)
     found = _shared_out(work, (_cut(given, place) for place in stretches), workers)
     for place, (values, faults) in zip(stretches, found, strict=True):
         for kind, named in values.items():
@@ -100,14 +101,14 @@ def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[
 
 
 def _errand(construction: Recorded, given: Coordinates, kinds: tuple[str, ...],
-            machine: bool) -> tuple[Results, Faults]:
+            compiled: bool) -> tuple[Results, Faults]:
     """The results and faults of one stretch of poses."""
     n = len(next(iter(next(iter(given.values())).values())))
     results = {kind: named for kind, named in construction.blank(n, None).items() if kind in kinds}
-    return results, _stretch(construction, given, results, machine)
+    return results, _stretch(construction, given, results, compiled)
 
 
-def _stretch(construction: Recorded, given: Coordinates, results: Results, machine: bool) -> Faults:
+def _stretch(construction: Recorded, given: Coordinates, results: Results, compiled: bool) -> Faults:
     """Fill the results of one stretch of poses; its faults, by place. Where nothing is asked there are none."""
     if not results:
         return {}
@@ -115,7 +116,7 @@ def _stretch(construction: Recorded, given: Coordinates, results: Results, machi
     replay = replay_of(construction, free, tuple(results))
     if replay is None or not given:
         return _by_rules(construction, given, results)
-    left = replay.run(given, results, machine)
+    left = replay.run(given, results, compiled)
     if not left.size:
         return {}
     some = _cut(results, left)

@@ -7,11 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.tape.record import Symbols, function, places
+from graphplan.kernel.tape.record import Symbols
+from graphplan.kernel.tape.written import function, places
 from graphplan.methods.recorded import Recorded
 
 if TYPE_CHECKING:
     from graphplan.kernel.tape.blocks import Blocks
+    from graphplan.kernel.tape.machine import Machine
 
 Given = Mapping[Any, Mapping[str, Any]]
 Free = tuple[tuple[str | int, str], ...]
@@ -21,12 +23,14 @@ Results = dict[str, dict[str, Any]]
 class Replay:
     """Readings of a construction as a function of some of its given numbers, by step (name or index) and parameter.
 
-    A reading is a number or a pair; `told` says, by kind and name, where on the tape its numbers stand.
+    A reading is a number or a pair; `told` says, by kind and name, where on the tape its numbers stand. `outputs` are
+    these places, what is read of one point or link together, in the order in which they are drawn: so each number is
+    used soon after it is made.
     """
 
     def __init__(self, construction: Recorded, free: Free, kinds: Collection[str]):
         self.construction, self.free = construction, free
-        self._blocks: dict[bool, Blocks] = {}
+        self._over_arrays: dict[bool, Blocks | Machine] = {}
         domain = Symbols()
         self.tape = domain.tape
         given: dict[str | int, dict[str, Any]] = {}
@@ -36,7 +40,10 @@ class Replay:
         results = construction.read(domain, given)
         self.told = {kind: {name: self._place(value) for name, value in values.items()}
                      for kind, values in results.items() if kind in kinds}
-        self.outputs = list(places(self.told))
+        first = {name: min(places(told)) for values in reversed(self.told.values()) for name, told in values.items()}
+        self.rows = sorted(((kind, name) for kind, values in self.told.items() for name in values),
+                           key=lambda row: first[row[1]])
+        self.outputs = [place for kind, name in self.rows for place in places(self.told[kind][name])]
         self.function = function(self.tape, self.inputs, self.told)
 
     def _place(self, value: Any) -> Any:
@@ -52,21 +59,21 @@ class Replay:
             return found
         return {kind: named for kind, named in self.construction.read(Floats(), given).items() if kind in self.told}
 
-    def run(self, given: Given, found: Results, machine: bool = False) -> Any:
+    def run(self, given: Given, found: Results, compiled: bool = False) -> Any:
         """Fill readings over n poses, vectors as complex numbers; the places of those that are left to the rules."""
-        if machine not in self._blocks:
+        if compiled not in self._over_arrays:
             from graphplan.kernel.tape.blocks import Blocks
+            from graphplan.kernel.tape.machine import Machine
 
-            self._blocks[machine] = Blocks(self.tape, self.inputs, self.outputs, machine)
+            self._over_arrays[compiled] = (Machine if compiled else Blocks)(self.tape, self.inputs, self.outputs)
         arrays = [given[mark][parameter] for mark, parameter in self.free]
-        return self._blocks[machine].run(arrays, list(self._rows(found)))
+        return self._over_arrays[compiled].run(arrays, list(self._rows(found)))
 
     def _rows(self, found: Results) -> Iterator[Any]:
         """The array of each output, in order."""
-        for kind, values in self.told.items():
-            for name, told in values.items():
-                z = found[kind][name]
-                yield from (z.real, z.imag) if isinstance(told, tuple) else (z,)
+        for kind, name in self.rows:
+            z = found[kind][name]
+            yield from (z.real, z.imag) if isinstance(self.told[kind][name], tuple) else (z,)
 
 
 def replay_of(construction: Recorded, free: Free, kinds: tuple[str, ...]) -> Replay | None:

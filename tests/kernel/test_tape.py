@@ -14,7 +14,9 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate, freeze
 from graphplan.kernel.tape import blocks
 from graphplan.kernel.tape.blocks import Blocks
-from graphplan.kernel.tape.record import Symbols, function
+from graphplan.kernel.tape.machine import Machine
+from graphplan.kernel.tape.record import Symbols
+from graphplan.kernel.tape.written import function
 
 PLACES = pytest.mark.parametrize("place", [quarters, corners, extremes], ids=lambda place: str(place.__name__))
 
@@ -40,7 +42,8 @@ class Recorded:
 
     def many(self, poses: Any, machine: bool = False) -> tuple[Any, Any]:
         found = [np.full(len(poses), np.nan) for _ in self.outputs]
-        left = Blocks(self.tape, self.inputs, self.outputs, machine).run(list(np.ascontiguousarray(poses.T)), found)
+        reading = (Machine if machine else Blocks)(self.tape, self.inputs, self.outputs)
+        left = reading.run(list(np.ascontiguousarray(poses.T)), found)
         return np.array(found).T, left
 
 

@@ -186,5 +186,5 @@ def test_machine_code_gives_what_numpy_gives() -> None:
     pytest.importorskip("numba")
     drawing = gp.construct(gp.load("slider-crank"))
     points = shaken(drawing.scene, 10)
-    compiled = drawing.evaluate(points, machine=True)
+    compiled = drawing.evaluate(points, compiled=True)
     assert np.array_equal(compiled.velocity["B"], drawing.evaluate(points).velocity["B"])

@@ -190,7 +190,7 @@ def _on_arrays(problem: Problem, drawing: Construction) -> Run:
 
 def _in_blocks(machine: bool, problem: Problem, drawing: Construction) -> Run:
     """The tape on blocks of poses, by numpy or compiled."""
-    return problem.arrays(lambda: drawing.evaluate(problem.points, machine=machine).results)
+    return problem.arrays(lambda: drawing.evaluate(problem.points, compiled=machine).results)
 
 
 def _enclosed(digits: int, problem: Problem, drawing: Construction) -> Run:

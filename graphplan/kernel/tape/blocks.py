@@ -7,17 +7,20 @@ no are handed back, and the others are done.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+import math
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from typing import Any
 
 import numpy as np
 
-from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import ZERO
-from graphplan.kernel.tape.record import LEAVES, WRITTEN, Question, StatementWriter, Tape, compiled, operands, spoken
+from graphplan.kernel.tape.record import Question, Tape, operands
+from graphplan.kernel.tape.written import PYTHON, asked_of, compiled
 
 NOWHERE = np.empty(0, np.intp)
-BLOCK = 4096  # poses: the numbers of some tens of marks then fit into the cache
+BLOCK = 4096  # poses at most: with more the calls of numpy become no cheaper
+SHORTEST = 1024  # poses: with fewer the calls take longer than the arithmetic
+CACHE = 1 << 22  # bytes that the registers of a block may take
 CALLS = {"+": "add", "-": "subtract", "*": "multiply", "/": "divide", "neg": "negative", "abs": "absolute",
          "sqrt": "sqrt", "sign": "sign"}
 BOUNDED = ("+", "-", "*", "neg", "abs")  # what is no larger than its operands' sizes make it
@@ -26,37 +29,28 @@ HEAD = ("from numpy import absolute, add, divide, minimum, multiply, negative, s
 
 
 class Blocks:
-    """The replay of a tape over arrays: made once, then `run` over any number of poses.
+    """The replay of a tape over arrays: made once, then `run` over any number of poses, `length` of them at a time."""
 
-    With `machine` a block is one loop in machine code, by numba, else a list of numpy calls.
-    """
-
-    def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int], machine: bool = False):
-        writer = None if machine else BlockWriter(tape, inputs, outputs)
-        self._registers = writer.registers if writer else 0
-        self._block = compiled(writer.text(), "block") if writer else loop(tape, inputs, outputs)
+    def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
+        writer = BlockWriter(tape, inputs, outputs)
+        self._registers, self._block = writer.registers, compiled(writer.text(), "block")
+        self.length = max(SHORTEST, min(BLOCK, CACHE // (8 * max(1, self._registers))))
 
     def run(self, inputs: Sequence[Any], outputs: Sequence[Any]) -> Any:
         """Fill the outputs for n poses; the places of those in which a rule fails, whose outputs say nothing.
 
-        Reads arrays of shape (n,), one for each input, and writes into those for each output. The places are an array
-        of whole numbers, mostly an empty one: each is a pose to be asked of the rules, and no other is.
+        Reads arrays of shape (n,), one for each input, and writes into those for each output; they may stand among
+        other numbers, as the real parts of complex ones do. The places are an array of whole numbers, mostly an empty
+        one: each is a pose to be asked of the rules, and no other is.
         """
         n, left = len(inputs[0]), [NOWHERE]
-        size = min(n, BLOCK)
-        read, registers, told = ([np.empty(size) for _ in range(count)]
-                                 for count in (len(inputs), self._registers, len(outputs)))
+        registers = [np.empty(min(n, self.length)) for _ in range(self._registers)]
         with np.errstate(all="ignore"):
-            for start in range(0, n, BLOCK):
-                part = slice(start, min(start + BLOCK, n))
-                if part.stop - start < size:
-                    read, registers, told = ([array[: part.stop - start] for array in arrays]
-                                             for arrays in (read, registers, told))
-                for numbers, array in zip(read, inputs, strict=True):  # they may stand among others, as real parts do
-                    numbers[:] = array[part]
-                refused = self._block(read, told, registers)
-                for output, numbers in zip(outputs, told, strict=True):
-                    output[part] = numbers
+            for start in range(0, n, self.length):
+                part = slice(start, start + self.length)
+                if n - start < self.length:
+                    registers = [register[: n - start] for register in registers]
+                refused = self._block([array[part] for array in inputs], [array[part] for array in outputs], registers)
                 if refused is not None:
                     left.append(start + np.flatnonzero(refused))
         return np.concatenate(left)
@@ -70,10 +64,13 @@ def refused(before: Any, value: Any, scale: Any = None) -> Any:
     return fails if before is None else before | fails
 
 
+LOST = 2.0**-1000  # what squares lose of numbers that are too small to be squared, and more
+ROUNDED = 1.0 + 2.0**-20  # what the sum of a block's squares loses by rounding, and more
+
+
 def largest(numbers: Any) -> float:
-    """The largest size in a block; nan where any is."""
-    high, low = float(np.maximum.reduce(numbers)), float(np.minimum.reduce(numbers))
-    return high if high >= -low else -low  # nan in one is nan in both
+    """A bound of the sizes in a block: the root of the sum of squares is one call, and it need not be tight."""
+    return ROUNDED * math.sqrt(float(numbers.dot(numbers)) + LOST)
 
 
 def least(numbers: Any) -> float:
@@ -90,103 +87,107 @@ def sign(value: Any, scale: Any, told: Any) -> None:
     told[:] = np.where(np.absolute(value) <= ZERO * scale, 0.0, np.sign(value))
 
 
-def loop(tape: Tape, inputs: Sequence[int], outputs: Sequence[int]) -> Callable[..., Any]:
-    """A machine-code `block(inputs, outputs, registers)`, for numba: worth its compiling for millions of poses."""
-    try:
-        from numba import njit
-    except ImportError:
-        raise Refused("compiled", "numba is not installed", "pip install 'graphplan[numba]', or leave it out") from None
-    reads = [f"v{place} = I[{k}][k]" for k, place in enumerate(inputs)]
-    tells = [f"O[{k}][k] = {spoken(tape, place)}" for k, place in enumerate(outputs)]
-    body = "\n        ".join([*reads, "bad = False", *StatementWriter(tape, outputs, "bad = True").lines, *tells,
-                              "B[k] = bad"])
-    text = f"def block(I, O, B):\n    for k in range(B.size):\n        {body}"
-    made = njit(error_model="numpy")(compiled(text, "block"))
-
-    def block(I: Sequence[Any], O: Sequence[Any], R: Sequence[Any]) -> Any:
-        bad = np.empty(len((*I, *O)[0]), bool)
-        made(tuple(I), tuple(O), bad)
-        return bad
-
-    return block
-
-
 class BlockWriter:
     """Writes the function for one block; numbers are kept in registers, each taken again when its number is done with.
+
+    Measured are, as soon as they are there, the largest sizes of the inputs, quotients and roots that scales are made
+    from, and the least sizes of what the values are made from that are asked: the bounds are sums of products of these.
     """
 
     def __init__(self, tape: Tape, inputs: Sequence[int], outputs: Sequence[int]):
-        self.tape, self.inputs, self.outputs = tape, len(inputs), len(outputs)
-        self.names = {place: f"i{k}" for k, place in enumerate(inputs)}
-        self.told: dict[int, int] = {}
+        self.tape, self.counts = tape, (len(inputs), len(outputs))
+        self.inputs = {place: k for k, place in enumerate(inputs)}
+        self.outputs: dict[int, list[int]] = {}
         for k, place in enumerate(outputs):
-            self.told.setdefault(place, k)
-        self.copies = [(k, place) for k, place in enumerate(outputs) if self.told[place] != k or self._leaf(place)]
-        self.marks = set(tape.needed([*outputs, *(q.value for q in tape.questions)]))
-        self.marks.update(tape.needed(a for q in tape.questions for a in self._leaves(q.scale)))
+            self.outputs.setdefault(place, []).append(k)
+        self.names: dict[int, str] = {}
+        self.marks = set(tape.needed(outputs))
+        self.high = self._sources((q.scale for q in tape.questions if q.scale is not None), self._summed)
+        self.low = self._sources((q.value for q in tape.questions), self._grows)
+        needed = tape.needed([*outputs, *self.low, *self.high])
+        self.marks.update(needed)
         self.registers, self.free = 0, list[str]()
         self.lines: list[str] = []
-        self.sizes: dict[int, str] = {}
-        self._write(sorted(self.marks))
+        self._bounded: dict[int, str] = {}
+        self._write(needed)
 
     def text(self) -> str:
         """What makes the function `block(inputs, outputs, registers)`: a mask of the poses in which a question fails.
 
         None stands for no pose.
         """
-        counts = {"i": self.inputs, "o": self.outputs, "r": self.registers}
+        counts = dict(zip("ior", (*self.counts, self.registers), strict=True))
         unpack = [f"{', '.join(f'{letter}{k}' for k in range(count))}, = {letter.upper()}"
                   for letter, count in counts.items() if count]
-        copies = [f"o{k}[:] = {self._name(place)}" for k, place in self.copies]
-        body = [*unpack, "bad = None", *self.lines, *copies, "return bad"]
+        body = [*unpack, "bad = None", *self.lines, "return bad"]
         return "\n".join([*HEAD, "\n    ".join(["def block(I, O, R):", *body])])
 
-    def _leaf(self, place: int) -> bool:
-        return self.tape.entries[place][0] in LEAVES
+    def _summed(self, place: int) -> bool:
+        """Whether a number is no larger than sums of products of its operands' sizes."""
+        return self.tape.entries[place][0] in BOUNDED
+
+    def _grows(self, place: int) -> bool:
+        """Whether a number, made for a question alone, is no smaller than what its operands' least sizes make."""
+        return place not in self.marks and self.tape.entries[place][0] in BOUNDED and self._never_negative(place)
+
+    def _sources(self, wanted: Iterable[int], made: Callable[[int], bool]) -> set[int]:
+        """The numbers from which these are made, as far as their sizes tell theirs."""
+        found, waiting, seen = set[int](), [*wanted], set[int]()
+        while waiting:
+            place = waiting.pop()
+            if place not in seen and not self.tape.is_constant(place):
+                seen.add(place)
+                if made(place):
+                    waiting.extend(operands(self.tape.entries[place]))
+                else:
+                    found.add(place)
+        return found
 
     def _write(self, needed: Sequence[int]) -> None:
         """Each number, then the questions that can be asked with it, then its operands are let go if done with."""
-        asked = self._asked()
-        last = {a: place for place in needed for a in operands(self.tape.entries[place])}
+        order = {place: k for k, place in enumerate(needed)}
+        asked = dict[int, list[Question]]()
+        for question in self.tape.questions:
+            asked.setdefault(max(self._read(question), key=order.__getitem__), []).append(question)
+        last = {place: place for place in needed}
+        last.update((a, place) for place in needed for a in operands(self.tape.entries[place]))
         for place, questions in asked.items():
             for question in questions:
-                last.update((a, max(place, last.get(a, 0))) for a in (question.value, *self._leaves(question.scale)))
+                last.update((a, max(place, last[a], key=order.__getitem__)) for a in self._read(question))
         ends: dict[int, list[int]] = {}
         for place, end in last.items():
             ends.setdefault(end, []).append(place)
         for place in needed:
-            if not self._leaf(place):
-                self._make(place, [a for a in ends.get(place, []) if a in operands(self.tape.entries[place])
-                                   and place not in asked])
+            over = [] if place in asked else ends.get(place, [])
+            self._make(place, [a for a in over if a in operands(self.tape.entries[place])])
+            self.lines.extend(f"o{k}[:] = {self._name(place)}" for k in self.outputs.get(place, ()))
+            if place in self.high:
+                self.lines.append(f"m{place} = largest({self._name(place)})")
+            if place in self.low:
+                least = "minimum.reduce" if self._never_negative(place) else "least"
+                self.lines.append(f"l{place} = {least}({self._name(place)})")
             for question in asked.get(place, []):
                 self._ask(question)
             for done in ends.get(place, []):
                 self._release(done)
 
-    def _asked(self) -> dict[int, list[Question]]:
-        """The questions, by the place after which all that they need is there."""
-        found: dict[int, list[Question]] = {}
-        for question in self.tape.questions:
-            found.setdefault(max([question.value, *self._leaves(question.scale)]), []).append(question)
-        return found
-
     def _make(self, place: int, ending: Sequence[int]) -> None:
+        """A number into a register; one of an operand that is done with may take it."""
         op, *args = self.tape.entries[place]
-        called = ", ".join(map(self._name, args))
-        for done in ending:  # its own place may take the result
+        if op == "constant":
+            return
+        called = [] if op == "in" else list(map(self._name, args))
+        for done in ending:
             self._release(done)
-        target = f"o{self.told[place]}" if place in self.told else self._taken()
-        self.names[place] = target
-        self.lines.append(f"{CALLS[op]}({called}, {target})")
-
-    def _taken(self) -> str:
-        if self.free:
-            return self.free.pop()
-        self.registers += 1
-        return f"r{self.registers - 1}"
+        if not self.free:
+            self.free.append(f"r{self.registers}")
+            self.registers += 1
+        self.names[place] = target = self.free.pop()
+        self.lines.append(f"{target}[:] = i{self.inputs[place]}" if op == "in" else
+                          f"{CALLS[op]}({', '.join([*called, target])})")
 
     def _release(self, place: int) -> None:
-        if self.names.get(place, "").startswith("r"):
+        if place in self.names:
             self.free.append(self.names.pop(place))
 
     def _name(self, place: int) -> str:
@@ -196,49 +197,52 @@ class BlockWriter:
 
     def _ask(self, question: Question) -> None:
         """The question by its bounds; where they leave it open, pose by pose."""
-        value = self._name(question.value)
+        value = self._each(question.value)
         if question.scale is None:
             self.lines.append(f"if not minimum.reduce({value}) >= 0.0: bad = refused(bad, {value})")
             return
-        least = f"minimum.reduce({value})" if self._never_negative(question.value) else f"least({value})"
-        if self.tape.is_constant(question.value):
-            least = repr(abs(self.tape.entries[question.value][1]))
-        self.lines.append(f"if not {least} > {ZERO!r} * {self._bound(question.scale)}: "
+        self.lines.append(f"if not {self._least(question.value)} > {ZERO!r} * {self._largest(question.scale)}: "
                           f"bad = refused(bad, {value}, {self._each(question.scale)})")
 
     def _each(self, place: int) -> str:
-        """An expression for a scale pose by pose."""
+        """An expression for a number pose by pose."""
         op, *args = self.tape.entries[place]
-        if op == "constant" or place in self.marks or op not in BOUNDED:
+        if op == "constant" or place in self.marks:
             return self._name(place)
-        return WRITTEN[op].format(*map(self._each, args))
+        return PYTHON.written[op].format(*map(self._each, args))
 
-    def _leaves(self, place: int | None) -> Iterator[int]:
-        """The numbers of the tape from which the size of a scale is bounded."""
-        if place is None or self.tape.is_constant(place):
-            return
-        entry = self.tape.entries[place]
-        if place in self.marks or entry[0] not in BOUNDED:
-            yield place
-        else:
-            for a in operands(entry):
-                yield from self._leaves(a)
+    def _read(self, question: Question) -> Iterator[int]:
+        """The numbers that a question reads pose by pose."""
+        waiting = list(asked_of(question))
+        while waiting:
+            place = waiting.pop()
+            if place in self.marks and not self.tape.is_constant(place):
+                yield place
+            else:
+                waiting.extend(operands(self.tape.entries[place]))
 
-    def _bound(self, place: int) -> str:
-        """An expression for the largest size that a number has in the block."""
-        entry = self.tape.entries[place]
-        if entry[0] == "constant":
-            return repr(abs(entry[1]))
-        if place in self.marks or entry[0] not in BOUNDED:
-            return self._size(place)
-        parts = [self._bound(a) for a in operands(entry)]
-        return parts[0] if len(parts) == 1 else f"({parts[0]} {'*' if entry[0] == '*' else '+'} {parts[1]})"
+    def _largest(self, place: int) -> str:
+        """How a bound of a number's sizes in the block is called; what it is made of stands before."""
+        op, *args = self.tape.entries[place]
+        if op == "constant":
+            return repr(abs(args[0]))
+        if place in self.high:
+            return f"m{place}"
+        if place not in self._bounded:
+            self._bounded[place] = self._largest(args[0]) if len(args) == 1 else f"m{place}"
+            if len(args) == 2:
+                one, two = map(self._largest, args)
+                self.lines.append(f"m{place} = {one} {'*' if op == '*' else '+'} {two}")
+        return self._bounded[place]
 
-    def _size(self, place: int) -> str:
-        if place not in self.sizes:
-            self.sizes[place] = f"m{place}"
-            self.lines.append(f"m{place} = largest({self._name(place)})")
-        return self.sizes[place]
+    def _least(self, place: int) -> str:
+        """An expression for a bound of a number's sizes from below."""
+        op, *args = self.tape.entries[place]
+        if op == "constant":
+            return repr(abs(args[0]))
+        if place in self.low:
+            return f"l{place}"
+        return PYTHON.written[op].format(*map(self._least, args)).replace("abs", "")
 
     def _never_negative(self, place: int) -> bool:
         op, *args = self.tape.entries[place]

@@ -1,6 +1,6 @@
 """The rule of any step as arithmetic over the coordinates of what it reads, written in the language of a target.
 
-The rule runs once on symbols (kernel/tape/record.py). Coordinates come and go in mm of paper; in between stand the
+The rule runs once on symbols (kernel/tape). Coordinates come and go in mm of paper; in between stand the
 units of each operand's own plan, so that a step may read from plans of any scale. In mm
 
 | kind    | has the coordinates                                                          |
@@ -14,29 +14,18 @@ units of each operand's own plan, so that a step may read from plans of any scal
 from __future__ import annotations
 
 import math
-from collections import Counter
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
-from graphplan.kernel.numbers.floats import ZERO
-from graphplan.kernel.tape.record import LEAVES, Symbols, Tape, operands
+from graphplan.kernel.tape.record import Symbols
+from graphplan.kernel.tape.written import Language, Writer
 from graphplan.sheet.lettering.lettering import GREEK, Run, Runs
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.view import View
 
 SHAPELESS = frozenset({"side", "way", "turn"})  # parameters that stay what they are when everything grows
-
-
-class Language(NamedTuple):
-    """How a target writes numbers and operations: those of the tape by sign, with {0}, {1} for what they work on.
-
-    `sign` has a third place, for the part of {1} beside which {0} is nothing.
-    """
-
-    number: Callable[[float], str]
-    written: Mapping[str, str]
 
 
 @dataclass(frozen=True)
@@ -59,7 +48,8 @@ def formula(drawn: DrawnStep, coordinates: Sequence[Sequence[str]], language: La
             for arg, texts in zip(drawn.args, coordinates, strict=True)]  # fmt: skip
     value = drawn.step.op.rule(domain, *read, **drawn.step.params)
     told = [domain.tape.place(part) for part in _told(domain, drawn.kind, _window(drawn, similar), value)]
-    return _written(domain.tape, told, language, term, deepest)
+    writer = Writer(domain.tape, language, prefix=term, deepest=deepest)
+    return Formula(tuple(writer.terms(told)), tuple(writer.text[place] for place in told))
 
 
 def _similar(drawn: DrawnStep) -> bool:
@@ -97,33 +87,6 @@ def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
     if kind == POINT:
         return [*at]
     return [*at, window.scale * d.sqrt(value[-1], "not-rational", "a length is never imaginary")]
-
-
-def _written(tape: Tape, told: Sequence[int], language: Language, term: str, deepest: float) -> Formula:
-    """What stands on a tape, written out as far as what is told needs it."""
-    needed = tape.needed(told)
-    uses = Counter(place for entry in needed for place in operands(tape.entries[entry]))
-    texts, depth, terms = dict[int, str](), dict[int, int](), list[tuple[str, str]]()
-    for place in needed:
-        op, *rest = tape.entries[place]
-        depth[place] = 0
-        if op in LEAVES:
-            texts[place] = language.number(rest[0]) if op == "constant" else str(rest[0])
-            continue
-        text = language.written[op].format(*(texts[arg] for arg in rest), language.number(ZERO))
-        deep = 1 + max(depth[arg] for arg in rest)
-        if term and (uses[place] > 1 or deep >= deepest):
-            texts[place] = f"{term}{len(terms) + 1}"
-            terms.append((texts[place], text))
-        else:
-            texts[place], depth[place] = text, deep
-    return Formula(tuple(terms), tuple(texts[place] for place in told))
-
-
-def operations(sqrt: str, absolute: str, sign: str) -> dict[str, str]:
-    """The operations as nearly every language writes them."""
-    return {"+": "({} + {})", "-": "({} - {})", "*": "({} * {})", "/": "({} / {})", "neg": "(-{})",
-            "sqrt": sqrt, "abs": absolute, "sign": sign}
 
 
 # ---- letters in the mathematics of TeX, as GCLC and LaTeX set them, and words as LaTeX takes them -------------------

@@ -15,7 +15,8 @@ from decimal import Decimal
 from itertools import pairwise
 
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movement
-from graphplan.output.exports.formula import Language, formula, formulated, operations
+from graphplan.kernel.tape.written import Language, operations
+from graphplan.output.exports.formula import formula, formulated
 from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import CAPS

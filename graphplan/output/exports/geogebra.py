@@ -16,7 +16,8 @@ from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
-from graphplan.output.exports.formula import Language, formula, operations
+from graphplan.kernel.tape.written import Language, operations
+from graphplan.output.exports.formula import formula
 from graphplan.output.exports.walk import BACK, FRONT, Elements, at_home, parameters, turned_back
 from graphplan.sheet.lettering.lettering import name_runs
 from graphplan.sheet.plates import pens

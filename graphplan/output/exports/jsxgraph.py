@@ -13,7 +13,8 @@ from html import escape
 from importlib.resources import files
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
-from graphplan.output.exports.formula import Language, formula, operations
+from graphplan.kernel.tape.written import JAVASCRIPT
+from graphplan.output.exports.formula import formula
 from graphplan.output.exports.walk import BACK, FRONT, Elements, at_home, identifiers, parameters
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import name_runs
@@ -34,8 +35,6 @@ WORDS = {
 THICK = 3.0  # pixels for a mm of a pen's width
 LINKS, CURVES, VECTORS, POINTS = 2, 4, 6, 9  # JSXGraph's layers
 MARGIN = 0.02  # of the paper, around it
-JAVASCRIPT = Language(repr, operations(
-    "Math.sqrt({})", "Math.abs({})", "(Math.abs({0}) <= {2} * {1} ? 0 : Math.sign({0}))"))
 NATIVE = {  # an element, and its parents
     Movement.RULED: ("line", "{0}", "{1}"),
     Movement.PARALLEL: ("line", "{1}", "() => by({1}, {0}, 100, 0)"),

@@ -12,7 +12,8 @@ import math
 from collections.abc import Iterable, Sequence
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement
-from graphplan.output.exports.formula import Language, formula, formulated, operations, spelled
+from graphplan.kernel.tape.written import Language, operations
+from graphplan.output.exports.formula import formula, formulated, spelled
 from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import BALLOON

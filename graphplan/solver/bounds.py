@@ -42,7 +42,7 @@ class Bounded:
         return Bounded(abs(self.value), self.error, self.size)
 
     def __add__(self, other: Any) -> Bounded:
-        two = bounded(other)
+        two = other if type(other) is Bounded else bounded(other)
         if not two.size:
             return self
         value = self.value + two.value
@@ -55,7 +55,7 @@ class Bounded:
         return bounded(other) + -self
 
     def __mul__(self, other: Any) -> Bounded:
-        two = bounded(other)
+        two = other if type(other) is Bounded else bounded(other)
         if two.value in (0.0, 1.0, -1.0) and not two.error:
             return Bounded(self.value * two.value, self.error * abs(two.value), self.size * abs(two.value))
         value, a, b = self.value * two.value, abs(self.value), abs(two.value)
@@ -63,7 +63,7 @@ class Bounded:
         return Bounded(value, UP * error, max(a * two.size, b * self.size))
 
     def __truediv__(self, other: Any) -> Bounded:
-        two = bounded(other)
+        two = other if type(other) is Bounded else bounded(other)
         least = abs(two.value) - two.error
         if not least > 0:
             raise Unproven("a divisor may be zero")
@@ -111,12 +111,13 @@ class Bounded:
 
 def bounded(number: Any) -> Bounded:
     """A whole number or fraction, rounded to a float, or a float as the binary fraction that it is."""
-    if isinstance(number, Bounded):
+    if type(number) is Bounded:
         return number
-    value = float(number)
-    if isinstance(number, Fraction) and value.as_integer_ratio() != (number.numerator, number.denominator):
-        return Bounded(value, UP * ROUNDING * abs(value))
-    return Bounded(value)
+    if not isinstance(number, Fraction):
+        return Bounded(float(number))
+    whole = number.as_integer_ratio()
+    value = whole[0] / whole[1]
+    return Bounded(value) if value.as_integer_ratio() == whole else Bounded(value, UP * ROUNDING * abs(value))
 
 
 PI = Bounded(math.pi, 2.0**-52)

@@ -25,7 +25,7 @@ from graphplan.mechanism.elimination import Elimination, transpose
 from graphplan.mechanism.equations import PIN
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Statement
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Statement, surplus
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, less, times
 from graphplan.solver.blocks import TOGETHER
@@ -87,14 +87,22 @@ class Equations:
             if link != FRAME:
                 weights = fact.weights(self.arm(link, fact.at))
                 column = self.columns[link] if link != PIN else self.pins[fact.at]
-                row |= {column + k: sign * weight for k, weight in enumerate(weights if link != PIN else weights[:2])}
+                row |= {column + k: sign * weight for k, weight in enumerate(weights if link != PIN else weights[:2])
+                        if type(weight) is not int or weight}
         return row
 
     def arm(self, link: str, point: str) -> Pair:
         """The vector from the link's base to `point`; nothing for the frame, which does not move, and for a pin."""
         if not point or link in (FRAME, PIN):
             return 0, 0
-        return less(self.scene.points[point], self.scene.points[self.bases[link]])
+        if (link, point) not in self._arms:
+            self._arms[link, point] = less(self.scene.points[point], self.scene.points[self.bases[link]])
+        return self._arms[link, point]
+
+    @cached_property
+    def _arms(self) -> dict[tuple[str, str], Pair]:
+        """The vectors that are known already."""
+        return {}
 
     @cached_property
     def bases(self) -> dict[str, str]:
@@ -127,7 +135,9 @@ class Equations:
 
     def accelerations(self, rates: dict[str, Rate]) -> list[Number]:
         """The right-hand side for the accelerations, from the velocities of every link."""
-        return [change + fact.left_over(*self.sides(fact, rates))
+        places = {(fact.link, fact.on, fact.at): fact for fact in self.facts}  # a joint's two facts have one
+        more = {place: surplus(*self.sides(fact, rates)) if fact.at else (0, 0) for place, fact in places.items()}
+        return [change + fact.left_over(more[fact.link, fact.on, fact.at])
                 for fact, (_, change) in zip(self.facts, self.prescribed, strict=True)]
 
     def sides(self, of: Statement | Slide, rates: dict[str, Rate]) -> tuple[Side, Side]:

@@ -28,6 +28,7 @@ from graphplan.mechanism.pairs.pair import (
     Rate,
     Side,
     Statement,
+    surplus,
 )
 from graphplan.mechanism.plane import dot, turned
 from graphplan.mechanism.scene import packaged
@@ -75,7 +76,7 @@ def test_what_is_stated_of_poses_is_stated_of_rates(name: str) -> None:
         velocity, acceleration = (sum(sign * a * b for link, sign in ((fact.link, 1), (fact.on, -1))
                                       for a, b in zip(fact.weights(arm), rates[link], strict=True))
                                   for rates in (first, second))
-        left = fact.left_over(*(Side(arm, first[link]) for link in (fact.link, fact.on)))
+        left = fact.left_over(surplus(*(Side(arm, first[link]) for link in (fact.link, fact.on))))
         assert now == pytest.approx(0, abs=1e-15)
         assert (after - before) / (2 * STEP) == pytest.approx(velocity, abs=1e-6)
         assert (after - 2 * now + before) / STEP**2 == pytest.approx(float(acceleration - left), abs=1e-5)

@@ -127,7 +127,7 @@ class Turning:
         """How much each rate of a link counts."""
         return Rate(0, 0, 1)
 
-    def left_over(self, link: Side, on: Side) -> Number:
+    def left_over(self, more: Pair) -> Number:
         """Angular accelerations add up as angular velocities do."""
         return 0
 
@@ -164,9 +164,9 @@ class Along:
         """How much each rate of a link counts."""
         return Rate(*self.direction, dot(self.direction, turned(arm)) + self.lever)
 
-    def left_over(self, link: Side, on: Side) -> Number:
-        """What the velocities add to `change` on the right-hand side of the accelerations."""
-        return dot(self.direction, surplus(link, on))
+    def left_over(self, more: Pair) -> Number:
+        """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
+        return dot(self.direction, more)
 
 
 Statement = Turning | Along

@@ -27,6 +27,7 @@ RAIL, BESIDE = 2.6, 1.8  # mm from rail to rail, and from the numbers to the fir
 ROOM = 0.06  # of the numbers' range, left free at both ends
 KEY, SAMPLE = 5.0, 9.0  # from line to line of the key; the length of its samples
 SIDES = (*((h, 0) for h in (1, -1)), *((h, v) for v in (1, -1, 2.4, -2.4, 3.8, -3.8) for h in (0, 0.9, -0.9)))
+PIECES = 12  # in which a line is looked at
 FAR = 2  # words so many lines away are led to their mark
 READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
@@ -220,7 +221,9 @@ def _covered(series: Series, x: _Scale, y: _Scale) -> Iterable[Rect]:
         yield from (Rect(left, up, right, up).inset(-0.1, -0.1, -0.1, -0.1),
                     Rect(across, low, across, high).inset(-0.1, -0.1, -0.1, -0.1))
     for (left, low), (right, high) in pairwise(spots) if series.look.width else ():
-        yield Rect(min(left, right), min(low, high), max(left, right), max(low, high)).inset(-0.1, -0.1, -0.1, -0.1)
+        wide, high = (right - left) / PIECES, (high - low) / PIECES
+        yield from (_box((left + (k + 0.5) * wide, low + (k + 0.5) * high), abs(wide) + 0.2, abs(high) + 0.2)
+                    for k in range(PIECES))
 
 
 def _box(centre: Spot, wide: float, high: float) -> Rect:

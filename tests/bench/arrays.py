@@ -7,15 +7,15 @@ chart of the machine takes beside its own: `run.py --rivals FILE.csv` writes the
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import cache, partial
 
-from harness import ROUNDS, Row, Target, Times, alternate, compared, peer
+from harness import ROUNDS, Measured, Row, Target, alternate, compared, peer
 from problems import SCENES, N, problem, run
 
-from graphplan.accuracy.survey.machine import MOTION, Measure
+from graphplan.accuracy.survey.machine import Measure
 from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, LAPACK, MANY, SOLVERS, Problem, Run
-from graphplan.accuracy.survey.timing import spent, spread
+from graphplan.accuracy.survey.timing import spent
 from graphplan.methods.construct import construct
 
 HAND, JAX = "numba by hand", "JAX"
@@ -23,14 +23,6 @@ CASADI, FUNCTION_MAP = "CasADi, C", "CasADi, map"  # the faster of its two ways 
 LARGE = SCENES[2:]  # where elimination costs
 WRITTEN = SCENES[:3]  # by hand
 CALLED = {LAPACK: "LAPACK", MANY: "numpy", COMPILED: "compiled"}
-
-
-@dataclass(frozen=True)
-class Measured:
-    """The times of all runs of a mechanism, round by round for all poses, and their largest errors."""
-
-    times: Times
-    errors: dict[str, float]
 
 
 def rows() -> list[Row]:
@@ -93,8 +85,4 @@ def _by_hand(loop: Callable[..., tuple[object, object]], of: Problem) -> Run:
 def measures() -> Iterator[Measure]:
     """The rivals' rows for the chart of the machine."""
     for name in SCENES:
-        found = measured(name)
-        for who in [who for who in (HAND, CASADI, FUNCTION_MAP, JAX) if who in found.times]:
-            ratios = [a / b for a, b in zip(found.times[who], found.times[LAPACK], strict=True)]
-            low, middle, high = spread(ratios)
-            yield Measure(name, MOTION, "", "", who, middle, low, high, found.errors[who])
+        yield from measured(name).beside(LAPACK, name, {who: who for who in (HAND, CASADI, FUNCTION_MAP, JAX)})

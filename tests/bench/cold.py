@@ -6,26 +6,33 @@ import os
 import subprocess
 import sys
 import tempfile
+from functools import partial
 from pathlib import Path
+from typing import Any
 
 from harness import Row, Target, alternate, compared
 
 ROUNDS = 15
 ROOT = Path(__file__).parents[2]
 IMPORT = "import numpy"
+COMMANDS: dict[str, tuple[Any, ...]] = {  # how many times `import numpy` they may take, and their words
+    "graphplan solve": (2, "solve", "alt-eight-link"),
+    "graphplan steps": (3, "steps", "alt-eight-link"),
+    "graphplan draw": (4.5, "draw", "alt-eight-link", "-o", "{folder}/sheet.svg"),
+    "graphplan handout": (8, "handout", "alt-eight-link", "-o", "{folder}/handout.html"),
+    "graphplan cost, four-bar": (12, "cost", "four-bar"),
+}
 COMMAND = "import sys; from graphplan.commands import main; sys.exit(main())"  # what the installed script says
 
 
 def rows() -> list[Row]:
-    """`graphplan solve` and `graphplan draw` of the eight-link chain."""
+    """The commands of a teacher's day: the eight-link chain's, and the cost of a four-bar."""
     with tempfile.TemporaryDirectory() as folder:
-        times = alternate({
-            "ours": lambda: python(COMMAND, "solve", "alt-eight-link"),
-            "draw": lambda: python(COMMAND, "draw", "alt-eight-link", "-o", f"{folder}/sheet.svg"),
-            IMPORT: lambda: python(IMPORT),
-        }, ROUNDS)
-    return [compared("graphplan solve", IMPORT, Target("at most", 2), times),
-            compared("graphplan draw", IMPORT, Target("at most", 4.5), times, ours="draw")]
+        commands = {name: partial(python, COMMAND, *(word.format(folder=folder) for word in words))
+                    for name, (_, *words) in COMMANDS.items()}
+        times = alternate({**commands, IMPORT: lambda: python(IMPORT)}, ROUNDS)
+    return [compared(name, IMPORT, Target("at most", most), times, ours=name)
+            for name, (most, *_) in COMMANDS.items()]
 
 
 def python(code: str, *arguments: str) -> None:

@@ -8,12 +8,16 @@ whole against ours with positions found too.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from functools import cache
 
 import exact
 import numpy as np
-from harness import Row, Target, alternate, compared, peer
+from harness import Measured, Row, Target, alternate, compared, peer
 
 import graphplan as gp
+from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
 from graphplan.cycle import follow
 
 POSES = 360
@@ -22,12 +26,24 @@ SCENE = "alt-eight-link-2"  # whose crank turns all the way round
 
 def rows() -> list[Row]:
     """Ours against kimech, without and with positions."""
+    found = measured()
+    given, whole = Target("at least", 2000), Target("at least", 1500)
+    return [compared("turn, given poses", "kimech, rates", given, found.times, over=POSES, errors=found.errors),
+            compared("turn, poses given to ours", "kimech", given, found.times, over=POSES, errors=found.errors),
+            compared("turn with positions", "kimech", whole, found.times, ours="ours with positions", over=POSES,
+                     errors=found.errors)]
+
+
+@cache
+def measured() -> Measured:
+    """All runs in turns, LAPACK on the same poses among them."""
     scene, drawing = gp.load(SCENE), gp.construct(gp.load(SCENE))
     travel = 2 * math.pi / POSES * np.arange(POSES)
     points = moving(scene)
     runs = {"ours": lambda: motion(drawing, points),
             "ours with positions": lambda: motion(drawing, moving(scene))}
     motions = dict(runs)
+    runs[LAPACK] = SOLVERS[LAPACK](Problem(scene, points=points)).call
     if module := peer("by_kimech"):
         chain = module.Kimech(scene)
         runs |= {"kimech": lambda: chain.motion(travel), "its positions": lambda: chain.positions(travel)}
@@ -38,16 +54,17 @@ def rows() -> list[Row]:
     if module:
         times["kimech, rates"] = [a - b for a, b in zip(times["kimech"], times["its positions"], strict=True)]
         errors["kimech, rates"] = errors["kimech"]
-    target = Target("at least", 2000)
-    return [compared("turn, given poses", "kimech, rates", target, times, over=POSES, errors=errors),
-            compared("turn, poses given to ours", "kimech", target, times, over=POSES, errors=errors),
-            compared("turn with positions", "kimech", target, times, ours="ours with positions", over=POSES,
-                     errors=errors)]
+    return Measured(times, errors)
 
 
-def moving(scene: gp.Scene) -> exact.Points:
+def measures() -> Iterator[Measure]:
+    """Its row for the chart of the machine."""
+    return measured().beside(LAPACK, SCENE, {"kimech": "kimech, with positions"})
+
+
+def moving(scene: gp.Scene, poses: int = POSES) -> exact.Points:
     """The positions of the points that move, over the turn."""
-    points = follow(scene, POSES).points
+    points = follow(scene, poses).points
     return {name: points[name] for name in scene.find.velocity}
 
 

@@ -3,37 +3,52 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from functools import cache
 from typing import Any
 
 import exact
 import numpy as np
-from harness import Row, Target, alternate, compared, peer
+from harness import Measured, Row, Target, alternate, compared, peer
 
 import graphplan as gp
+from graphplan.accuracy.survey.machine import Measure
+from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
 from graphplan.cycle import follow
 
 N = 100_000
+SCENE = "four-bar"
 
 
 def rows() -> list[Row]:
     """Ours against pylinkage: positions, and positions with velocities and accelerations."""
-    scene, drawing = gp.load("four-bar"), gp.construct(gp.load("four-bar"))
+    found, target = measured(), Target("at least", 2)
+    return [compared("turn, positions", "pylinkage, positions", target, found.times, ours="our positions", over=N,
+                     errors=found.errors),
+            compared("turn, positions and rates", "pylinkage", target, found.times, over=N, errors=found.errors)]
+
+
+@cache
+def measured() -> Measured:
+    """All runs in turns, LAPACK on the same poses among them."""
+    scene, drawing = gp.load(SCENE), gp.construct(gp.load(SCENE))
     runs: dict[str, Callable[[], Any]] = {
         "ours": lambda: motion(drawing),
         "our positions": lambda: {"points": moving(scene)},
     }
     found = {name: run() for name, run in runs.items()}
+    runs[LAPACK] = SOLVERS[LAPACK](Problem(scene, points=moving(scene))).call
     if module := peer("by_pylinkage"):
         linkage = module.Pylinkage(scene, N)
         runs |= {"pylinkage": linkage.motion, "pylinkage, positions": linkage.positions}
         found |= {name: linkage.read(runs[name]()) for name in ("pylinkage", "pylinkage, positions")}
     truth = exact.of_travel(scene, 2 * math.pi / N * np.arange(N), moving(scene))
-    errors = {name: exact.error(values, truth) for name, values in found.items()}
-    times, target = alternate(runs), Target("at least", 2)
-    return [compared("turn, positions", "pylinkage, positions", target, times, ours="our positions", over=N,
-                     errors=errors),
-            compared("turn, positions and rates", "pylinkage", target, times, over=N, errors=errors)]
+    return Measured(alternate(runs), {name: exact.error(values, truth) for name, values in found.items()})
+
+
+def measures() -> Iterator[Measure]:
+    """Its row for the chart of the machine."""
+    return measured().beside(LAPACK, SCENE, {"pylinkage": "pylinkage, with positions"})
 
 
 def moving(scene: gp.Scene) -> exact.Points:

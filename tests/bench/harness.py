@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from importlib import import_module
 from statistics import median, quantiles
 from types import ModuleType
 from typing import Literal
 
-from graphplan.accuracy.survey.timing import alternated
+from graphplan.accuracy.survey.machine import MOTION, Measure
+from graphplan.accuracy.survey.timing import alternated, spread
 
 ROUNDS = 9
 LONG_ENOUGH = 0.02  # seconds: shorter runs are repeated within one measurement
@@ -68,6 +69,21 @@ class Row:
 
 
 HEADS = Row("figure", "against", "target", "ratio", "quartiles", "met", "ours, rival", "errors of ours, rival")
+
+
+@dataclass(frozen=True)
+class Measured:
+    """The times of all runs of a problem, round by round, and their largest errors."""
+
+    times: Times
+    errors: dict[str, float]
+
+    def beside(self, unit: str, scene: str, names: Mapping[str, str]) -> Iterator[Measure]:
+        """Some runs of a scene's motion as rows of the chart of the machine, each by the name that it has there."""
+        for run, name in names.items():
+            if run in self.times:
+                low, middle, high = spread([a / b for a, b in zip(self.times[run], self.times[unit], strict=True)])
+                yield Measure(scene, MOTION, "", "", name, middle, low, high, self.errors[run])
 
 
 def compared(figure: str, rival: str, target: Target, times: Times, *, ours: str = "ours", over: int = 1,

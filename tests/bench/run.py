@@ -9,7 +9,8 @@ import sys
 from importlib import import_module
 from pathlib import Path
 
-FIGURES = ("arrays", "one_pose", "cycle_kimech", "cycle_pylinkage", "cold", "growth")
+FIGURES = ("arrays", "one_pose", "follow", "cycle_kimech", "cycle_pylinkage", "cold", "growth")
+RIVALS = ("arrays", "cycle_kimech", "cycle_pylinkage")  # which measure other programs' motions
 
 # One core for all, and before numpy is imported: its BLAS reads this once.
 ONE_THREAD = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS", "NUMBA_NUM_THREADS"), "1")
@@ -21,7 +22,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description="Measure graphplan against its rivals.")
     parser.add_argument("figures", nargs="*", metavar="FIGURE", help=f"of {', '.join(FIGURES)}; default all")
     parser.add_argument("--rivals", type=Path, metavar="FILE.csv",
-                        help="write the rows of arrays for graphplan chart machine --beside here")
+                        help="write other programs as rows for graphplan chart machine --beside here")
     parser.add_argument("-o", dest="file", type=Path, help="write the table here too")
     asked = parser.parse_args()
     if unknown := set(asked.figures) - set(FIGURES):
@@ -37,12 +38,10 @@ def main() -> None:
 
 def rivals() -> str:
     """The other programs as rows of the chart of the machine, as they were measured."""
-    import arrays
-
     from graphplan.accuracy.survey.machine import Measure
     from graphplan.accuracy.survey.picture import table
 
-    return table(Measure, arrays.measures())
+    return table(Measure, [row for figure in RIVALS for row in import_module(figure).measures()])
 
 
 def measured(figures: tuple[str, ...]) -> str:

@@ -1,0 +1,39 @@
+"""Follow: 10,000 positions around a turn of an eight-link chain, beside one 6 x 6 system a pose solved by LAPACK.
+
+The chain has six unknown angles: a method that finds them by Newton's steps solves one such system at least in each.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from inspect import signature
+
+import exact
+import numpy as np
+from cycle_kimech import SCENE, moving
+from harness import Measured, Row, Target, alternate, compared
+
+import graphplan as gp
+from graphplan.cycle import follow
+
+POSES, ANGLES = 10_000, 6
+SYSTEMS = "LAPACK, 6 x 6"
+
+
+def rows() -> list[Row]:
+    """In numpy, and where it can be compiled by numba."""
+    scene, random = gp.load(SCENE), np.random.default_rng(17)
+    matrices = random.uniform(-1, 1, (POSES, ANGLES, ANGLES)) + 4 * np.eye(ANGLES)
+    sides = random.uniform(-1, 1, (POSES, ANGLES, 1))
+    runs = {"ours": lambda: follow(scene, POSES), SYSTEMS: lambda: np.linalg.solve(matrices, sides)}
+    if "compiled" in signature(follow).parameters:
+        runs["compiled"] = lambda: follow(scene, POSES, compiled=True)
+    found, most = Measured(alternate(runs), {"ours": _error(scene)}), partial(Target, "at most")
+    return [compared(f"follow {POSES:,} poses, {how}", SYSTEMS, most(times), found.times, ours=ours, over=POSES,
+                     errors=found.errors) for how, ours, times in (("numpy", "ours", 12), ("numba", "compiled", 3))]
+
+
+def _error(scene: gp.Scene) -> float:
+    """The largest error of the sampled positions, against 50 digits."""
+    points = moving(scene, POSES)
+    return exact.error({"points": points}, exact.of_travel(scene, 2 * np.pi / POSES * np.arange(POSES), points))

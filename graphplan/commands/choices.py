@@ -58,10 +58,10 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 
 
-def add_language(command: argparse.ArgumentParser, default: str = "") -> None:
-    """The option that says in which language it is said; without a `default` it is left to the scene."""
-    told = default or "without it the scene's, or en"
-    command.add_argument("--language", default=default, choices=LANGUAGES, help=f"the language of all words ({told})")
+def add_language(command: argparse.ArgumentParser) -> None:
+    """The option that says in which language it is said; without it that is left to the scene."""
+    command.add_argument("--language", default="", choices=LANGUAGES,
+                         help="the language of all words (without it the scene's, or en)")
 
 
 def add_paper(command: argparse.ArgumentParser, told: str) -> None:

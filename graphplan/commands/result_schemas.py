@@ -10,6 +10,7 @@ from functools import cache
 from importlib.resources import files
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
+from graphplan.kernel.stages import Known
 from graphplan.marking.judge.verdict import STATES
 from graphplan.mechanism import values
 from graphplan.mechanism.fields import Fragment
@@ -31,6 +32,7 @@ PLAIN: dict[str, Fragment] = {
                          {"enum": [*STATES]}),
     "counts": table(dict.fromkeys(STATES, COUNT)),
     "units": table({quantity: {"enum": [*units]} for quantity, units in BY_QUANTITY.items()}),
+    "known": described("locus: a line on which it ends", {"enum": [known.value for known in Known]}),
     "mark": {"enum": [POINT, LINE, OPENING, CIRCLE]},
     "operation": {"enum": [*TABLE]},
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},

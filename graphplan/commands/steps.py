@@ -3,7 +3,7 @@
 examples:
   graphplan steps alt-eight-link
   graphplan steps scene.toml --strict
-  graphplan steps scene.toml --json
+  graphplan steps scene.toml --json --paper A3     with the place of every mark on that sheet
   graphplan steps scene.toml --prefer balanced
 """
 
@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_language, add_preference, on_paper
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, on_paper
 from graphplan.commands.output import as_json, write
 
 if TYPE_CHECKING:
@@ -20,9 +20,9 @@ if TYPE_CHECKING:
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("--json", action="store_true", help="as data")
+    command.add_argument("--json", action="store_true", help="as data, with the place of every mark on the sheet")
+    add_sheet(command)
     add_choices(command, strict=True)
-    add_language(command, "en")
     add_preference(command)
 
 
@@ -33,12 +33,12 @@ def run(options: argparse.Namespace) -> int:
 
 
 def data(on_sheet: Drafted) -> dict[str, Any]:
-    """The steps as data, with what drawing them costs and how far off the pencil is."""
+    """The steps as data, with where they lie on the sheet, what drawing them costs and how far off the pencil is."""
     from graphplan.mechanism.structure import structure
     from graphplan.output.text import steps
 
-    drawing, say = on_sheet.drawing, on_sheet.composition.plans.tongue
-    return steps(drawing, structure(drawing.scene).lines(), say) | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
+    found = steps(on_sheet.composition, structure(on_sheet.drawing.scene).lines())
+    return found | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
 
 
 def protocol(on_sheet: Drafted) -> str:

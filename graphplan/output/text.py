@@ -7,9 +7,11 @@ from collections.abc import Iterable
 from typing import Any
 
 from graphplan.kernel.lemoine import counts
+from graphplan.kernel.stages import Stage
 from graphplan.methods.construction import Construction
 from graphplan.methods.positions import layout
 from graphplan.phrases import Said, joined, said, unit
+from graphplan.sheet.layout.composition import Composition
 from graphplan.words.tongue import ENGLISH, Tongue
 
 WIDTH = 110
@@ -61,25 +63,30 @@ def _wrapped(text: str, indent: str) -> list[str]:
     return textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent + "  ")
 
 
-def steps(drawing: Construction, structure: Iterable[str] = (), say: Tongue = ENGLISH) -> dict[str, Any]:
-    """The construction as data: one entry for each drawn step, with what it makes, how, from what and why."""
-    drawn, values = drawing.drawn, drawing.values
-    entries = []
-    for step in drawn.steps:
+def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, Any]:
+    """The construction as data: its stages, and an entry for each drawn step, with what it makes, how, from what, why
+    and where on the paper."""
+    drawing, say = composition.plans.drawing, composition.plans.tongue
+    drawn, entries = drawing.drawn, []
+    stage_of = {step.index: number for number, (_, steps) in enumerate(drawn.stages) for step in steps}
+    for plate in composition.plates.steps:
+        step, number = plate.step, stage_of.get(plate.index)
         entries.append({
-            "number": drawn.number(step.index) if step.index >= drawn.givens else 0,
+            "number": plate.number,
             "makes": say(drawn.text(step.index)),
-            "kind": step.op.gives,
+            "kind": plate.kind,
             "operation": step.op.name,
             "instrument": step.op.instrument,
             "reads": [say(drawn.text(arg)) for arg in step.args],
-            "plan": step.panel,
-            "sentence": say(drawn.told(step.index)),
-            "why": say(step.why),
+            "plan": plate.panel,
+            "sentence": plate.sentence,
+            "stage": number,
+            "why": say(step.why or ("" if number is None else drawn.stages[number][0].law)),
             "form": str(step.choice or ""),
             "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
             "links": list(step.links),
-            "value": list(values[step.index]),
+            "value": list(drawing.values[step.index]),
+            "paper": list(plate.paper(composition.arrangement.height)),
         })
     return {
         "title": say.title(drawing.scene.title),
@@ -89,5 +96,11 @@ def steps(drawing: Construction, structure: Iterable[str] = (), say: Tongue = EN
         "method": drawing.method,
         "forms": list(map(say, drawing.forms)),
         "cost": say(counts(drawn).told),
+        "stages": [_stage(stage, say) for stage, _ in drawn.stages],
         "steps": entries,
     }
+
+
+def _stage(stage: Stage, say: Tongue) -> dict[str, Any]:
+    return {"title": say(stage.title), "equation": stage.equation, "law": say(stage.law),
+            "vectors": {name: known.value for name, known in stage.vectors.items()}}

@@ -293,13 +293,14 @@ def main() -> None:
     import graphplan as gp
     from graphplan.mechanism.scene import packaged
     from graphplan.output.text import steps
+    from graphplan.sheet.layout.composition import compose
 
     parser = argparse.ArgumentParser(description="Measure the sheets of scenes.")
     parser.add_argument("scenes", nargs="*", metavar="SCENE")
     parser.add_argument("-o", dest="file", type=Path, help="write the table here")
     asked = parser.parse_args()
     drawings = {name: gp.construct(gp.load(name)) for name in asked.scenes or packaged()}
-    rows = [row(name, MeasuredSheet.of(gp.sheet.svg(drawing)), steps(drawing)["steps"])
+    rows = [row(name, MeasuredSheet.of(gp.sheet.svg(drawing)), steps(compose(drawing))["steps"])
             for name, drawing in drawings.items()]
     text = table(rows)
     if asked.file:

@@ -9,6 +9,7 @@ import graphplan as gp
 from graphplan.methods.construction import Construction
 from graphplan.sheet.frames.corner_marks import MARKS
 from graphplan.sheet.frames.frame import BORDER
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 
@@ -22,8 +23,13 @@ def drawing_of(name: str, plan: str = "orthogonal") -> Construction:
 
 
 @cache
+def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Composition:
+    return compose(drawing_of(name, plan), paper)
+
+
+@cache
 def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Sheet:
-    return layout(drawing_of(name, plan), paper)
+    return layout(drawing_of(name, plan), composition=composition_of(name, paper, plan))
 
 
 def spots(item: Item) -> list[Spot]:

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-import shapely
-
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Rect, Spot
 
 
@@ -46,6 +44,8 @@ def clipped(item: Item, rect: Rect) -> Iterator[Item]:
 
 def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
     """The runs of a chain that lie inside."""
+    import shapely  # where nothing is drawn, as for a list of steps, it is not needed
+
     spots = item.spots if isinstance(item, Polyline) else (*item.spots, item.spots[0])
     inside = shapely.clip_by_rect(shapely.LineString(spots), rect.left, rect.bottom, rect.right, rect.top)
     for run in shapely.get_parts(inside):

@@ -10,7 +10,7 @@ import math
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import DrawnVector
 from graphplan.sheet.plates import pens
@@ -73,6 +73,17 @@ class DrawnStep:
         a, b, _ = self.value
         size = math.hypot(a, b) or 1.0
         return b / size, -a / size
+
+    def paper(self, height: float) -> tuple[float, ...]:
+        """Its place in mm of a page so high, from the upper left corner, y down: a point x, y; a line a, b, c with
+        a x + b y + c = 0, (a, b) one mm long; an opening its length; a circle x, y of its centre and its radius."""
+        if self.kind == OPENING:
+            return (self.radius,)
+        if self.kind == LINE:
+            (a, b, c), (u, v) = self.line, self.along
+            return v + 0.0, u + 0.0, -(c + b * height) / math.hypot(a, b)  # and no -0
+        x, y = self.at
+        return (x, height - y) if self.kind == POINT else (x, height - y, self.radius)
 
     @property
     def free(self) -> bool:

@@ -8,8 +8,6 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 
-import shapely
-
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
 
@@ -121,6 +119,8 @@ def rigid(corners: Sequence[Spot]) -> Iterator[Item]:
 
 def _shading(corners: Sequence[Spot]) -> Iterator[Item]:
     """Strokes at 45 degrees over a triangle."""
+    import shapely  # where nothing is drawn, as for a list of steps, it is not needed
+
     triangle, levels, xs = shapely.Polygon(corners), [y - x for x, y in corners], [x for x, _ in corners]
     low, high = min(levels), max(levels)
     count = int((high - low) / (PITCH * math.sqrt(2)))
@@ -132,6 +132,8 @@ def _shading(corners: Sequence[Spot]) -> Iterator[Item]:
 
 def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
     """The corners of the convex hull, counter-clockwise from the leftmost."""
+    import shapely
+
     clockwise = shapely.normalize(shapely.MultiPoint(spots).convex_hull.simplify(1e-9)).exterior.coords
     return tuple(reversed(clockwise[1:]))
 

@@ -1,0 +1,84 @@
+"""Stages tell what textbooks do: of every step why it is drawn, and equations that can be solved."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import cache
+from random import Random
+
+import pytest
+from random_loads import loaded
+from random_mechanisms import GROUPS, mechanism
+
+import graphplan as gp
+from graphplan.errors import GraphplanError
+from graphplan.kernel.program import Program
+from graphplan.kernel.stages import Equation, Known, Stage
+from graphplan.mechanism.scene import packaged
+from graphplan.methods.construct import construct
+
+FREE = {Known.WHOLLY: 0, Known.DIRECTION: 1, Known.LOCUS: 1, Known.NOTHING: 2}
+TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
+    "slider-crank": ["v_B = v_A + v_BA", "a^n_BA = v_BA²/AB", "a_A = a^n_AO", "a_B = a_A + a^n_BA + a^t_BA"],
+    "slotted-link": ["v_A3 = v_A + v_A3A", "a^C_A3A = 2 ω_3 v_A3A", "a_A3 = a_A + a^C_A3A + a^r_A3A"],
+    "alt-eight-link": ["v_B = v_F + v_BF", "v_C = v_Q + v_CQ", "v_E = v_C + v_EC"],
+    "jaanimets-10": ["M_B(P_3) + M_B(T_23) = 0", "P_3 + P_4 + T_23 + T_04 + N_23 + N_04 = 0", "R_32 + R_02 + F_2 = 0"],
+}
+
+
+@cache
+def program(name: str) -> Program:
+    return construct(gp.load(name)).drawn
+
+
+@pytest.mark.parametrize("name", TEXTBOOK)
+def test_equations_are_those_of_the_textbook(name: str) -> None:
+    """The stages of a scene solve the vector equations that its textbook writes."""
+    written = {equation.text for stage, _ in program(name).stages for equation in stage.equations}
+    assert set(TEXTBOOK[name]) - written == set()
+
+
+def test_a_form_is_named_in_the_title() -> None:
+    """A stage whose compound is drawn in a form of its own is called by it, and has the letters of the sheet."""
+    titles = {str(stage.title) for stage, _ in program("alt-eight-link").stages}
+    assert {"Normal acceleration of E about C, by the semicircle", "Auxiliary point Q of link 3, locus of v_c",
+            "Normal acceleration of F about B, by the right triangle", "Velocity of C"} <= titles
+    trial = construct(gp.load("alt-eight-link"), method="trial").drawn
+    assert "Trial figure of link 3, locus of v_c" in {str(stage.title) for stage, _ in trial.stages}
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
+    """A vector equation finds two numbers, one of moments one: no stage that finds a vector or a force has more open.
+    """
+    found = [stage for stage, _ in program(name).stages if stage.equations and "locus" not in stage.title.lower()]
+    assert len(found) > 3
+    assert [stage for stage in found if not _solved(stage)] == []
+
+
+def _solved(stage: Stage) -> bool:
+    return sum(FREE[known] for known in stage.vectors.values()) <= sum(map(_rows, stage.equations))
+
+
+def _rows(equation: Equation) -> int:
+    return 1 if "M_" in equation.text and "(" in equation.text else 2
+
+
+def scenes(seed: int) -> Iterator[gp.Scene]:
+    """Two groups on a crank, at random, without loads and with them."""
+    random = Random(seed)
+    found = mechanism([random.choice([*GROUPS]) for _ in range(2)], seed)
+    yield from (found, loaded(found, seed))
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_all_that_is_recorded_stands_in_stages(seed: int) -> None:
+    """Whatever the mechanism and its loads, every step that is not given is a part of a stage with a title and a law.
+    """
+    for scene in scenes(seed):
+        try:
+            recorded = construct(scene).program
+        except GraphplanError:
+            continue
+        assert [step.op.name for step in recorded.steps[recorded.givens :] if not step.stage] == []
+        assert all(stage.title and stage.law for stage, _ in recorded.stages)

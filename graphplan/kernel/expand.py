@@ -290,6 +290,11 @@ class FormBoard(Verbs):
         (x, y), (a, b, c) = self._expander.value(P), self._expander.value(l)
         return P.step.panel == l.step.panel and self._nothing((a * x + b * y + c) / math.hypot(a, b), P, l)
 
+    def in_line(self, P: Mark, Q: Mark, R: Mark) -> bool:
+        """Whether R lies on the line of P and Q."""
+        p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))
+        return self._nothing(((q - p).conjugate() * (r - p)).imag / (abs(q - p) or 1.0), P)
+
     def way(self, P: Mark, Q: Mark, R: Mark) -> str:
         """How R lies from P on the line PQ: further `on`, where Q is, or `back`."""
         p, q, r = (complex(*self._expander.value(X)) for X in (P, Q, R))

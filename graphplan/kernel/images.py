@@ -84,7 +84,7 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
                "sides": _sides,
                "centre of similitude": _centre_of_similitude,
                "foot and side": _foot_and_side,
-               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b)})
+               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None})
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
     u = apart(d, A, B)

@@ -28,7 +28,6 @@ from graphplan.phrases import Said, said
 
 TURN = 2 * np.pi
 MOST = 4  # diagrams that stand side by side
-BACK = 1e-9  # of the mechanism's extent: points that are so near are in one place
 Progress = Callable[[str, int, int], None]
 
 
@@ -39,7 +38,7 @@ class Cycle:
     `results` are arrays of shape (n,) by kind and name, complex for vectors, nan where there are none; `faults` says
     why, by the pose's place. `gaps`: for each kind the largest difference of a number from the solver's beside what
     cancels in it, in each pose. `otherwise`: by the pose's place, the form that served where the recorded one did not.
-    `wrong`: the poses where the difference is more than rounding. `closed`: after the turn the mechanism is as it was.
+    `wrong`: the poses where the difference is more than rounding.
     """
 
     scene: Scene
@@ -50,7 +49,6 @@ class Cycle:
     gaps: dict[str, Any]
     otherwise: dict[int, str] = field(default_factory=dict)
     wrong: tuple[int, ...] = ()
-    closed: bool = False
 
     @property
     def asked(self) -> dict[str, Any]:
@@ -76,7 +74,8 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
         return lambda done, of: progress(what, done, of) if progress else None
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
-    turn = follow(scene, positions, span, lambda part: told("positions")(round(part * positions), positions))
+    turn = follow(scene, positions, span, lambda part: told("positions")(round(part * positions), positions),
+                  machine)
     left = Round.reached(scene, turn.points, turn.guides)
     kinds = (*MOTION, *([FORCES] if scene.loads else []))
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
@@ -96,8 +95,7 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
     faults = {k: why for k, why in sorted(found.faults.items()) if k not in found.otherwise}
     for z in (*(z for named in found.results.values() for z in named.values()), *found.gaps.values()):
         z[list(faults)] = np.nan  # near a limit there are numbers, and they say nothing
-    closed = span is None and not turn.faults and _comes_back(scene)
-    return replace(found, faults=faults, wrong=tuple(int(k) for k in left.places if k not in faults), closed=closed)
+    return replace(found, faults=faults, wrong=tuple(int(k) for k in left.places if k not in faults))
 
 
 def _construct(scene: Scene, **how: str) -> Construction:
@@ -106,12 +104,6 @@ def _construct(scene: Scene, **how: str) -> Construction:
         return construct(scene, **how)  # type: ignore[arg-type]
     except (SingularPose, ConstructionError):
         return unchecked(scene, **how)  # type: ignore[arg-type]
-
-
-def _comes_back(scene: Scene) -> bool:
-    """Whether every point is back in its place after a full turn of the first drive."""
-    there = follow(scene, 2, (0.0, 360.0)).points
-    return all(abs(z[1] - z[0]) <= BACK * scene.extent for z in there.values())
 
 
 def _forms(drawing: Construction, method: str, plan: str, inertia: str) -> Iterator[tuple[str, Construction]]:
@@ -182,7 +174,7 @@ def asking(scene: Scene, wanted: Sequence[Quantity]) -> Scene:
 def curves(found: Cycle, wanted: Sequence[Quantity]) -> list[Curve]:
     """The curves of these quantities over the cycle, which was asked for them."""
     drive = found.scene.drives[0]
-    period = TURN if found.closed and not found.faults else None
+    period = TURN if found.turn.closed and not found.faults else None
     unit = found.scene.units.length if drive.slides else "rad"
     return [followed(quantity.label, quantity.unit, found.turn.travel, float(drive.rate), *_ordinates(found, quantity),
                      period=period, travel_unit=unit) for quantity in wanted]

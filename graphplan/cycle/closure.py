@@ -1,36 +1,22 @@
-"""The closure of one group in any numbers: how links lie, what their pairs leave open, and Newton's step to close them.
+"""The closure of one group in any numbers: how its links lie, and what their pairs leave open.
 
 The unknowns are angles of links and displacements of slides: seen from the links placed before, each link's base is a
 point of another link, or lies off it along a guide (a spanning tree of the group's pairs). What pairs are left over
 close the loops, in as many equations as there are unknowns.
-
-The step is a sparse QR factorisation by plane rotations (Givens 1958): stable in any order, so that the order is that
-of the structure alone, and no number is asked anything on the way. The first rotations turn each loop's two equations
-along a link and across it, so that they hold for any pose.
 
 All is straight-line arithmetic: floats, arrays and the symbols of a tape go through the same lines.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
-from functools import lru_cache
-from itertools import count
 from typing import Any, NamedTuple
 
-from graphplan.kernel.tape.record import Symbol, Symbols
-from graphplan.kernel.tape.written import function
 from graphplan.mechanism.plane import dot, less, plus, times, turned
 
 RESIDUE, TRAVEL = -1, -2
 """Columns of an equation beside those of the unknowns: what it leaves open, and its change with the travel."""
-
-_TINY = 1e-150
-"""Stands for a pivot that is nothing: a rotation is one then, too."""
-
-NOTHING = 1e-140
-"""A determinant below it has such a pivot."""
 
 Vector = tuple[Any, Any]
 
@@ -130,14 +116,6 @@ class Body:
             return self.base, self.moves
         lever = rotated(self.turn, arm)
         return plus(self.base, lever), _sum(self.moves, _swung(self.spin, lever)) if self.spin else self.moves
-
-
-class Step(NamedTuple):
-    """Newton's step: what is to be taken from each unknown, their rates, and the determinant of the derivatives."""
-
-    corrections: list[Any]
-    rates: list[Any]
-    determinant: Any
 
 
 def rotated(turn: Any, vector: Any) -> Any:
@@ -265,128 +243,3 @@ def _difference(one: Moves, other: Moves) -> Moves:
     for k, (x, y) in other.items():
         found[k] = less(found[k], (x, y)) if k in found else (-x, -y)
     return found
-
-
-# ---- solved by plane rotations ---------------------------------------------------------------------------------------
-
-
-def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
-    """Newton's step for so many unknowns, from what is left open."""
-    left, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
-    free = set(range(width))
-    while free:
-        column = min(free, key=lambda j: (sum(j in row for row in left), j))
-        pivot, *others = sorted((row for row in left if column in row),
-                                key=lambda row: sum(j >= 0 for j in row))
-        left = [row for row in left if column not in row]
-        for other in others:
-            pivot, rest = _cleared(pivot, other, column, sqrt)
-            left.append(rest)
-        free.remove(column)
-        pivots.append((column, pivot))
-        determinant = determinant * pivot[column]
-    corrections, rates = (_substituted(pivots, side) for side in (RESIDUE, TRAVEL))
-    return Step(corrections, [-rate for rate in rates], determinant)
-
-
-def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
-    """Two rows rotated so that the second has nothing in a column."""
-    a, b = one[column] + _TINY, two[column]
-    size = sqrt(a * a + b * b)
-    cos, sin = a / size, b / size
-    first: Row = {column: size}
-    second: Row = {}
-    for k in dict.fromkeys([*one, *two]):
-        x, y = one.get(k), two.get(k)
-        if k == column:
-            continue
-        if y is None:
-            first[k], second[k] = cos * x, -(sin * x)
-        elif x is None:
-            first[k], second[k] = sin * y, cos * y
-        else:
-            first[k], second[k] = cos * x + sin * y, cos * y - sin * x
-    return first, second
-
-
-def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
-    """Back substitution for one right-hand side."""
-    found: Row = {}
-    for column, row in reversed(pivots):
-        value = row.get(side, 0.0)
-        for k, weight in row.items():
-            if k in found:
-                value = value - weight * found[k]
-        found[column] = value / row[column]
-    return [found[column] for column in range(len(pivots))]
-
-
-def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
-    """The state less the corrections; an angle is turned back by Cayley's formula, right to second order."""
-    found = list(state)
-    for i, correction in enumerate(corrections):
-        if i < layout.angles:
-            half = 0.5 * correction
-            square = half * half
-            size = 1.0 + square
-            found[i] = rotated(state[i], ((1.0 - square) / size, -correction / size))
-        else:
-            found[i] = state[i] - correction
-    return found
-
-
-# ---- recorded: one call for one pose ---------------------------------------------------------------------------------
-
-
-class Corrected(NamedTuple):
-    """One pose, corrected: as Newton's step has it, and how each link of the group lies then and moves.
-
-    `lies` are base and turn as (x, y, cos, sin), `moves` their rates by the travel as (x, y, angle).
-    """
-
-    corrections: tuple[float, ...]
-    rates: tuple[float, ...]
-    determinant: float
-    lies: tuple[tuple[float, ...], ...]
-    moves: tuple[tuple[float, ...], ...]
-
-
-@lru_cache(maxsize=256)
-def recorded(layout: Layout) -> Callable[..., Any]:
-    """A function that corrects one pose of a group, recorded once for all groups of this structure.
-
-    It reads seven numbers of each known link but the frame (x, y, cos, sin, and the rates of base and angle), the
-    arms, the drives (each with its rate) and the state, and gives the parts of :class:`Corrected`.
-    """
-    tape, number = Symbols().tape, count()
-
-    def new() -> Symbol:
-        return tape.input(f"n{next(number)}")
-
-    def pair() -> Vector:
-        return new(), new()
-
-    known = [Body(), *(Body(pair(), pair(), {TRAVEL: pair()}, {TRAVEL: new()}) for _ in range(layout.known - 1))]
-    arms = [pair() for _ in range(layout.arms)]
-    drives = [Drive(pair() if turns else new(), new()) for turns in layout.drives]
-    state = [pair() if i < layout.angles else new() for i in range(layout.unknowns)]
-    links = bodies(layout, known, arms, drives, state)
-    found = step(left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
-    closed = bodies(layout, known, arms, drives, corrected(layout, state, found.corrections))
-
-    def told(*numbers: Any) -> tuple[int, ...]:
-        return tuple(map(tape.place, numbers))
-
-    def moving(moves: Moves, nothing: Any) -> Any:
-        for k, move in moves.items():
-            rate = 1.0 if k == TRAVEL else found.rates[k]
-            part = rate if move is None else times(rate, move) if isinstance(move, tuple) else rate * move
-            nothing = plus(nothing, part) if isinstance(part, tuple) else nothing + part
-        return nothing
-
-    group = range(layout.known, len(links))
-    lies = tuple(told(*closed[i].base, *(closed[i].turn or (1.0, 0.0))) for i in group)
-    moves = tuple(told(*moving(links[i].moves, (0.0, 0.0)), moving(links[i].spin, 0.0)) for i in group)
-    inputs = [tape.place(tape.input(f"n{i}")) for i in range(next(number))]
-    return function(tape, inputs, (told(*found.corrections), told(*found.rates), tape.place(found.determinant),
-                                   lies, moves))

@@ -18,15 +18,16 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle.groups import Group, Lies
+from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage
+from graphplan.cycle.newton import Lies
 from graphplan.cycle.travel import TURN, afford, travel_unit
 
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""
 
-_LONGEST = 1 / 48
-"""The longest step, of a turn: 7.5 degrees."""
+_LONGEST = 1 / 60
+"""The longest step, of a turn: 6 degrees."""
 
 _FIRST = 1 / 8
 """The first step, of the longest: the tangent in one knot does not lead so far as the curve through several."""
@@ -46,8 +47,11 @@ _FINEST = 2.0**-36
 _SLACK = 16
 """How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
 
-_EASY = 1 / 512
-"""Where the prediction missed by less, of the step, the next step is twice as long."""
+_EASY, _HARD = 2.0**-13, 2.0**-8
+"""Where the prediction missed by less, of the step, the next step is twice as long; by more, half as long.
+
+What lies between the knots is then predicted so well that one correction is enough for most poses.
+"""
 
 _SINGULAR = 2.0**-22
 """The smallest determinant of a part, of that in the given pose: below it, rounding may choose the branch."""
@@ -183,8 +187,11 @@ class Continuation:
                 if abs(step) < self.finest:
                     return self._stopped(knots, math.copysign(_ACROSS * self.longest, step))
                 continue
-            easy = np.abs(knot.state - predicted).max(initial=0.0) <= _EASY * size
-            step = 2 * step if easy and 2 * abs(step) <= self.longest else step
+            missed = np.abs(knot.state - predicted).max(initial=0.0) / size
+            if missed <= _EASY and 2 * abs(step) <= self.longest:
+                step *= 2
+            elif missed > _HARD:
+                step /= 2
             knots.append(knot)
             at = travel
             self.progress(done + at / goal / 2)
@@ -206,25 +213,28 @@ class Continuation:
             state += found[0]
             rate += last.rates
             determinants.append(last.determinant)
-            placed.update(zip(group.links, map(Lies, last.lies, last.moves), strict=True))
+            placed.update(zip(group.links, last.lies, strict=True))
         return Knot(travel, np.array(state), np.array(rate), np.array(determinants))
 
     def _stopped(self, knots: list[Knot], step: float) -> tuple[list[Knot], Limit]:
         """The knots up to a limit: one more where the motion leads straight through a change point.
 
-        There a determinant goes through zero, as a straight line does on so short a way.
+        There a determinant goes through zero, as a straight line does on so short a way. The way begins as far before
+        the limit as it ends beyond it: nearer knots are as singular as rounding lets them be.
         """
         start, last = knots[0], knots[-1]
+        before = next((knot for knot in reversed(knots) if abs(last.travel - knot.travel) >= abs(step)), start)
         travel = last.travel + step
-        predicted = _ahead([last], travel)
-        beyond = self._closed(travel, predicted, self._size(last, predicted, travel))
-        if isinstance(beyond, int) or (beyond.determinants / last.determinants > 0).all():
+        predicted = _ahead([before], travel)
+        beyond = self._closed(travel, predicted, self._size(before, predicted, travel))
+        if isinstance(beyond, int) or (beyond.determinants / before.determinants > 0).all():
             i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
             return knots, Limit(last.travel, _SLACK * self.finest, self.linkage.parts[i], False)
-        ratio = beyond.determinants / last.determinants
+        ratio = beyond.determinants / before.determinants
         i = int(np.argmax(ratio <= 0))
-        travel = last.travel + step / (1 - float(ratio[i]))
-        there = last._replace(travel=travel, state=_ahead([last, beyond], travel))
+        travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
+        there = last._replace(travel=travel, state=_ahead([before, beyond], travel))
+        knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
         return [*knots, there], Limit(travel, _ACROSS * abs(step), self.linkage.parts[i], True)
 
 

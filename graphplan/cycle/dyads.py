@@ -15,7 +15,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from graphplan.cycle import closure
 from graphplan.cycle.closure import Body
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage, direction
@@ -83,7 +82,7 @@ def assembled(linkage: Linkage, groups: Sequence[Group],
                 continue
             if not group.unknowns:
                 placed.update(_driven(linkage, group, travel, placed))
-            elif dyad := _assembled(linkage, group.part, placed):
+            elif dyad := _assembled(linkage, group, placed):
                 links, why = dyad
                 before = sum(placed[link].base for link in (FRAME, *group.carriers))
                 missing = ~np.isfinite(sum(link.base + link.turn for link in links)) & np.isfinite(before)
@@ -96,24 +95,23 @@ def _driven(linkage: Linkage, group: Group, travel: Array,
             placed: Mapping[str, Placed]) -> Iterator[tuple[str, Placed]]:
     """The links of a group that has no unknowns."""
     frame = linkage.origins[FRAME]
-    known = [Body(_pair((placed[link].at(group.origins[link]) - frame) / linkage.reach), _pair(placed[link].turn))
+    known = [Body(_pair((placed[link].at(linkage.origins[link]) - frame) / linkage.reach), _pair(placed[link].turn))
              for link in (FRAME, *group.carriers)]
-    links = closure.bodies(group.layout, known, group.arms, *group.read(travel, ()))[len(known):]
-    for link, body in zip(group.links, links, strict=True):
+    for link, body in zip(group.links, group.lie(known, travel, ()), strict=True):
         (x, y), (cos, sin) = body.base, body.turn or (1.0, 0.0)
-        yield link, Placed(group.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
+        yield link, Placed(linkage.origins[link], frame + linkage.reach * (x + 1j * y), cos + 1j * sin)
 
 
 def _pair(z: Array) -> tuple[Array, Array]:
     return z.real, z.imag
 
 
-def _assembled(linkage: Linkage, part: tuple[str, ...], placed: Mapping[str, Placed],
-               ) -> tuple[tuple[Placed, Placed], str] | None:
-    """Both links of a plain dyad, and why they may be nowhere; none where the part is anything else."""
-    if len(part) != 2 or linkage.drives(part):
+def _assembled(linkage: Linkage, group: Group,
+               placed: Mapping[str, Placed]) -> tuple[tuple[Placed, Placed], str] | None:
+    """Both links of a plain dyad, and why they may be nowhere; none where the group is anything else."""
+    part, before = group.part, (FRAME, *group.carriers)
+    if len(part) != 2:
         return None
-    before = linkage.carriers(part)
     outer = [_hinges(linkage, link, before, placed) for link in part]
     inner = [hinge for hinge in _hinges(linkage, part[0], part[1:], placed)
              if (hinge.letter, hinge.name) not in {(hinge.letter, hinge.name) for hinge in outer[0]}]

@@ -8,19 +8,20 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
-from graphplan.cycle import closure
-from graphplan.cycle.closure import Closing, Corrected, Layout, Seat, Spin
+from graphplan.cycle import closure, newton
+from graphplan.cycle.closure import Body, Closing, Layout, Seat, Spin
 from graphplan.cycle.linkage import Linkage, direction
+from graphplan.cycle.newton import Corrected, Lies
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.pairs.pair import Along, Turning
 
 Array = Any
 
-NEAR = 1 / 16
+NEAR = 1 / 64
 """The largest first correction, of the step."""
 
 SHRINKING = 1 / 4
@@ -29,35 +30,32 @@ SHRINKING = 1 / 4
 SETTLED = 2.0**-13
 """A quarter of the digits: a correction below it, of the step, leaves half of them, and the next one leaves none."""
 
-
-class Lies(NamedTuple):
-    """How one link lies, and moves with the travel: floats."""
-
-    at: tuple[float, ...]
-    moves: tuple[float, ...]
+CLOSED = 2.0**-26
+"""Half of the digits: a correction below it, of the step, leaves none."""
 
 
 class Group:
     """One part of a linkage in its numbers; lengths are counted in reaches.
 
-    `links` are its own, `carriers` those placed before that it needs, but for the frame. `origins` of the links placed
-    so far tell where each base was given, and get those of its own.
+    `links` are its own, `carriers` those placed before that it needs, but for the frame. Those must be made before: the
+    linkage is told where the bases of links were given.
     """
 
-    def __init__(self, linkage: Linkage, part: tuple[str, ...], origins: dict[str, complex]):
-        made = _Maker(linkage, part, origins)
-        self.origins = origins
+    def __init__(self, linkage: Linkage, part: tuple[str, ...]):
+        made = _Maker(linkage, part)
         self.part, self.links, self.carriers = part, tuple(made.seated), made.carriers
         self.layout, self.arms, self._drives = made.layout(), made.arms, made.drives
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
-        self._run = closure.recorded(self.layout)
+        self._run = newton.for_one(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
 
     # ---- one pose ---------------------------------------------------------------------------------------------
 
     def corrected(self, placed: Mapping[str, Lies], travel: float, state: Sequence[float]) -> Corrected:
         """One step of Newton from a state; raises ZeroDivisionError where it is singular."""
-        flat = [number for link in self.carriers for part in placed[link] for number in part]
+        flat: list[float] = []
+        for link in self.carriers:
+            flat += placed[link]
         flat += self._flat
         for turns, rate in self._drives:
             angle = rate * travel
@@ -80,10 +78,10 @@ class Group:
             except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
                 return None
             far = max(map(abs, found.corrections), default=0.0)
-            if not far <= allowed or abs(found.determinant) < closure.NOTHING:
+            if not far <= allowed or abs(found.determinant) < newton.NOTHING:
                 return None
             state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
-            if settled:
+            if settled or far <= CLOSED * size:
                 return state, found
             settled = far <= SETTLED * size
             allowed = NEAR * size if settled else SHRINKING * far
@@ -96,15 +94,44 @@ class Group:
                   for turns, rate in self._drives]
         return drives, [(np.cos(value), np.sin(value)) if i < self._angles else value for i, value in enumerate(state)]
 
+    def lie(self, known: Sequence[Body], travel: Array, state: Sequence[Array]) -> list[Body]:
+        """How the links lie in n poses, their states taken as they are."""
+        return closure.bodies(self.layout, known, self.arms, *self.read(travel, state), moving=False)[len(known):]
+
+    def step(self, known: Sequence[Body], travel: Array, state: Sequence[Array],
+             run: newton.Run | None) -> tuple[Array, Array, list[Body]]:
+        """Newton's corrections of n poses, shape (unknowns, n), their determinants, and how the links lie then.
+
+        With `run` it is done by the tape.
+        """
+        drives, numbers = self.read(travel, state)
+        if run:
+            return self._replayed(known, drives, numbers, run, len(travel))
+        links = closure.bodies(self.layout, known, self.arms, drives, numbers)
+        found = newton.step(closure.left_open(self.layout, links, self.arms, drives), self.unknowns, np.sqrt)
+        closed = newton.corrected(self.layout, numbers, found.corrections)
+        links = closure.bodies(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
+        return np.array(found.corrections), np.broadcast_to(found.determinant, travel.shape), links
+
+    def _replayed(self, known: Sequence[Body], drives: Sequence[closure.Drive], numbers: Sequence[Any], run: Blocks,
+                  n: int) -> tuple[Array, Array, list[Body]]:
+        """The same by the tape."""
+        vectors = [part for body in known[1:] for part in (body.base, body.turn or (1.0, 0.0))]
+        flat = [number for part in (*vectors, *self.arms, *(drive.at for drive in drives), *numbers)
+                for number in (part if isinstance(part, tuple) else (part,))]
+        found = np.empty((self.unknowns + 1 + 4 * len(self.links), n))
+        run.run([np.broadcast_to(number, n) for number in flat], list(found))
+        corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
+        links = [Body((x, y), (cos, sin)) for x, y, cos, sin in zip(*(lies[i::4] for i in range(4)), strict=True)]
+        return corrections, determinant, links
+
 
 class _Maker:
     """Finds the layout of one part."""
 
-    def __init__(self, linkage: Linkage, part: tuple[str, ...], origins: dict[str, complex]):
-        self.linkage, self.part, self.origins = linkage, part, origins
+    def __init__(self, linkage: Linkage, part: tuple[str, ...]):
+        self.linkage, self.part, self.carriers = linkage, part, linkage.carriers(part)
         bonds = [bond for link in part for bond in linkage.bonds[link]]
-        ends = {end for bond in bonds for end in (bond.link, bond.on, getattr(bond, "to", "")) if end}
-        self.carriers = tuple(link for link in linkage.carriers(part) if link in ends and link != FRAME)
         self.arms: list[tuple[float, float]] = []
         self.drives: list[tuple[bool, float]] = []
         self.turnings = [bond for bond in bonds if isinstance(bond, Turning)]
@@ -158,8 +185,8 @@ class _Maker:
             placed.update(found)
             self.seated += found
             for link, joint in found.items():
-                at = joint[0].at if joint else ""
-                self.origins[link] = self.linkage.places[at] if at else self.linkage.origins[link]
+                if joint:
+                    self.linkage.origins[link] = self.linkage.places[joint[0].at]
                 yield link, joint
 
     def _seat(self, link: str, joint: Sequence[Along]) -> Seat:
@@ -191,7 +218,7 @@ class _Maker:
 
     def _arm(self, link: str, place: complex) -> int | None:
         """The arm from a link's base to a place."""
-        arm = (place - self.origins[link]) / self.linkage.reach
+        arm = (place - self.linkage.origins[link]) / self.linkage.reach
         return self._entered(arm) if arm else None
 
     def _entered(self, arm: complex) -> int:

@@ -12,7 +12,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.mechanism.model import FRAME, Drive, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
 from graphplan.mechanism.pairs.pair import Along, KinematicPair, Statement
 from graphplan.mechanism.pairs.revolute import Revolute, across
 from graphplan.mechanism.structure import structure
@@ -24,7 +24,8 @@ Array = Any
 class Linkage:
     """A scene's links, their bonds, and its parts (driving links and groups) in the order of motion transfer.
 
-    `paces` are the travels of the drives for a unit of the first one's.
+    `paces` are the travels of the drives for a unit of the first one's. `origins` are where the bases of links were
+    given: a first point, until the group of a link says better.
     """
 
     def __init__(self, scene: Scene, paces: tuple[float, ...]):
@@ -77,18 +78,24 @@ class Linkage:
         return self.scene.links.get(link, ())
 
     def carriers(self, part: tuple[str, ...]) -> tuple[str, ...]:
-        """The links that are placed before a part."""
-        return self.links[: self.order[part[0]]]
+        """The links placed before a part that it is tied to, but for the frame."""
+        bonds = [bond for link in part for bond in self.bonds[link]]
+        ends = {end for bond in bonds for end in (bond.link, bond.on, getattr(bond, "to", "")) if end}
+        placed = {self.order[end] for end in ends - {FRAME}}
+        return tuple(self.links[i] for i in sorted(placed) if i < self.order[part[0]])
 
     def pairs(self, link: str, others: tuple[str, ...]) -> tuple[KinematicPair, ...]:
         """The pairs of a link with some others, but for drives."""
-        return tuple(pair for pair in self.scene.binding if link in pair.links and {*pair.links} & {*others} - {link})
+        return tuple(pair for pair in self._pairs[link] if {*pair.links} & {*others} - {link})
 
-    def drives(self, part: tuple[str, ...]) -> tuple[tuple[Drive, float], ...]:
-        """The drives that work on the links of a part, from links placed before it or with it; each with its pace."""
-        known = {*self.carriers(part), *part}
-        return tuple((drive, pace) for drive, pace in zip(self.scene.drives, self.paces, strict=True)
-                     if {*drive.links} & {*part} and {*drive.links} <= known)
+    @cached_property
+    def _pairs(self) -> dict[str, list[KinematicPair]]:
+        """The pairs of each link, but for drives."""
+        found: dict[str, list[KinematicPair]] = {link: [] for link in self.links}
+        for pair in self.scene.binding:
+            for link in pair.links:
+                found[link].append(pair)
+        return found
 
 
 def number(x: Number, y: Number) -> complex:

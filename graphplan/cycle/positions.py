@@ -6,11 +6,11 @@ many more as it takes. Poses are placed in blocks that stay in the cache.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
-from graphplan.cycle import closure
+from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body
 from graphplan.cycle.continuation import Path, Prediction
 from graphplan.cycle.dyads import Failure, assembled
@@ -20,6 +20,9 @@ from graphplan.mechanism.model import FRAME
 
 BLOCK = 2048
 """Poses whose numbers fit into the cache."""
+
+_FEW = 4096
+"""For fewer poses a tape is not worth its writing."""
 
 _CLOSED = 2.0**-54
 """The square of a correction, of the step: what it leaves is below rounding."""
@@ -31,27 +34,28 @@ class Placing:
     `failures` tells for each group that could not be placed in which poses.
     """
 
-    def __init__(self, linkage: Linkage, groups: Sequence[Group], origins: Mapping[str, complex], n: int,
-                 turning: Sequence[str]):
-        self.linkage, self.groups, self.origins = linkage, groups, origins
+    def __init__(self, linkage: Linkage, groups: Sequence[Group], n: int, turning: Sequence[str]):
+        self.linkage, self.groups = linkage, groups
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
         self.points = {point: np.full(n, np.nan, dtype=complex) for point in linkage.places}
         self.turns = {link: np.full(n, np.nan, dtype=complex) for link in turning}
         self.failures: list[tuple[Failure, Array]] = []
-        self.owned = {link: [(point, linkage.places[point] - origins[link]) for point in linkage.points(link)
+        self.owned = {link: [(point, linkage.places[point] - linkage.origins[link]) for point in linkage.points(link)
                              if link == min(linkage.scene.links_of[point], key=linkage.order.__getitem__)]
                       for link in linkage.links}
 
-    def follow(self, path: Path, travel: Array, at: Array) -> None:
-        """Place the poses `at` these places, which the path reaches."""
+    def follow(self, path: Path, travel: Array, at: Array, machine: bool) -> None:
+        """Place the poses `at` these places, which the path reaches; by machine code if asked for."""
         self._stay(at)
         if not at.size:
             return
+        taped = machine or at.size > _FEW
+        runs = [newton.for_many(group.layout, machine) if taped and group.unknowns else None for group in self.groups]
         prediction = path.prediction()
         with np.errstate(all="ignore"):
             for start in range(0, len(at), BLOCK):
                 some = at[start : start + BLOCK]
-                self._followed(prediction, path.senses, travel[some], some)
+                self._followed(prediction, path.senses, travel[some], some, runs)
 
     def stand(self, path: Path, travel: Array, at: Array) -> None:
         """Take the poses `at` these places from the path: where one is singular, it cannot be closed."""
@@ -59,9 +63,7 @@ class Placing:
         state, bodies = path.nearest(some), {FRAME: Body()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
-            numbers = group.read(some, state[self.ends[i] : self.ends[i + 1]])
-            links = closure.bodies(group.layout, known, group.arms, *numbers, moving=False)
-            self._enter(group, links[len(known):], bodies, at)
+            self._enter(group, group.lie(known, some, state[self.ends[i] : self.ends[i + 1]]), bodies, at)
         self._stay(at)
         for point, place in self.linkage.places.items():
             self.points[point][at[some == 0]] = place
@@ -77,14 +79,15 @@ class Placing:
         _, found = assembled(self.linkage, self.groups, travel[at])
         self.failures += [(failure, at[missing]) for failure, missing in found]
 
-    def _followed(self, prediction: Prediction, senses: Array, travel: Array, at: Array) -> None:
+    def _followed(self, prediction: Prediction, senses: Array, travel: Array, at: Array,
+                  runs: Sequence[newton.Run | None]) -> None:
         """One block."""
         state, size = prediction(travel)
         bodies = {FRAME: Body()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
             links, trusted = _settled(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size, senses[i],
-                                      NEAR * size, np.zeros(len(travel), dtype=bool))
+                                      NEAR * size, np.zeros(len(travel), dtype=bool), runs[i])
             if not trusted.all():
                 why = Failure(group.part, "Newton's method does not stay on their branch")
                 self.failures.append((why, at[~trusted]))
@@ -95,7 +98,7 @@ class Placing:
         for link, body in zip(group.links, links, strict=True):
             bodies[link] = Body(body.base, body.turn)
             x, y = (self.linkage.reach * number for number in body.base)
-            x, y = x + self.origins[FRAME].real, y + self.origins[FRAME].imag
+            x, y = x + self.linkage.origins[FRAME].real, y + self.linkage.origins[FRAME].imag
             for point, lever in self.owned[link]:
                 (a, b), array = closure.rotated(body.turn, (lever.real, lever.imag)), self.points[point]
                 array.real[at], array.imag[at] = x + a, y + b
@@ -104,26 +107,23 @@ class Placing:
 
 
 def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, size: Array, sense: float,
-             allowed: Array, settled: Array) -> tuple[list[Body], Array]:
+             allowed: Array, settled: Array, run: newton.Run | None) -> tuple[list[Body], Array]:
     """A group closed in n poses, and where that is to be trusted: see :meth:`Group.settled`."""
-    numbers = group.read(travel, state)
-    links = closure.bodies(group.layout, known, group.arms, *numbers)
     if not group.unknowns:
-        return links[len(known):], np.ones(len(travel), dtype=bool)
-    found = closure.step(closure.left_open(group.layout, links, group.arms, numbers[0]), group.unknowns, np.sqrt)
-    far = np.abs(found.corrections).max(axis=0)
-    trusted = (far <= allowed) & (np.sign(found.determinant) == sense)
-    closed = closure.corrected(group.layout, numbers[1], found.corrections)
-    links = closure.bodies(group.layout, known, group.arms, numbers[0], closed, moving=False)[len(known):]
+        return group.lie(known, travel, state), np.ones(len(travel), dtype=bool)
+    corrections, determinant, links = group.step(known, travel, state, run)
+    far = np.abs(corrections).max(axis=0)
+    trusted = (far <= allowed) & (np.sign(determinant) == sense)
     again = np.flatnonzero(trusted & ~settled & (far * far > _CLOSED * size))
     if again.size:
         far, size = far[again], size[again]
         settled = far <= SETTLED * size
         rest, trusted[again] = _settled(group, [_some(body, again) for body in known], travel[again],
-                                        (state - found.corrections)[:, again], size, sense,
-                                        np.where(settled, NEAR * size, SHRINKING * far), settled)
+                                        (state - corrections)[:, again], size, sense,
+                                        np.where(settled, NEAR * size, SHRINKING * far), settled, None)
         for link, other in zip(links, rest, strict=True):
-            for array, some in zip((*link.base, *(link.turn or ())), (*other.base, *(other.turn or ())), strict=True):
+            for array, some in zip((*link.base, *(link.turn or ())), (*other.base, *(other.turn or (1.0, 0.0))),
+                                   strict=False):
                 if isinstance(array, np.ndarray):
                     array[again] = some
     return links, trusted

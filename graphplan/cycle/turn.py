@@ -7,6 +7,7 @@ even where the links could be put together again. A pose at a limit is taken whe
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -21,6 +22,9 @@ from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, trave
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.motion.network import Network
 
+_BACK = 1e-9
+"""Links that are so near to where they were, in radians and reaches, are back."""
+
 
 @dataclass(frozen=True)
 class Turn:
@@ -30,34 +34,35 @@ class Turn:
     arrays of shape (n,) in scene units by name, nan where a pose is not reached; a point that only marks the place of a
     guide under the sliding point goes with that point. `guides`: the directions, complex arrays of shape (n,), of the
     slides along moving links that are given by a vector, by the slide's name. `faults`: by the pose's place, why it is
-    not reached, or has no velocities at a limit.
+    not reached, or has no velocities at a limit. `closed`: after a full turn of the first drive all is as it was.
     """
 
     travel: Array
     points: dict[str, Array]
     guides: dict[str, Array]
     faults: dict[int, str]
+    closed: bool = False
 
 
 def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None,
-           progress: Progress | None = None) -> Turn:
+           progress: Progress | None = None, compiled: bool = False) -> Turn:
     """The scene's points in so many poses of its cycle, each followed from the given pose without changing branch.
 
     Reads a scene with drives, and the span of the first drive's travel, in degrees (in lengths where it slides), both
     ends included; without one it is a full turn from the given pose, whose end is left out. The other drives keep pace.
+    `compiled`, they are placed by machine code, where numba is installed.
     Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
     """
     travel = travels(scene, positions, span)
     linkage = Linkage(scene, paces(scene))
-    origins = {FRAME: linkage.origins[FRAME]}
-    groups = [Group(linkage, part, origins) for part in linkage.parts]
+    groups = [Group(linkage, part) for part in linkage.parts]
     closed = span is None and closes(scene, linkage.paces)
-    ends = min(0.0, float(travel.min())), max(0.0, float(travel.max()))
+    ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
     path = Continuation(linkage, groups, *ends, progress).path(closed)
     course = Course(scene, path, travel, closed)
     slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
-    placing = Placing(linkage, groups, origins, positions, [slide.along for slide in slides])
-    placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots))
+    placing = Placing(linkage, groups, positions, [slide.along for slide in slides])
+    placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
     placing.stand(path, course.at, np.flatnonzero(course.knots))
     placing.refuse(course.at, np.flatnonzero(~course.reached))
     for array in (*placing.points.values(), *placing.turns.values()):
@@ -66,7 +71,15 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     points = {name: placing.points[name] for name in scene.points}
     guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
     points |= {name: points[at] for name, at in _under(scene).items()}
-    return Turn(travel, points, guides, course.faults(placing.failures))
+    return Turn(travel, points, guides, course.faults(placing.failures), closed and _comes_back(path, groups))
+
+
+def _comes_back(path: Path, groups: Sequence[Group]) -> bool:
+    """Whether every link is back in its place at the end of the path, a turn later."""
+    state = iter(path.nearest(np.array([TURN]))[:, 0].tolist())
+    apart = [abs(2 * math.sin(value / 2) if i < group.layout.angles else value)
+             for group in groups for i, value in zip(range(group.unknowns), state, strict=False)]
+    return path.upper is None and max(apart, default=0.0) <= _BACK
 
 
 def _under(scene: Scene) -> dict[str, str]:

@@ -158,8 +158,7 @@ def test_compass_rules_place_dyads_as_newton_does(group: str) -> None:
     """Each of the five dyads is assembled by its compass rule where its closure puts it, in every pose of the path."""
     for scene in sound(group, 2):
         turn, linkage = follow(scene, 48), Linkage(scene, paces(scene))
-        origins = {FRAME: linkage.origins[FRAME]}
-        groups = [Group(linkage, part, origins) for part in linkage.parts]
+        groups = [Group(linkage, part) for part in linkage.parts]
         placed, failures = assembled(linkage, groups, turn.travel)
         assert placed.keys() == set(scene.links)
         on = reached(turn)

@@ -115,8 +115,7 @@ def test_the_cycle_closes_what_is_stated(name: str) -> None:
     Those that seat a link on another leave nothing, and derivatives are those of what is left.
     """
     linkage, chance = Linkage(gp.load(name), paces(gp.load(name))), Random(name)
-    origins = {FRAME: linkage.origins[FRAME]}
-    groups, bodies = [Group(linkage, part, origins) for part in linkage.parts], {FRAME: closure.Body()}
+    groups, bodies = [Group(linkage, part) for part in linkage.parts], {FRAME: closure.Body()}
     for group in groups:
         known, state = [bodies[link] for link in (FRAME, *group.carriers)], np.array(
             [chance.uniform(-0.1, 0.1) for _ in range(group.unknowns)])
@@ -128,7 +127,7 @@ def test_the_cycle_closes_what_is_stated(name: str) -> None:
                 slope = (two[closure.RESIDUE] - one[closure.RESIDUE]) / (2 * STEP / 16)
                 assert row.get(i, 0.0) == pytest.approx(slope, abs=1e-7)
         closed = sorted(abs(row[closure.RESIDUE]) for row in rows)
-        stated = sorted(_stated(linkage, group, bodies, origins))
+        stated = sorted(_stated(linkage, group, bodies))
         assert [0.0] * (len(stated) - len(closed)) + closed == pytest.approx(stated, abs=1e-12)
 
 
@@ -139,8 +138,7 @@ def _left(group: Group, known: list[closure.Body], state: Any) -> tuple[list[clo
     return closure.left_open(group.layout, links, group.arms, drives), links
 
 
-def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body],
-            origins: dict[str, complex]) -> Iterator[float]:
+def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body]) -> Iterator[float]:
     """What each statement on a group's links leaves, without its sign."""
     lies = {link: Attitude(*body.base, *(body.turn or (1.0, 0.0))) for link, body in bodies.items()}
     for bond in [bond for link in group.links for bond in linkage.bonds[link]]:
@@ -148,7 +146,7 @@ def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body],
         if isinstance(bond, Along):
             z = direction(bond)
             bond = replace(bond, direction=(z.real, z.imag))
-            ends = ((linkage.places[bond.at] - origins[end]) / linkage.reach for end in (bond.link, bond.on))
+            ends = ((linkage.places[bond.at] - linkage.origins[end]) / linkage.reach for end in (bond.link, bond.on))
             arms = tuple((arm.real, arm.imag) for arm in ends)
         yield abs(bond.residual(lies, arms))
 

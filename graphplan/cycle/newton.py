@@ -1,0 +1,182 @@
+"""Newton's step of one group in any numbers, and on a tape: recorded once for all groups of one structure.
+
+The step is a sparse QR factorisation by plane rotations (Givens 1958): stable in any order, so that the order is that
+of the structure alone, and no number is asked anything on the way. The first rotations turn each loop's two equations
+along a link and across it, so that they hold for any pose.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import lru_cache
+from typing import Any, NamedTuple
+
+from graphplan.cycle.closure import RESIDUE, TRAVEL, Body, Drive, Layout, Row, Vector, bodies, left_open, rotated
+from graphplan.kernel.tape.blocks import Blocks
+from graphplan.kernel.tape.machine import Machine
+from graphplan.kernel.tape.record import Symbol, Symbols
+from graphplan.kernel.tape.written import function
+
+_TINY = 1e-150
+"""Stands for a pivot that is nothing: a rotation is one then, too."""
+
+NOTHING = 1e-140
+"""A determinant below it has such a pivot."""
+
+
+class Step(NamedTuple):
+    """Newton's step: what is to be taken from each unknown, their rates, and the determinant of the derivatives."""
+
+    corrections: list[Any]
+    rates: list[Any]
+    determinant: Any
+
+
+def step(rows: Sequence[Row], width: int, sqrt: Callable[[Any], Any]) -> Step:
+    """Newton's step for so many unknowns, from what is left open."""
+    left, pivots, determinant = list(rows), list[tuple[int, Row]](), 1.0
+    free = set(range(width))
+    while free:
+        column = min(free, key=lambda j: (sum(j in row for row in left), j))
+        pivot, *others = sorted((row for row in left if column in row),
+                                key=lambda row: sum(j >= 0 for j in row))
+        left = [row for row in left if column not in row]
+        for other in others:
+            pivot, rest = _cleared(pivot, other, column, sqrt)
+            left.append(rest)
+        free.remove(column)
+        pivots.append((column, pivot))
+        determinant = determinant * pivot[column]
+    corrections, rates = (_substituted(pivots, side) for side in (RESIDUE, TRAVEL))
+    return Step(corrections, [-rate for rate in rates], determinant)
+
+
+def _cleared(one: Row, two: Row, column: int, sqrt: Callable[[Any], Any]) -> tuple[Row, Row]:
+    """Two rows rotated so that the second has nothing in a column."""
+    a, b = one[column] + _TINY, two[column]
+    size = sqrt(a * a + b * b)
+    cos, sin = a / size, b / size
+    first: Row = {column: size}
+    second: Row = {}
+    for k in dict.fromkeys([*one, *two]):
+        x, y = one.get(k), two.get(k)
+        if k == column:
+            continue
+        if y is None:
+            first[k], second[k] = cos * x, -(sin * x)
+        elif x is None:
+            first[k], second[k] = sin * y, cos * y
+        else:
+            first[k], second[k] = cos * x + sin * y, cos * y - sin * x
+    return first, second
+
+
+def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
+    """Back substitution for one right-hand side."""
+    found: Row = {}
+    for column, row in reversed(pivots):
+        value = row.get(side, 0.0)
+        for k, weight in row.items():
+            if k in found:
+                value = value - weight * found[k]
+        found[column] = value / row[column]
+    return [found[column] for column in range(len(pivots))]
+
+
+def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
+    """The state less the corrections; an angle is turned back by Cayley's formula, right to second order."""
+    found = list(state)
+    for i, correction in enumerate(corrections):
+        if i < layout.angles:
+            half = 0.5 * correction
+            square = half * half
+            size = 1.0 + square
+            found[i] = rotated(state[i], ((1.0 - square) / size, -correction / size))
+        else:
+            found[i] = state[i] - correction
+    return found
+
+
+# ---- recorded on a tape, once for all groups of one structure --------------------------------------------------------
+
+
+Lies = tuple[float, ...]
+"""How a link lies in one pose: its base and turn as x, y, cos, sin, and their rates by the travel as x, y, angle."""
+
+
+Run = Blocks | Machine
+"""What replays a tape over arrays."""
+
+
+class Corrected(NamedTuple):
+    """One pose, corrected: as Newton's step has it, and how each link of the group lies then and moves."""
+
+    corrections: tuple[float, ...]
+    rates: tuple[float, ...]
+    determinant: float
+    lies: tuple[Lies, ...]
+
+
+class _Record:
+    """Newton's step of a group on a tape; where nobody asks for `rates`, known links and drives have none.
+
+    The inputs are how each known link but the frame lies, the arms, the drives, and the state.
+    """
+
+    def __init__(self, layout: Layout, rates: bool):
+        self.tape, self.inputs = Symbols().tape, list[int]()
+        known = [Body(), *(Body(self._pair(), self._pair(), {TRAVEL: self._pair()} if rates else {},
+                                {TRAVEL: self._new()} if rates else {}) for _ in range(layout.known - 1))]
+        arms = [self._pair() for _ in range(layout.arms)]
+        drives = [Drive(self._pair() if turns else self._new(), self._new() if rates else None)
+                  for turns in layout.drives]
+        state = [self._pair() if i < layout.angles else self._new() for i in range(layout.unknowns)]
+        links = bodies(layout, known, arms, drives, state)
+        self.step = step(left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
+        closed = bodies(layout, known, arms, drives, corrected(layout, state, self.step.corrections), moving=False)
+        self.links, self.closed = links[layout.known:], closed[layout.known:]
+
+    def _new(self) -> Symbol:
+        symbol = self.tape.input(f"n{len(self.inputs)}")
+        self.inputs.append(symbol.place)
+        return symbol
+
+    def _pair(self) -> Vector:
+        return self._new(), self._new()
+
+    def told(self, *numbers: Any) -> tuple[int, ...]:
+        """The places of numbers."""
+        return tuple(map(self.tape.place, numbers))
+
+    def lies(self, i: int) -> tuple[Any, ...]:
+        """How a link of the group lies."""
+        return *self.closed[i].base, *(self.closed[i].turn or (1.0, 0.0))
+
+    def moves(self, i: int) -> Iterator[Any]:
+        """How its base moves along x and along y, and how it turns."""
+        base, spin = self.links[i].moves, self.links[i].spin
+        for moves in ({k: x for k, (x, _) in base.items()}, {k: y for k, (_, y) in base.items()}, spin):
+            rate: Any = moves.get(TRAVEL, 0.0)
+            for k in moves.keys() - {TRAVEL}:
+                rate = rate + (self.step.rates[k] if moves[k] is None else self.step.rates[k] * moves[k])
+            yield rate
+
+
+@lru_cache(maxsize=256)
+def for_one(layout: Layout) -> Callable[..., Any]:
+    """A function that corrects one pose: it reads the inputs of the record and gives the parts of :class:`Corrected`.
+    """
+    record = _Record(layout, rates=True)
+    found, told = record.step, record.told
+    lies = tuple(told(*record.lies(i), *record.moves(i)) for i in range(len(record.links)))
+    return function(record.tape, record.inputs,
+                    (told(*found.corrections), told(*found.rates), record.tape.place(found.determinant), lies))
+
+
+@lru_cache(maxsize=64)
+def for_many(layout: Layout, machine: bool) -> Run:
+    """The same over arrays, without rates: corrections, determinant, and x, y, cos, sin of each link."""
+    record = _Record(layout, rates=False)
+    lies = [number for i in range(len(record.links)) for number in record.lies(i)]
+    told = record.told(*record.step.corrections, record.step.determinant, *lies)
+    return (Machine if machine else Blocks)(record.tape, record.inputs, told)

@@ -38,7 +38,7 @@ _BACK = 3
 _BESIDE = 4
 """How many knots tell what lies between two of them."""
 
-_KNOT = 1024
+_KNOT = 512
 """Bytes for each link in a step, as measured on long travels."""
 
 _FINEST = 2.0**-36

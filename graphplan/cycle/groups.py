@@ -113,7 +113,7 @@ class Group:
         links = closure.bodies(self.layout, known, self.arms, drives, closed, moving=False)[len(known):]
         return np.array(found.corrections), np.broadcast_to(found.determinant, travel.shape), links
 
-    def _replayed(self, known: Sequence[Body], drives: Sequence[closure.Drive], numbers: Sequence[Any], run: Blocks,
+    def _replayed(self, known: Sequence[Body], drives: Sequence[closure.Drive], numbers: Sequence[Any], run: newton.Run,
                   n: int) -> tuple[Array, Array, list[Body]]:
         """The same by the tape."""
         vectors = [part for body in known[1:] for part in (body.base, body.turn or (1.0, 0.0))]

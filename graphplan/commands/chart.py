@@ -3,7 +3,7 @@
 charts:
   machine        time for a pose against error, of every form in every arithmetic
   draughtsman    drawing operations against pencil error, of every form
-  stability      error near the places where methods fail
+  stability      where methods fail: errors on the way to special poses, and what serves there
   forms          which form is best where in the cycle
   growth         time and steps against the number of links
 
@@ -46,7 +46,8 @@ CHARTS = {
     "machine": Survey("Measure", lambda module, scene, hand, named: module.measures(
         scene, compiled=module.ALL if named else 1)),  # compiling takes seconds
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
-    "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES), "{0.degeneracy}"),
+    "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES, pencil=hand),
+                        "{0.degeneracy}, d = {0.distance:.0e}"),
     "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
     "growth": Survey("Stage", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
@@ -81,7 +82,7 @@ def run(options: argparse.Namespace) -> int:
         if name == "machine":
             measured = {row.scene for row in rows}
             rows += [row for row in beside if row.scene in measured]
-        told = (hand.told,) if name == "draughtsman" else ()
+        told = (hand.told,) if name in ("draughtsman", "stability") else ()
         for part in PICTURES:
             if hasattr(module, part):
                 write(drawn(getattr(module, part)(rows, *told)), str(options.folder / f"{name}{PICTURES[part]}.svg"))

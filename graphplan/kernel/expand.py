@@ -202,7 +202,12 @@ class Expander:
                 self._made.pop(index, None)
 
     def _reach(self, step: Step) -> float:
-        """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts."""
+        """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts.
+
+        A line through two points is as true beside the nearer of them as that is.
+        """
+        if step.op.movement is Movement.RULED:
+            return min(self.reach[arg] for arg in step.args)
         value = self.values[step.index]
         own = (math.hypot(*value[:2]) if step.op.gives in (POINT, CIRCLE)
                else math.sqrt(value[0]) if step.op.gives == OPENING else 0.0)
@@ -216,18 +221,20 @@ class Expander:
         Flat crossings and marks far away lose digits. What is further off is another thing: a wrong branch, or a form
         for other poses. Small as it may be beside the sheet, the next flat crossing makes it large.
         """
-        reach = max([*self.reach[before:], *(self.reach[arg.step.index] for arg in args)])
+        read = max(self.reach[arg.step.index] for arg in args)
         if op.gives == LINE:
             locus = op.claimed("locus") or op.claimed("concurrent")
-            gap, spread = _line_gap(truth, value, reach), reach
+            gap, spread = _line_gap(truth, value, read), read
             if _runs_against(truth, value) and not locus:
                 return False
         else:
             gap = math.dist(truth, value)
             spread = max((math.dist(truth, self.value(arg)) for arg in args if arg.kind == POINT
-                          and arg.step.panel == args[op.where].step.panel), default=reach)
-        rounded = ROUNDED * reach
-        return sharpest > ROUNDED and gap <= max(rounded, min(AGREE * spread, rounded / sharpest))
+                          and arg.step.panel == args[op.where].step.panel), default=read)
+        used = (index for step in self.board.steps[before:] for index in (step.index, *step.args))
+        reach = max([read, *map(self.reach.__getitem__, used)])
+        lost = ROUNDED * reach / sharpest if sharpest > ROUNDED else 0.0
+        return gap <= max(ROUNDED * read, min(AGREE * spread, lost))
 
     def _judge(self, form: str, before: int) -> Rating | None:
         steps = self.board.steps[before:]

@@ -168,6 +168,8 @@ def _frame(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) ->
     for at, words in y.ticks():
         canvas.line([(rect.left, at), (rect.right, at)], DIVISION)
         canvas.text((rect.left - 1.2, at - 0.36 * SMALL), words, SMALL, "end")
+    for place, told in panel.y.beside:
+        canvas.text((rect.right + 1.2, y(place) - 0.36 * SMALL), _set(told), SMALL)
     for at in x.edges:
         canvas.line([(at, rect.bottom), (at, rect.top)], EDGE)
     for at in y.edges:
@@ -188,6 +190,9 @@ def _line(canvas: Canvas, series: Series, x: _Scale, y: _Scale) -> None:
         (start, rail), (end, _) = series.spots
         half = 0.4 * y.pitch
         canvas.fill(Rect(x(start), y(rail) - half, x(end), y(rail) + half).corners, _filling(look))
+        words, room = _set(series.label), x(end) - x(start) - 0.6
+        if series.label and width(words, SMALL) <= room:
+            canvas.text(((x(start) + x(end)) / 2, y(rail) - 0.36 * SMALL), words, SMALL, "middle")
     for railed, part in groupby(series.spots, key=lambda spot: not series.through and str in map(type, spot)):
         if look.width and not railed:
             canvas.line([(x(a), y(b)) for a, b in part], Pen(look.width, look.colour, look.dash))
@@ -197,7 +202,7 @@ def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -
     """The words of each series at its last spot, where they cover the least of marks, lines and other words."""
     taken = [box for series in panel.series for box in _covered(series, x, y)]
     for series in panel.series:
-        if not series.label:
+        if not series.label or not series.spots or series.look.area:
             continue
         words, (a, b) = _set(series.label), series.spots[-1]
         wide, off = width(words, LABEL), series.look.size / 2 + 1.0

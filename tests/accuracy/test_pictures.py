@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 from xml.etree import ElementTree
 
@@ -48,17 +49,25 @@ def test_every_mark_is_a_row_of_its_table() -> None:
         (40.0, 3.0), (40.0, 2.0), (90.0, 2.0), (90.0, 1.0), (95.0, 1.0))
     assert "(1 not drawn)" in chart.panels[0].title
     assert marks(machine.details(MEASURES)) == 3
-    samples = list(stability.samples(DEGENERACIES[6], distances=(1.0, 1e-3, 0.0)))
-    assert marks(stability.picture(samples)) == len(samples)
 
 
-def test_exact_and_singular_stand_on_rails() -> None:
-    """No error stands on the exact rail, proven digits on theirs, and what has no number on that of its method."""
+def test_the_atlas_marks_what_is_drawn_and_what_is_not() -> None:
+    """Each way has a mark at each distance, above the numbers where it is not drawn; below stands what serves."""
+    rows = list(stability.samples(next(one for one in DEGENERACIES if one.name == "slide locks"),
+                                  distances=(1.0, 1e-5, 0.0)))
+    chart = stability.picture(rows)
+    drawn_or_not = [row for row in rows if row.how == stability.DRAWN and row.way != stability.SHEET]
+    computed = [row for row in rows if row.way in (stability.VALUE, stability.SOLVER) and row.error is not None]
+    assert marks(chart) == len(drawn_or_not) + len(computed)
+    strip = [one for one in chart.panels[0].series if one.look.area and one.spots[0][1] == stability.SOLVE]
+    assert [series.label for series in strip][::2] == ["floats", "no"]
+    assert all(one.spots[1][0] == two.spots[0][0] for one, two in pairwise(strip[:2]))
+
+
+def test_exact_errors_stand_on_rails() -> None:
+    """No error stands on the exact rail, proven digits on theirs."""
     levels = [series.spots[0][1] for series in machine.details(MEASURES).panels[0].series]
     assert levels == [1e-15, "exact", "20 digits"]
-    singular = stability.Sample("C on QR", "poles", 0.0, float("inf"), None, "singular")
-    spots = [series.spots for series in stability.picture([singular]).panels[0].series if series.spots]
-    assert spots == [(("0", "poles"),)]
 
 
 def test_medians_are_over_all_scenes() -> None:

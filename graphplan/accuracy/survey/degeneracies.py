@@ -16,25 +16,36 @@ from graphplan.mechanism.scene import load
 
 Points = Mapping[str, Pair]
 
+AUXILIARY, TRIAL, POLES, FALSE = "auxiliary points", "trial figures", "relative pole", "false position"
+ORTHOGONAL, POLAR, POLYGONS, LEVER = "orthogonal velocities", "polar plans", "force polygons", "lever"
+WAYS: dict[str, dict[str, str]] = {  # as arguments of `construct`
+    AUXILIARY: {"method": "auxiliary"}, TRIAL: {"method": "trial"}, POLES: {"method": "poles"},
+    FALSE: {"method": "trial"}, ORTHOGONAL: {"plan": "orthogonal"}, POLAR: {"plan": "polar"},
+    POLYGONS: {"plan": "polygons"}, LEVER: {"plan": "lever"},
+}
+LOCI, RINGS, PLANS, FORCES = (AUXILIARY, TRIAL), (POLES, FALSE), (ORTHOGONAL, POLAR), (POLYGONS, LEVER)
+
 
 @dataclass(frozen=True)
 class Degeneracy:
     """One way to a special pose: what happens at d = 0, in which packaged scene, and which points are moved there.
 
     `move` gives the moved points' places from those of the scene. `singular` says that the mechanism is singular at
-    d = 0; else ways to draw it are, and it is not.
+    d = 0; else some of its `ways` are, and it is not.
     """
 
     name: str
     what: str
     scene: str
     singular: bool
+    ways: tuple[str, str]
     move: Callable[[Points, Fraction], Points]
 
     def at(self, d: float) -> Scene:
-        """The scene at the distance d."""
+        """The scene at the distance d; of its motion all joints are asked for."""
         scene = load(self.scene)
-        return replace(scene, points={**scene.points, **self.move(scene.points, Fraction(d))})
+        find = replace(scene.find, velocity=scene.joints, acceleration=scene.joints)
+        return replace(scene, find=find, points={**scene.points, **self.move(scene.points, Fraction(d))})
 
 
 def _near(v: Pair, d: Fraction) -> Pair:
@@ -96,28 +107,28 @@ def _force_along_the_crank(p: Points, d: Fraction) -> Points:
 
 DEGENERACIES = (
     Degeneracy("parallel bars", "KA turned towards LB: the auxiliary point Q goes far away", "rosenauer-basic", False,
-               lambda p, d: {"K": less(p["A"], times(4, _near(less(p["B"], p["L"]), d)))}),
+               LOCI, lambda p, d: {"K": less(p["A"], times(4, _near(less(p["B"], p["L"]), d)))}),
     Degeneracy("joints coincide", "B brought to A, on link 3", "rosenauer-basic", False,
-               lambda p, d: {"B": plus(p["A"], times(d, less(p["B"], p["A"])))}),
+               LOCI, lambda p, d: {"B": plus(p["A"], times(d, less(p["B"], p["A"])))}),
     Degeneracy("pole at infinity", "FE turned towards DG: the relative pole of links 2 and 5 goes far away",
                "class-four", False,
-               lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _near(less(p["G"], p["D"]), d)))}),
+               RINGS, lambda p, d: {"E": plus(p["F"], times(Fraction(1, 2), _near(less(p["G"], p["D"]), d)))}),
     Degeneracy("short crank", "the crank d times as long", "four-bar", False,
-               lambda p, d: {"A": times(d, p["A"])}),
+               PLANS, lambda p, d: {"A": times(d, p["A"])}),
     Degeneracy("C on QR", "C brought to the line of the auxiliary points", "rosenauer-basic", True,
-               _on_the_line_of_poles),
+               LOCI, _on_the_line_of_poles),
     Degeneracy("triad", "bar GC turned towards the point where the other two meet", "triad", True,
-               _bars_through_one_point),
+               LOCI, _bars_through_one_point),
     Degeneracy("class IV", "bar FE turned until the poles of links 2 and 5 lie in line", "class-four", True,
-               _poles_in_line),
-    Degeneracy("slide locks", "the rod turned square to the guide", "slider-crank", True, _rod_across_the_guide),
+               RINGS, _poles_in_line),
+    Degeneracy("slide locks", "the rod turned square to the guide", "slider-crank", True,
+               PLANS, _rod_across_the_guide),
     Degeneracy("dead centre against the drive", "coupler and rocker stretched, under load", "jaanimets-10", True,
-               _rocker_in_line),
+               FORCES, _rocker_in_line),
     Degeneracy("dead centre with the drive", "crank and coupler stretched, under load", "jaanimets-10", False,
-               _crank_in_line),
-    Degeneracy("forces of parallel bars", "AN turned towards BF: the auxiliary point of the forces goes far away",
-               "rosenauer-loaded", False,
-               lambda p, d: {"N": less(p["A"], times(2, _near(less(p["B"], p["F"]), d)))}),
+               FORCES, _crank_in_line),
+    Degeneracy("parallel bars, loaded", "AN turned towards FB: the auxiliary point Q goes far away", "rosenauer-loaded",
+               False, LOCI, lambda p, d: {"N": less(p["A"], times(2, _near(less(p["B"], p["F"]), d)))}),
     Degeneracy("lever without arm", "the balancing force turned along the crank", "jaanimets-10", True,
-               _force_along_the_crank),
+               FORCES, _force_along_the_crank),
 )

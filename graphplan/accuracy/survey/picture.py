@@ -37,7 +37,7 @@ class Look:
 @dataclass(frozen=True)
 class Series:
     """Spots of one look, and for each of them the corners of its spread, where it is told; the words that stand at its
-    last spot. The line of a series `through` goes over rails as over numbers, else it ends there."""
+    last spot, or in an area. The line of a series `through` goes over rails as over numbers, else it ends there."""
 
     look: Look
     spots: tuple[Spot, ...]
@@ -50,7 +50,7 @@ class Series:
 class Axis:
     """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, the step from
     reading to reading (of 0 it is free), its rails before and after the numbers, the outermost first, how many mm apart
-    these are (of 0 it is free), and numbers that are shown in any case."""
+    these are (of 0 it is free), numbers that are shown in any case, and readings on its other side."""
 
     label: str
     log: bool = True
@@ -60,6 +60,7 @@ class Axis:
     after: Rails = ()
     pitch: float = 0.0
     shows: tuple[float, ...] = ()
+    beside: tuple[tuple[float, str], ...] = ()
 
 
 @dataclass(frozen=True)

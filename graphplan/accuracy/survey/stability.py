@@ -1,147 +1,309 @@
-"""Stability: how large errors grow near the places where methods fail, beside what the mechanism itself must cost."""
+"""The atlas of special poses: how far off each way is on the way there, on the machine and on the drawing board.
+
+A way is *drawn* where every mark is made from those before it by the rule of its own movement, crossings and all: an
+auxiliary point far away costs digits. The *value rule* computes the same compounds without their inner marks. Both, and
+the *solver*, take floats; `solve` takes what proves nine digits, and its answer is the product's. A *pencil* draws with
+expected errors of first order, each plan as large as its paper allows.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
-from fractions import Fraction
-from itertools import product
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from itertools import chain, combinations, cycle, groupby, pairwise
 from typing import Any
 
-from graphplan.accuracy.survey.degeneracies import DEGENERACIES, Degeneracy
-from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, Spot, SubChart, grouped
-from graphplan.errors import GraphplanError
+import numpy as np
+
+from graphplan.accuracy.first_order import first_order, readings
+from graphplan.accuracy.hand import hand
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.survey.degeneracies import DEGENERACIES, FALSE, ORTHOGONAL, POLAR, POLES, WAYS, Degeneracy
+from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, grouped
+from graphplan.accuracy.survey.problem import Results, largest_error
+from graphplan.check.arithmetics import Exact
+from graphplan.check.compared import UNBOUNDED
+from graphplan.check.report import Opinion, opinion
+from graphplan.check.trusted import report
+from graphplan.errors import GraphplanError, Refused
+from graphplan.kernel.kinds import POINT, Movement, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
-from graphplan.sheet.plates.pens import BLUE, BROWN, GREEN, GREY, INK, RED, VIOLET
-from graphplan.solver import solve
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import VELOCITY
+from graphplan.phrases import joined
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, RED, VIOLET
+from graphplan.sheet.plates.plans import Plans
+from graphplan.solver import reactions, solve
 
 EPSILON = 2.0**-52
 DISTANCES = (*(10.0 ** (-k / 2) for k in range(33)), 0.0)  # 1, 0.3, 0.1, ... 1e-16, and the special pose itself
+ACROSS = 250.0  # mm: how large each plan is drawn by pencil
 
-# Methods by name, as arguments of `construct`.
-METHODS: dict[str, dict[str, Any]] = {
-    "chosen by the pose": {},
-    "auxiliary points": {"method": "auxiliary"},
-    "trial figures": {"method": "trial"},
-    "poles": {"method": "poles"},
-    "orthogonal": {"plan": "orthogonal"},
-    "polar plans": {"plan": "polar"},
-}
+SHEET, VALUE, SOLVER, SOLVE = "the pose's own", "value rule", "solver", "solve"
+DRAWN, PENCIL, COMPUTED = "drawn in floats", "drawn by pencil", "computed"
 
 
 @dataclass(frozen=True)
 class Sample:
-    """One method at one distance: the largest error of any result beside the largest of its kind, or why there is none.
+    """One way at one distance: the largest error of any number beside the largest of its kind, or why there is none.
 
-    `condition` is that of the mechanism in the pose, infinite where it is singular.
+    `how` it is found is one of DRAWN, PENCIL, COMPUTED; `told` says of the pose's own way in which form it is drawn,
+    and of `solve` in which arithmetic. `condition` is that of the mechanism in floats, infinite where these hold it for
+    singular.
     """
 
     degeneracy: str
-    method: str
+    way: str
+    how: str
     distance: float
     condition: float
     error: float | None
-    why: str = ""
+    told: str = ""
+
+
+def samples(*degeneracies: Degeneracy, distances: Sequence[float] = DISTANCES,
+            pencil: Pencil | None = None) -> Iterator[Sample]:
+    """Every way at every distance from special poses."""
+    for degeneracy in degeneracies:
+        for d in distances:
+            pose = Pose(degeneracy.at(d), pencil or Pencil())
+            ways = {SHEET: {}, **{way: WAYS[way] for way in degeneracy.ways}}
+            for way, how, error, told in pose.measured(ways):
+                yield Sample(degeneracy.name, way, how, d, pose.condition, error, told)
+
+
+Found = tuple[float | None, str]  # an error, and what is told of it; or none, and why
+SINGULAR = "the pose is singular"
+
+
+class Pose:
+    """A scene in one pose: what is true of it, and what the solver says in floats; neither where it is singular."""
+
+    def __init__(self, scene: Scene, pencil: Pencil):
+        self.scene, self.pencil = scene, pencil
+        self.truth, self.floats = (_or_none(find, scene) for find in (_exact, _in_floats))
 
     @property
-    def roundings(self) -> float | None:
-        """The error in roundings (2^-52) of the mechanism's own condition."""
-        return None if self.error is None else self.error / (EPSILON * self.condition)
+    def condition(self) -> float:
+        """The condition of the mechanism: of its rates, and of its reactions where there are loads."""
+        found = self.floats
+        return max(found.rates.condition, found.reactions.condition if found.reactions else 1.0) if found else math.inf
+
+    def measured(self, ways: Mapping[str, Mapping[str, Any]]) -> Iterator[tuple[str, str, float | None, str]]:
+        """Each way with how it is found, its error, and what is told of it."""
+        for way, choices in ways.items():
+            for how, (error, told) in self._drawn(way, choices).items():
+                if how != COMPUTED:
+                    yield way, how, error, told
+                elif way == SHEET:
+                    yield VALUE, how, error, told
+        yield SOLVER, COMPUTED, *self._found(lambda: (self._solved(), 0, ""))
+        yield SOLVE, COMPUTED, *self._found(self._answer)
+
+    def _drawn(self, way: str, choices: Mapping[str, Any]) -> dict[str, Found]:
+        """One way as it is drawn in floats and by pencil, and by its value rules."""
+        try:
+            drawing = construct(self.scene, **choices)
+            form = form_of(drawing)
+        except GraphplanError as refusal:
+            return dict.fromkeys((DRAWN, PENCIL, COMPUTED), (None, refusal.lines[0]))
+        if refused := otherwise(drawing, way):
+            return dict.fromkeys((DRAWN, PENCIL), (None, refused))
+        return {DRAWN: self._found(lambda: (as_drawn(drawing), drawing.rounds, form)),
+                PENCIL: by_pencil(drawing, self.pencil) if self.truth else (None, SINGULAR),
+                COMPUTED: self._found(lambda: (drawing.read(Floats()), drawing.rounds, form))}
+
+    def _found(self, read: Callable[[], tuple[Results, int, str]]) -> Found:
+        """The error of what is read, after so many rounds of friction, and what is told of it."""
+        if self.truth is None:
+            return None, SINGULAR
+        try:
+            results, rounds, told = read()
+            bounded = {kind: named for kind, named in results.items() if kind not in UNBOUNDED}
+            return largest_error(bounded, self.truth.truth(bounded, rounds)), told
+        except GraphplanError as refusal:
+            return None, refusal.lines[0]
+        except (ValueError, OverflowError):  # of what is no number, or beyond all
+            return None, "beyond floats"
+
+    def _solved(self) -> Results:
+        """What the solver says in floats."""
+        if self.floats is None:
+            raise Refused(self.scene.name, "floats hold it for singular", "fractions")
+        return self.floats.truth({})
+
+    def _answer(self) -> tuple[Results, int, str]:
+        """What `solve` prints, and the arithmetic in which it is found."""
+        found = report(self.scene, alone=True)
+        return found.results, found.drawing.rounds, found.arithmetic
 
 
-def samples(*degeneracies: Degeneracy, distances: tuple[float, ...] = DISTANCES) -> Iterator[Sample]:
-    """Every method at every distance from special poses."""
-    for degeneracy, d in product(degeneracies, distances):
-        scene = degeneracy.at(d)
-        truth = exact(scene)
-        for name, choices in METHODS.items():
-            yield Sample(degeneracy.name, name, d, *_measured(scene, truth, choices))
+def _exact(scene: Scene) -> Opinion:
+    return opinion(scene, Exact())
 
 
-def _measured(scene: Scene, truth: Any, choices: dict[str, Any]) -> tuple[float, float | None, str]:
-    """The condition of the mechanism, the error of a method, and why there is no number."""
-    if truth is None:
-        return float("inf"), None, "the pose is singular"
+def _in_floats(scene: Scene) -> Opinion:
+    if scene.loads is None:
+        return Opinion(scene, solve(scene))
+    forces = reactions(scene)
+    return Opinion(scene, forces.rates, forces, lambda rounds: forces)
+
+
+def _or_none(find: Callable[[Scene], Opinion], scene: Scene) -> Opinion | None:
     try:
-        condition = solve(scene).condition
-    except GraphplanError as error:
-        return float("inf"), None, error.lines[0]
-    try:
-        return condition, error_of(construct(scene, **choices).read(Floats()), truth), ""
-    except GraphplanError as error:
-        return condition, None, error.lines[0]
-
-
-def exact(scene: Scene) -> Any:
-    """The solver's rates in fractions; None in a singular pose."""
-    try:
-        return solve(scene, exact=True)
+        return find(scene)
     except GraphplanError:
         return None
 
 
-def error_of(results: dict[str, dict[str, Any]], truth: Any) -> float:
-    """The largest error of any velocity or acceleration, beside the largest of its kind."""
-    worst = 0.0
-    for kind in ("velocity", "acceleration"):
-        known, named = getattr(truth, kind), results.get(kind, {})
-        largest = max((abs(number) for vector in known.values() for number in vector), default=0)
-        gap = max((abs(Fraction(ours) - true) for name, value in named.items()
-                   for ours, true in zip(value, known[name], strict=True)), default=0)
-        worst = max(worst, float(gap / largest) if largest else 0.0)
-    return worst
+def form_of(drawing: Construction) -> str:
+    """In which form a construction is drawn, by what its pose decides: its loci, its forces, or its plans."""
+    method = drawing.method
+    if drawing.ways or any(step.choice and step.choice.compound.weighed for step in drawing.drawn.steps):
+        return method[VELOCITY][0]
+    return joined(method["force"]) if "force" in method else ORTHOGONAL if drawing.turned else POLAR
 
+
+def as_drawn(drawing: Construction) -> Results:
+    """What is read off the drawing, each mark made in floats from those before it."""
+    found: dict[str, dict[str, Any]] = {}
+    for reading, _, value in readings(drawing, drawing.values, Floats()):
+        found.setdefault(reading.kind, {})[reading.of] = value
+    return found
+
+
+def otherwise(drawing: Construction, way: str) -> str:
+    """Why a construction is not drawn in the way that is asked for, if it is not: it is the next best one."""
+    if way in (POLES, FALSE) and not any(way in told for told in drawing.ways):
+        return f"no {way}: {joined(drawing.ways)}"
+    for step in drawing.drawn.steps:
+        if step.choice and drawing.prefer in {*map(plain, step.choice.compound.forms)} - {plain(step.choice.best.form)}:
+            return f"no {drawing.prefer} at step {drawing.drawn.number(step.index)}: {step.choice.best.form}"
+    return ""
+
+
+def by_pencil(drawing: Construction, pencil: Pencil) -> Found:
+    """The expected error of a drawing by pencil, beside the largest of its kind.
+
+    Each plan is drawn as large as all its marks allow. None where points that a line is drawn through fall together on
+    paper, or the error is as large as what is drawn.
+    """
+    drawn, values, plans = drawing.drawn, drawing.values, Plans(drawing).plan_of_step
+    points: dict[str, list[complex]] = {}
+    for step in drawn.steps:
+        if step.op.gives == POINT:
+            points.setdefault(plans[step.index], []).append(complex(*values[step.index]))
+    units = {plan: max(np.ptp(np.real(at)), np.ptp(np.imag(at))) / ACROSS or 1.0 for plan, at in points.items()}
+    lines = [step.args for step in drawn.steps if step.op.movement is Movement.RULED]
+    given = {step.name: step.index for step in drawn.steps[: drawn.givens]}
+    lines += [(given[P], given[R]) for joints in drawing.scene.links.values()
+              for P, R in combinations(joints, 2) if P in given and R in given]
+    for P, R in lines:
+        if 0 < math.dist(values[P], values[R]) < pencil.point * units[plans[R]]:
+            return None, f"{drawn.text(P)} and {drawn.text(R)} fall together on paper"
+    found = first_order(drawing, hand(drawing, units.__getitem__, pencil), Scales(1.0, 1.0, "mm", {}))
+    error = max((result.relative or (result.deviation.value and math.inf) for result in found), default=0.0)
+    return (error, "") if error < 1 else (None, "the error is as large as what is drawn")
+
+
+# ---- the picture ------------------------------------------------------------------------------------------------
 
 MOST = 100  # roundings of the mechanism's own condition that the default may lose
-_STROKES = (
-    (INK, "circle", (), False), (BLUE, "square", (1.6, 0.8), False), (RED, "up", (0.4, 0.7), False),
-    (GREEN, "diamond", (2.4, 0.6, 0.4, 0.6), False), (BROWN, "down", (3.0, 1.0), True),
-    (VIOLET, "plus", (0.8, 0.6), True),
-)
-LOOKS = {name: Look(colour, marker, hollow, 1.1, 0.2, dash)
-         for name, (colour, marker, dash, hollow) in zip(METHODS, _STROKES, strict=True)}
-CONDITION, LIMIT = Look("#a8a8a8", width=0.7), Look(GREY, width=0.25, dash=(2.0, 1.0))
-END = "0"
-RAILS = tuple((name, "no number" if k == len(METHODS) // 2 else "") for k, name in enumerate(METHODS))
-DISTANCE = Axis("distance d from the special pose", falling=True, after=((END, END),))
-ERROR = Axis("largest error, relative", before=(("exact", "exact"),), after=RAILS)
+PAIR = ((BLUE, "circle", ()), (RED, "up", (1.6, 0.7)))  # of the two ways of a sweep
+DOTS = (0.25, 0.75)
+CONDITION = Look("#bdbdbd", width=1.1)
+OWN = Look(INK, width=0.35, dash=DOTS)
+LOOKS = {VALUE: Look(GREEN, "diamond", True, 1.3, 0.2), SOLVER: Look(VIOLET, "plus", True, 1.5, 0.18, (0.8, 0.6)),
+         SOLVE: Look(INK, width=0.7)}
+APART = 30.0  # times: by so much is a way worse than another
+TINTS = "#f2f2f2", "#dcdcdc", "#c8c8c8", "#b4b4b4"
+LEAST, BEYOND = 1e-17, "0"
+ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not drawn"), ("1", "")), pitch=3.4,
+             shows=(LEAST, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
+DISTANCE = Axis("distance d from the special pose", falling=True, after=((">", ""), (BEYOND, BEYOND), ("<", "")))
 REMARKS = (
-    "Each picture goes one way to a special pose, to the right; at its end the pose is special. Grey is what the "
-    "mechanism itself must cost, its condition in units of 2.2e-16, dashed 100 times that. Marks above the "
-    "pictures: there is no number, since the pose is singular or the form is refused; one line a method. Marks "
-    "below: no error."
+    "Each picture goes one way to a special pose, at d = 0 to the right. Up: the largest error of any number, relative "
+    "to the largest of its kind; on the right the same in mm on paper, of a vector 100 mm long. Marked are two ways of "
+    "drawing, every mark made in floats from the marks before it; dotted is each of them, and the pose's own, by "
+    "{pencil}, expected to first order on plans 250 mm across, as far as it is less than all. Below each picture: the "
+    "form that the pose's own sheet is drawn in, and the arithmetic of the answer of solve, floats, proven digits or "
+    "fractions (p/q); white: no, the pose is singular. Condition: the mechanism's, times 2.2e-16, as far as floats "
+    "may be off."
 )
 
 
-def picture(rows: Sequence[Sample]) -> Chart:
-    """The chart of these samples."""
-    about = {way.name: way.what for way in DEGENERACIES}
-    panels = tuple(_panel(f"{name} – {about[name]}", of) for name, of in grouped(rows, "degeneracy").items())
-    return Chart("Stability: error near the places where methods fail", REMARKS, panels, 3, (116.0, 70.0),
-                 tuple(_key()))
+def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
+    """The atlas of these samples, drawn by this pencil."""
+    sweeps = {way.name: way for way in DEGENERACIES}
+    panels = tuple(_panel(sweeps[name], of) for name, of in grouped(rows, "degeneracy").items())
+    key = (*((f"{way}, in floats" if way != SOLVE else "answer of solve", look) for way, look in LOOKS.items()),
+           ("the pose's own form by pencil", OWN), ("condition", CONDITION))
+    return Chart("Where methods fail, and what serves there", REMARKS.format(pencil=pencil or Pencil().told), panels, 4,
+                 (76.0, 62.0), key)
 
 
-def _panel(title: str, rows: Sequence[Sample]) -> SubChart:
-    """One way to a special pose: the mechanism's own cost, and a line for each method."""
-    return SubChart(title, DISTANCE, ERROR, (*_costs(rows), *(
-        Series(look, tuple(_spot(row) for row in rows if row.method == name)) for name, look in LOOKS.items())))
+def _panel(sweep: Degeneracy, rows: Sequence[Sample]) -> SubChart:
+    """One way to a special pose: what it must cost, each way's error, and below what serves."""
+    told = {(row.way, row.how, row.distance): row for row in rows}
+    distances = sorted({row.distance for row in rows}, reverse=True)
+    errors = {(way, how): {d: max(error, LEAST) for d in distances
+                           if (row := told.get((way, how, d))) and (error := row.error) is not None}
+              for way, how in {(row.way, row.how): 0 for row in rows}}
+
+    def lines(way: str, how: str, look: Look) -> Iterator[Series]:
+        """The error of a way, apart where there is none between."""
+        for there, part in groupby(distances, key=errors[way, how].__contains__):
+            if there:
+                yield Series(look, tuple((d or BEYOND, errors[way, how][d]) for d in part))
+
+    condition = {row.distance: EPSILON * row.condition for row in rows if row.distance and row.condition < math.inf}
+    series = [Series(CONDITION, tuple(condition.items())), *lines(SHEET, PENCIL, OWN)]
+    for place, (way, (colour, marker, dash)) in enumerate(zip(sweep.ways, PAIR, strict=True)):
+        look = Look(colour, marker, bool(place), 1.3, 0.3, dash)
+        missing = tuple((d or BEYOND, str(place)) for d in distances if d not in errors[way, DRAWN])
+        series += [*lines(way, PENCIL, Look(colour, width=0.3, dash=DOTS)), *lines(way, DRAWN, look),
+                   Series(replace(look, width=0.0), missing), *_named(way, colour, place, errors, sweep.ways)]
+    series += [one for way, look in LOOKS.items() for one in lines(way, COMPUTED, look)]
+    strips = (_stretches(SOLVE, distances, {d: _arithmetic(told[SOLVE, COMPUTED, d]) for d in distances}),
+              _stretches(SHEET, distances, {d: "" if (row := told[SHEET, DRAWN, d]).error is None else row.told
+                                            for d in distances}))
+    return SubChart(sweep.name, DISTANCE, replace(ERROR, label=sweep.what), (*chain(*strips), *series))
 
 
-def _costs(rows: Sequence[Sample]) -> Iterator[Series]:
-    """What the mechanism must cost, and the limit."""
-    conditions = {row.distance: row.condition for row in rows if row.distance and row.condition < float("inf")}
-    for look, factor in ((CONDITION, 1), (LIMIT, MOST)):
-        yield Series(look, tuple((d, factor * EPSILON * condition) for d, condition in conditions.items()))
+def _named(way: str, colour: str, place: int, errors: Mapping[tuple[str, str], Mapping[float, float]],
+           ways: Sequence[str]) -> Iterator[Series]:
+    """The name of a way: halfway where it is worse than the other, or else where it ends, or a third before."""
+    mine, other = (errors[one, DRAWN] for one in (way, ways[1 - place]))
+    apart = [d for d in mine if d and mine[d] > APART * other.get(d, math.inf)]
+    there = apart or [d for d in mine if d]
+    if there:
+        at = there[len(there) // 2 if apart else (len(there) - 1) * (2 + place) // 3]
+        yield Series(Look(colour), ((at, mine[at]),), label=way)
 
 
-def _spot(row: Sample) -> Spot:
-    level: Place = row.method if row.error is None else row.error or "exact"
-    return row.distance or END, level
+def _arithmetic(row: Sample) -> str:
+    """The arithmetic of an answer in short; nothing where it is refused."""
+    if row.error is None:
+        return ""
+    return "p/q" if row.told == "fractions" else row.told.removeprefix("enclosures of ")
 
 
-def _key() -> Iterable[tuple[str, Look]]:
-    yield from LOOKS.items()
-    yield "the mechanism's condition × 2.2e-16", CONDITION
-    yield f"{MOST} times that", LIMIT
+def _stretches(strip: str, distances: Sequence[float], told: Mapping[float, str]) -> Iterator[Series]:
+    """What serves from where to where, in words on tints; white where nothing does."""
+    tints = dict(zip(dict.fromkeys(filter(None, told.values())), cycle(TINTS)))
+    far = [d for d in distances if d]
+    ends = [*far[:1], *(math.sqrt(one * two) for one, two in pairwise(far)), *far[-1:]]
+    for words, part in groupby(range(len(far)), key=lambda k: told[far[k]]):
+        stretch = list(part)
+        yield _stretch(strip, words, (ends[stretch[0]], ends[stretch[-1] + 1]), tints)
+    if told.get(0.0) is not None:
+        yield _stretch(strip, told[0.0], ("<", ">"), tints)
+
+
+def _stretch(strip: str, words: str, ends: tuple[Place, Place], tints: Mapping[str, str]) -> Series:
+    look = Look(tints[words] if words else GREY, area=True, hollow=not words)
+    return Series(look, tuple((end, strip) for end in ends), label=words or "no")

@@ -1,8 +1,9 @@
-"""Export the construction: to GeoGebra, JSXGraph, GCLC and LaTeX step by step, or as data, or its sheet.
+"""Export the construction: to GeoGebra, JSXGraph, GCLC and LaTeX step by step, as data, as code, or its sheet.
 
 In the step formats every mark depends on the marks that it was drawn from, so a joint can be dragged where the program
-lets one drag; the plans stand where they stand on the sheet. The suffix of the output says which format, unless one is
-named.
+lets one drag; the plans stand where they stand on the sheet. Code computes what the scene asks for in poses as they
+come, and needs nothing else; its first lines say what it reads and gives, and how it is compiled. The suffix of the
+output says which format, unless one is named.
 """
 
 from __future__ import annotations
@@ -28,6 +29,7 @@ examples:
   graphplan export rosenauer-basic -o chain.ggb
   graphplan export scene.toml -o page.html --library jsxgraphcore.js
   graphplan export scene.toml -o figure.tex --format tkz-euclide --language de
+  graphplan export four-bar -o plan.c
 """
 
 
@@ -83,6 +85,7 @@ def _sheet(on_sheet: Drafted) -> Any:
 
 READ: dict[str, Callable[[Drafted], Any]] = {  # what back ends read
     "plates": lambda on_sheet: on_sheet.composition.plates,
+    "construction": lambda on_sheet: on_sheet.drawing,
     "sheet": _sheet,
     "sheets": lambda on_sheet: [_sheet(on_sheet)],
     "steps": lambda on_sheet: as_json(data(on_sheet)),

@@ -14,13 +14,12 @@ from typing import Any, cast
 import numpy as np
 
 from graphplan.errors import Refused, Undrawable
-from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
-from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.motion.network import Network
 from graphplan.methods.recorded import Recorded
-from graphplan.methods.replay import replay_of
+from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
 
 Coordinates = dict[str | int, dict[str, Any]]
@@ -172,7 +171,7 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     drawn = {step.name for step in construction.program.steps[:construction.program.givens]}
     given: Coordinates = {name: _parts(z, "x", "y") for name, z in arrays.items() if name in drawn}
     for name, z in directions.items():
-        given |= {step: _parts(z, "dx", "dy") for step in _guides(construction, slides[name])}
+        given |= {step: _parts(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
     return next(iter(shapes))[0], given
 
 
@@ -182,20 +181,6 @@ def _poses(z: Any) -> Any:
 
 def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
     return {one: z.real, two: z.imag}
-
-
-def _guides(construction: Recorded, slide: Slide) -> list[int]:
-    """The steps that draw the guide of a slide in its given direction, which no other guide may share.
-
-    In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
-    """
-    for other in construction.scene.slides:
-        alike = other.at == slide.at and other.direction == slide.direction and other.through is None
-        if alike and other.along != slide.along:
-            raise Refused(f"guides {slide.name} and {other.name}", "they are drawn as one line, and turn apart",
-                          "two points of its link for the direction of each")
-    return [step.index for step in construction.program.steps
-            if step.op.movement is Movement.GUIDED and step.links == (slide.link, slide.along)]
 
 
 def _shared_out(work: Callable[[Any], Any], parts: Iterable[Any], workers: int | str) -> Iterator[Any]:

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.errors import Undrawable
+from graphplan.errors import Refused, Undrawable
+from graphplan.kernel.kinds import Movement
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
+from graphplan.mechanism.model import FRAME, Pair, Slide
 from graphplan.methods.recorded import Recorded
 
 if TYPE_CHECKING:
@@ -88,3 +90,39 @@ def replay_of(construction: Recorded, free: Free, kinds: tuple[str, ...]) -> Rep
         except (Undrawable, ZeroDivisionError):
             made[free, kinds] = None
     return made[free, kinds]
+
+
+class Moving(NamedTuple):
+    """What moves with a mechanism, `point` or `guide` by `kind`: its name, where the scene has it, and its two numbers,
+    each by all steps and parameters that it is."""
+
+    kind: str
+    name: str
+    at: Pair
+    parts: tuple[Free, Free]
+
+
+def moving(construction: Recorded) -> list[Moving]:
+    """The drawn points that are on no frame, and the guides that ride on links in directions given as vectors."""
+    scene, steps = construction.scene, construction.program.steps[:construction.program.givens]
+    found = [Moving("point", step.name, scene.points[step.name], (((step.name, "x"),), ((step.name, "y"),)))
+             for step in steps if step.name in scene.points and step.name not in scene.links.get(FRAME, ())]
+    for slide in scene.slides:
+        if slide.through is None and slide.along != FRAME and (guides := guide_steps(construction, slide)):
+            dx, dy = (tuple((step, part) for step in guides) for part in ("dx", "dy"))
+            found.append(Moving("guide", slide.name, slide.direction, (dx, dy)))
+    return found
+
+
+def guide_steps(construction: Recorded, slide: Slide) -> list[int]:
+    """The steps that draw the guide of a slide in its given direction, which no other guide may share.
+
+    In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
+    """
+    for other in construction.scene.slides:
+        alike = other.at == slide.at and other.direction == slide.direction and other.through is None
+        if alike and other.along != slide.along:
+            raise Refused(f"guides {slide.name} and {other.name}", "they are drawn as one line, and turn apart",
+                          "two points of its link for the direction of each")
+    return [step.index for step in construction.program.steps
+            if step.op.movement is Movement.GUIDED and step.links == (slide.link, slide.along)]

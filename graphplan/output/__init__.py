@@ -30,6 +30,8 @@ FORMATS = {
     "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "plates"),
     "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "plates"),
     "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "plates"),
+    "c": Format(".c", "the numbers in C99, over arrays of poses", "exports.code", "c", "construction"),
+    "js": Format(".js", "the numbers in JavaScript, in one pose or many", "exports.code", "javascript", "construction"),
     "json": Format(".json", "the steps as data", "", "", "steps"),
     "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
     "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),

@@ -53,8 +53,8 @@ JAVASCRIPT = Language(
 C = Language(
     repr, operations(
         "sqrt({})", "fabs({})", "(fabs({0}) <= {2} * {1} ? 0.0 : {0} > 0.0 ? 1.0 : {0} < 0.0 ? -1.0 : {0})"),
-    "const double {0} = {1};", "bad = {2} * {1} < fabs({0}) && fabs({0}) < INFINITY ? bad : 1.0;",
-    "bad = {0} < 0.0 ? 1.0 : bad;", loads=True)
+    "const double {0} = {1};", "bad = ({2} * {1} < fabs({0})) & (fabs({0}) < INFINITY) ? bad : NAN;",
+    "bad = {0} < 0.0 ? NAN : bad;", loads=True)
 
 
 class Writer:

@@ -1,0 +1,171 @@
+"""The numbers of a construction as code: one file of C or JavaScript that needs nothing else, for poses as they come.
+
+Both are readings of the tape, as the replay in Python is, and give its numbers to the last bit. What moves is read: the
+points that are on no frame, and the directions of guides that ride on links; all that the scene asks for is given. Code
+speaks English, whatever the paper speaks.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Sequence
+from typing import NamedTuple
+
+from graphplan.kernel.tape.written import JAVASCRIPT, C, Language, Writer, shaped
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import kind_of
+from graphplan.methods.replay import Replay, moving
+
+C_FILE = """\
+{head}
+// size_t graphplan_poses(size_t n, const double *const in[], double *const out[])
+//
+// reads and writes n poses, each of in[] and out[] being an array of n numbers, and gives the number of poses that
+// cannot be drawn; in these all outputs are nan. No array may overlap another.
+//
+//   cc -O3 -march=native -ffp-contract=off -fno-math-errno -c FILE.c
+//
+// Without -ffast-math, and with no products contracted into sums, the numbers are those of graphplan to the last bit.
+//
+{table}
+
+#include <math.h>
+#include <stddef.h>
+
+enum {{ GRAPHPLAN_INPUTS = {inputs}, GRAPHPLAN_OUTPUTS = {outputs} }};
+
+static inline size_t poses(size_t n{parameters}) {{
+    size_t undrawn = 0;
+    for (size_t k = 0; k < n; k++) {{
+        double bad = 0.0;  // or nan
+        {body}
+        undrawn += bad != bad;
+    }}
+    return undrawn;
+}}
+
+size_t graphplan_poses(size_t n, const double *const in[], double *const out[]) {{
+    return poses(n{arguments});
+}}
+"""
+
+JAVASCRIPT_FILE = """\
+{head}
+// pose(points, guides)  the results in one pose, by kind and name, or null where it cannot be drawn: points and guides
+//                       are objects of pairs [x, y] by name; what is left out is as the scene has it
+// poses(n, x, y)        reads and writes n poses, each of x and y being an array of n numbers, and gives the number of
+//                       poses that cannot be drawn; in these all of y are NaN
+//
+// The numbers are those of graphplan to the last bit.
+//
+{table}
+
+export const inputs = {inputs};
+export const outputs = {outputs};
+
+function numbers({parameters}y) {{
+  {body}
+  return y;
+}}
+
+export function pose(points = {{}}, guides = {{}}) {{
+  {given}
+  const y = numbers({parameters}new Float64Array({count}));
+  return y && {results};
+}}
+
+export function poses(n, x, y) {{
+  const one = new Float64Array({count});
+  let undrawn = 0;
+  for (let k = 0; k < n; k++) {{
+    const drawn = numbers({arguments}one) !== null;
+    if (!drawn) undrawn++;
+    for (let j = 0; j < {count}; j++) y[j][k] = drawn ? one[j] : NaN;
+  }}
+  return undrawn;
+}}
+"""
+
+
+class Number(NamedTuple):
+    """A number that is read or given: what it is, in what unit, and where it stands on the tape."""
+
+    name: str
+    unit: str
+    places: tuple[int, ...]
+
+
+class Code:
+    """The replay of a construction, with what it reads and what it gives, in order."""
+
+    def __init__(self, construction: Construction):
+        self.scene, self.moving = construction.scene, moving(construction)
+        free = tuple(key for item in self.moving for part in item.parts for key in part)
+        self.replay = Replay(construction, free, construction.kinds)
+        at = dict(zip(free, self.replay.inputs, strict=True))
+        self.inputs = [Number(f"{item.kind} {item.name} {letter}",
+                              self.scene.units.length if item.kind == "point" else "of whatever length",
+                              tuple(at[key] for key in part))
+                       for item in self.moving for letter, part in zip("xy", item.parts, strict=True)]
+        self.outputs = list(self._outputs())
+
+    def _outputs(self) -> Iterator[Number]:
+        for kind, named in self.replay.told.items():
+            unit = kind_of(kind).dimension.unit(self.scene.units)
+            for name, told in named.items():
+                parts = zip((" x", " y"), told, strict=True) if isinstance(told, tuple) else [("", told)]
+                yield from (Number(f"{kind} {name}{part}", unit, (place,)) for part, place in parts)
+
+    def head(self) -> str:
+        """The first lines: the scene."""
+        texts = (self.scene.title, self.scene.source, "")
+        return "\n".join(f"// {' '.join(text.split())}".rstrip(" \\") for text in texts)
+
+    def table(self, read: str, given: str) -> str:
+        """All inputs and outputs, in comments."""
+        return "\n".join(f"//   {array}[{k}]  {' '.join(number.name.split())}, {number.unit}"
+                         for array, numbers in ((read, self.inputs), (given, self.outputs))
+                         for k, number in enumerate(numbers))
+
+    def written(self, language: Language, read: str) -> tuple[list[str], list[str]]:
+        """The statements of the language, inputs being called as `read` says, and the text of each output."""
+        names = {place: read.format(k) for k, number in enumerate(self.inputs) for place in number.places}
+        writer = Writer(self.replay.tape, language, names)
+        statements = writer.statements(self.replay.outputs, self.replay.tape.questions)
+        return statements, [writer.text[place] for number in self.outputs for place in number.places]
+
+
+def c(construction: Construction) -> str:
+    """The construction as C99: one function over arrays of poses, which compilers turn into vector instructions."""
+    code = Code(construction)
+    statements, outputs = code.written(C, "in{}[k]")
+    statements += [f"out{k}[k] = {text} + bad;" for k, text in enumerate(outputs)]
+    arrays = [f"in{k}" for k in range(len(code.inputs))], [f"out{k}" for k in range(len(outputs))]
+    parameters = [f"const double *restrict {name}" for name in arrays[0]] + [f"double *restrict {name}"
+                                                                            for name in arrays[1]]
+    arguments = [f"{array}[{k}]" for array, names in zip(("in", "out"), arrays, strict=True) for k in range(len(names))]
+    return C_FILE.format(head=code.head(), table=code.table("in", "out"), inputs=len(code.inputs), outputs=len(outputs),
+                         parameters="".join(f",\n        {text}" for text in parameters),
+                         body="\n        ".join(statements), arguments="".join(f", {text}" for text in arguments))
+
+
+def javascript(construction: Construction) -> str:
+    """The construction as a module of JavaScript: a function for one pose, and one over arrays of poses."""
+    code = Code(construction)
+    statements, outputs = code.written(JAVASCRIPT, "x{}")
+    statements += [f"y[{k}] = {text};" for k, text in enumerate(outputs)]
+    count = len(code.inputs)
+    given = [f"const [x{2 * k}, x{2 * k + 1}] = {item.kind}s[{json.dumps(item.name)}] ?? {[*map(float, item.at)]};"
+             for k, item in enumerate(code.moving)]
+    places = iter(range(len(outputs)))
+    told = {kind: {name: tuple(next(places) for _ in told) if isinstance(told, tuple) else next(places)
+                   for name, told in named.items()} for kind, named in code.replay.told.items()}
+    return JAVASCRIPT_FILE.format(
+        head=code.head(), table=code.table("x", "y"), inputs=_names(code.inputs), outputs=_names(code.outputs),
+        parameters="".join(f"x{k}, " for k in range(count)), arguments="".join(f"x[{k}][k], " for k in range(count)),
+        body="\n  ".join(statements), given="\n  ".join(given), count=len(outputs),
+        results=shaped(told, {k: f"y[{k}]" for k in range(len(outputs))}, "[]"))
+
+
+def _names(numbers: Sequence[Number]) -> str:
+    return json.dumps([number.name for number in numbers])

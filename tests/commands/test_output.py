@@ -13,6 +13,7 @@ import time
 from pathlib import Path
 
 import pytest
+from command_line import run
 
 from graphplan.commands import SUBCOMMANDS, main, output
 
@@ -95,20 +96,35 @@ def test_a_full_device_stays_a_device(arguments: list[str], tmp_path: Path, caps
 
 
 @pytest.mark.parametrize("arguments", PRINTERS, ids=" ".join)
-def test_a_full_standard_output_is_one_line(arguments: list[str]) -> None:
-    """What standard output cannot take is told in one line with status 2."""
-    done = shell(f"graphplan {' '.join(arguments)} -q > /dev/full" if arguments[0][0] != "-"
-                 else f"graphplan {arguments[0]} > /dev/full")
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert done.stderr.startswith("standard output: cannot be written (No space left on device)")
+def test_a_full_standard_output_is_one_line(arguments: list[str], monkeypatch: pytest.MonkeyPatch,
+                                            capsys: pytest.CaptureFixture[str]) -> None:
+    """What standard output cannot take is told in one line with status 2, and not tried again when it is closed."""
+    with open("/dev/full", "w") as full:
+        monkeypatch.setattr(sys, "stdout", full)
+        assert run(*arguments, *(["-q"] if arguments[0][0] != "-" else [])) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("standard output: cannot be written (No space left on device)")
+    assert told.count("\n") == 1
 
 
 @pytest.mark.parametrize("arguments", PRINTERS[:-4], ids=" ".join)
-def test_a_closed_standard_output_is_one_line(arguments: list[str]) -> None:
-    """A standard output that is closed is told in one line with status 2."""
-    done = shell(f"graphplan {' '.join(arguments)} >&-")
-    assert (done.returncode, done.stderr.count("\n")) == (2, 1)
-    assert done.stderr.startswith("standard output: cannot be written (it is closed)")
+def test_a_closed_standard_output_is_one_line(arguments: list[str], monkeypatch: pytest.MonkeyPatch,
+                                              capsys: pytest.CaptureFixture[str]) -> None:
+    """A standard output that is closed, of which Python makes none, is told in one line with status 2."""
+    monkeypatch.setattr(sys, "stdout", None)
+    assert run(*arguments) == 2
+    told = capsys.readouterr().err
+    assert told.startswith("standard output: cannot be written (it is closed)")
+    assert told.count("\n") == 1
+
+
+@pytest.mark.parametrize(("sent", "why"), [("> /dev/full", "No space left on device"), (">&-", "it is closed")])
+def test_a_process_says_so_once(sent: str, why: str) -> None:
+    """A process whose standard output takes nothing ends with that one line and status 2."""
+    for words in ("list", "solve four-bar"):
+        done = shell(f"graphplan {words} {sent}")
+        assert (done.returncode, done.stderr.count("\n")) == (2, 1)
+        assert done.stderr.startswith(f"standard output: cannot be written ({why})")
 
 
 def test_other_streams_may_be_closed(tmp_path: Path) -> None:

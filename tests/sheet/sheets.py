@@ -2,34 +2,59 @@
 
 from __future__ import annotations
 
-from functools import cache
+import inspect
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any, ParamSpec, TypeVar
 
 import graphplan as gp
 from graphplan.methods.construction import Construction
 from graphplan.sheet.frames.corner_marks import MARKS
 from graphplan.sheet.frames.frame import BORDER
+from graphplan.sheet.handout import solution
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 
+P, T = ParamSpec("P"), TypeVar("T")
 SCENES = sorted(path.stem for path in Path(gp.__file__).parent.glob("scenes/*.toml"))
 LOADED = [name for name in SCENES if gp.load(name).loads is not None]
 
 
-@cache
+def kept(make: Callable[P, T]) -> Callable[P, T]:
+    """A function that makes each thing once, whether a default is left out or not, and named or not."""
+    signature, found = inspect.signature(make), dict[tuple[Any, ...], T]()
+
+    def get(*args: P.args, **named: P.kwargs) -> T:
+        bound = signature.bind(*args, **named)
+        bound.apply_defaults()
+        key = tuple(bound.arguments.values())
+        if key not in found:
+            found[key] = make(*args, **named)
+        return found[key]
+
+    return get
+
+
+@kept
 def drawing_of(name: str, plan: str = "orthogonal") -> Construction:
     return gp.construct(gp.load(name), plan=plan)
 
 
-@cache
+@kept
 def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Composition:
     return compose(drawing_of(name, plan), paper)
 
 
-@cache
+@kept
 def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Sheet:
     return layout(drawing_of(name, plan), composition=composition_of(name, paper, plan))
+
+
+@kept
+def solved_of(name: str) -> Sheet:
+    """The sheet with every mark numbered."""
+    return solution(composition_of(name))
 
 
 def spots(item: Item) -> list[Spot]:

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from sheets import SCENES, drawing_of, outside
+from sheets import SCENES, composition_of, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.commands import main
@@ -64,14 +64,17 @@ CASES = list(zip(SCENES, cycle(("A1", "A2", None)), cycle(("orthogonal", "polar"
 def test_in_both_frames_nothing_is_in_the_way(name: str, paper: str | None, plan: str, frame: str) -> None:
     """Nothing leaves the frame or the sheet, no letters cover each other, and plans and words keep off the title block.
     """
-    sheet = sheet_with(name, paper, plan, frame=frame)
+    drawing = drawing_of(name, plan)
+    usual = frame == (drawing.scene.sheet.frame or "iso")
+    wished = replace(drawing, scene=wishing(drawing.scene, frame=frame))
+    composition = composition_of(name, paper, plan) if usual else compose(wished, paper)
+    sheet = sheet_of(name, paper, plan) if usual else layout(wished, composition=composition)
     assert outside(sheet) == []
     assert clashes(sheet) == []
     page = Rect(0.0, 0.0, sheet.width, sheet.height)
     assert all(page.holds(spot) for item in sheet.items if isinstance(item, Text)
                for spot in (item.box.corners[0], item.box.corners[2]))
-    drawing = drawing_of(name, plan)
-    arrangement = compose(replace(drawing, scene=wishing(drawing.scene, frame=frame)), paper).arrangement
+    arrangement = composition.arrangement
     assert not [rect for rect in (*arrangement.columns, *arrangement.panels.values()) if rect.meets(arrangement.title)]
 
 

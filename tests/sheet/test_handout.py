@@ -7,7 +7,7 @@ from functools import cache
 from itertools import count
 
 import pytest
-from sheets import SCENES, drawing_of, outside
+from sheets import SCENES, composition_of, drawing_of, outside, solved_of
 
 import graphplan as gp
 from graphplan.cycle import follow
@@ -17,8 +17,8 @@ from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, turning
 from graphplan.sheet.frames.corner_marks import corner_marks
-from graphplan.sheet.handout import code, guided, solution, task
-from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.handout import code, guided, task
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.paper import paged
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates.display import Polygon, Sheet, Text
@@ -30,8 +30,7 @@ Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 @cache
 def handout_of(name: str) -> Handout:
     """The composition of a scene, its solution, its task and its guided version."""
-    composition = compose(drawing_of(name))
-    solved = solution(composition)
+    composition, solved = composition_of(name), solved_of(name)
     return composition, solved, task(solved, composition), guided(solved, composition)
 
 
@@ -63,7 +62,7 @@ def test_only_sheets_with_plans_bear_marks() -> None:
 
 def test_every_sheet_has_a_code_of_its_own() -> None:
     """Another scene, other plans or another paper make another code."""
-    sheets = [compose(drawing_of(name), paper) for name, paper in (("four-bar", None), ("four-bar", "A2"),
+    sheets = [composition_of(name, paper) for name, paper in (("four-bar", None), ("four-bar", "A2"),
                                                                    ("slider-crank", None))]
     assert len({code(sheet) for sheet in sheets}) == 3
 

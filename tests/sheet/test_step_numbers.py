@@ -5,15 +5,15 @@ from __future__ import annotations
 from functools import cache
 
 import pytest
-from sheets import SCENES, drawing_of, outside
+from sheets import SCENES, composition_of, drawing_of, outside, sheet_of, solved_of
 
 from graphplan.kernel.kinds import POINT
-from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, plain
-from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text
+from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text, within
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.strip import Strip, crowded
@@ -24,8 +24,8 @@ NUMBERED = ("point", "line", "arc", "step")
 @cache
 def numbered(name: str, paper: str | None = None) -> tuple[Composition, Sheet]:
     """A scene composed as ever, and its sheet with numbers."""
-    composition = with_numbers(compose(drawing_of(name), paper))
-    return composition, layout(drawing_of(name), composition=composition)
+    composition = with_numbers(composition_of(name, paper))
+    return composition, layout(drawing_of(name), composition=composition) if paper else solved_of(name)
 
 
 def numbers(sheet: Sheet) -> list[int]:
@@ -69,10 +69,11 @@ def test_numbers_find_room(name: str) -> None:
 @pytest.mark.parametrize("name", ["four-bar", "jaanimets-10"])
 def test_a_plain_sheet_has_only_the_numbers_that_are_spoken_of(name: str) -> None:
     """Without the option lettered marks have no number, and the words are the same with it."""
-    plain_sheet, (_, sheet) = layout(drawing_of(name)), numbered(name)
+    plain_sheet, (_, sheet) = sheet_of(name), numbered(name)
     assert set(numbers(plain_sheet)) < set(numbers(sheet))
     assert not [item for item in plain_sheet.items if isinstance(item, Text) and item.label.startswith("step ")]
-    words = [[item for item in s.items if item.layer == "text"] for s in (plain_sheet, sheet)]
+    columns = composition_of(name).arrangement.columns
+    words = [[item for item in s.items if within(item, columns)] for s in (plain_sheet, sheet)]
     assert words[0] == words[1]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import cache
+from itertools import permutations
 from random import Random
 
 import pytest
@@ -54,6 +55,21 @@ def test_a_stage_leaves_no_more_open_than_it_solves(name: str) -> None:
     found = [stage for stage, _ in program(name).stages if stage.equations and "locus" not in stage.title.lower()]
     assert len(found) > 3
     assert [stage for stage in found if not _solved(stage)] == []
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_tangential_velocities_stand_square(name: str) -> None:
+    """Where of one point's velocity about another's the direction alone is known, it is square to their line."""
+    scene = gp.load(name)
+    speed = {point: complex(*rate) for point, rate in gp.analytic.solve(scene).velocity.items()}
+    told = {vector for stage, _ in program(name).stages for vector, known in stage.vectors.items()
+            if known is Known.DIRECTION}
+    pairs = [(X, K) for X, K in permutations(speed, 2) if f"v_{X}{K}" in told and scene.points[X] != scene.points[K]]
+    for X, K in pairs:
+        arm = complex(*map(float, scene.points[X])) - complex(*map(float, scene.points[K]))
+        along = (arm.conjugate() * (speed[X] - speed[K])).real
+        assert abs(along) <= 1e-9 * abs(arm) * (abs(speed[X]) + abs(speed[K])), (X, K)
+    assert pairs or name in ("open-chain", "ozols-10-1", "ozols-10-2")  # all drives, or points without own names
 
 
 def _solved(stage: Stage) -> bool:

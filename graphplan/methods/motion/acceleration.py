@@ -41,6 +41,7 @@ LAWS: dict[type, Said] = {
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
     Meet: said("the end lies on both"),
+    Pole: said("the pole's ends in the two links differ by the vector that the perpendiculars to the bars cut off"),
 }
 
 

@@ -116,9 +116,10 @@ class MotionStages:
         return self.ending.format(name.lower(), name) + (f"({place[1]})" if place[1] in self.net.body else "")
 
     def name(self, point: str, link: str = "") -> str:
-        """A point, or that of a link's plane which coincides with it: B2 of link 2, where nothing else is called so."""
-        name = self.letters.get(point, point).replace("_", "")
-        if not link or link not in self.net.links:
+        """A point, or that of a link's plane which coincides with it: B2 of link 2, where nothing else is called so.
+        Auxiliary points and poles are nobody else's."""
+        name = self.letters.get(point, point)
+        if link not in self.net.links or point in self.letters:
             return name
         together = f"{name}{'0' if link == FRAME else link}"
         plain = name.isalpha() and together[len(name) :].isdigit() and together not in self.net.scene.points
@@ -126,16 +127,33 @@ class MotionStages:
 
     def vector(self, symbol: str, of: BodyPoint, about: BodyPoint | None = None, known: Known = Known.WHOLLY) -> Vector:
         """The vector of a point, or its part of a kind relative to another point."""
-        names = [self.name(*place) for place in (of, about) if place]
+        names = [self.name(*place).replace("_", "") for place in (of, about) if place]
         plain = len(names) == 1 or all(re.fullmatch(r"[A-Z]\d*'*", name) for name in names)
         return Vector(f"{symbol}_{('' if plain else ',').join(names)}", known)
 
-    def sum(self, known: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
-        """What the vector of X is made of, from that of a point of its link; `spare` is known of what is tangential."""
+    def sum(self, body: str, known: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+        """What the vector of X is made of, from that of a point of its body; `spare` is known of what is tangential.
+
+        A drive between the two adds what it prescribes: X moves so relative to the point under it of the other's link.
+        """
+        if not self._together(body, known, X):
+            under = X[0], self.net.link_at(body, known)
+            return [*self.sum("", known, under, spare), *self._relative(X, under, Known.WHOLLY)]
         start = self._start(known)
         if self.words.symbol == "v":
             return [*start, self.vector("v", X, known, spare)]
         return [*start, self.vector("a^n", X, known), self.vector("a^t", X, known, spare)]
+
+    def _together(self, body: str, K: BodyPoint, X: BodyPoint) -> bool:
+        """Whether two places are those of one link of a body, as all are but where drives make more than one a body."""
+        links = self.net.members.get(body, ())
+        return len(links) < 2 or any(self.net.has(link, K) and self.net.has(link, X) for link in links)
+
+    def _relative(self, B: BodyPoint, on: BodyPoint, spare: Known, *, turns: bool = True) -> list[Vector]:
+        """The vector of a point relative to the one under it, of a link that may turn."""
+        if self.words.symbol == "v":
+            return [self.vector("v", B, on, spare)]
+        return [*([self.vector("a^C", B, on)] if turns else []), self.vector("a^r", B, on, spare)]
 
     def _start(self, place: BodyPoint) -> list[Vector]:
         """The vector of a place, if it is any."""
@@ -145,11 +163,8 @@ class MotionStages:
 
     def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
         """The same from the coincident point of the other link of a slide; a guide at rest leaves what slides alone."""
-        start = self._start(on)
-        if self.words.symbol == "v":
-            return [*start, self.vector("v", B, on, spare)]
         turns = not any(link == FRAME or self.net.still(link) for link in slide.guiding)
-        return [*start, *([self.vector("a^C", B, on)] if turns else []), self.vector("a^r", B, on, spare)]
+        return [*self._start(on), *self._relative(B, on, spare, turns=turns)]
 
     # ---- the stages of moves ------------------------------------------------------------------------------------
 
@@ -159,7 +174,7 @@ class MotionStages:
         end = self.end(self.letters.get(place[0], place[0]), place) + prime
         title = self._title(moves[-1], end, forms)
         title = arranged("{0:capital}: {1}", self.purpose, title) if self.purpose else title
-        laws = dict.fromkeys({**self.laws, **LAWS}[type(move)] for move in moves)
+        laws = dict.fromkeys({**LAWS, **self.laws}[type(move)] for move in moves)
         equations = [(left, right) for move in moves for left, right in self._equations(move, forms) if right]
         found = self.vector(self.words.symbol, place, known=self._known_of(moves, located))
         sums = [Equation.sum(found if left.name == found.name else left, right) for left, right in equations]
@@ -186,9 +201,9 @@ class MotionStages:
             case SimilarFigure(body=body, X=X):
                 return self.words.figure(self.name(*X), self._links(body))
             case Auxiliary(body=body, place=place):
-                return said("Auxiliary point {0} of {1}", self.name(place[0]), self._links(body))
+                return said("Auxiliary point {0} of {1}", self.name(*place), self._links(body))
             case Pole(bodies=bodies, place=place):
-                return said("Relative pole {0} of {1}", self.name(place[0]), listed(bodies))
+                return said("Relative pole {0} of {1}", self.name(*place), listed(bodies))
             case FalsePosition():
                 return arranged("{0:capital}", said("false position of {0}", end))
             case Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):
@@ -201,30 +216,28 @@ class MotionStages:
         """The equations of a move: of which vector, and what it is the sum of."""
         unknown = partial(self.vector, self.words.symbol, known=Known.NOTHING)
         match move:
-            case Swing(K=K, X=X) | Settle(K=K, X=(X, _)) | SimilarFigure(K=K, X=X, R=None):
-                yield unknown(X), self.sum(K, X, Known.WHOLLY if isinstance(move, SimilarFigure) else Known.DIRECTION)
-            case SimilarFigure(K=K, X=X, R=R) if R:
-                yield unknown(X), self.sum(K, X)
-                yield unknown(X), self.sum(R, X)
-            case Slip(A=(A, _), X=X):
-                yield unknown(X), self._located(A, X, Known.WHOLLY)
-            case Carry(body=body, A=(A, _), B=(B, _), X=X) if "auxiliary point" in forms:
-                Q = auxiliary(body), ""
-                yield unknown(Q), self._located(A, Q)
-                yield unknown(Q), self._located(B, Q)
-                yield unknown(X), self.sum(Q, X)
-            case Auxiliary(A=(A, _), B=(B, _), place=Q):
-                yield unknown(Q), self._located(A, Q)
-                yield unknown(Q), self._located(B, Q)
+            case Swing(body, K, X) | Settle(body, K, (X, _)) | SimilarFigure(body, K, X, None):
+                spare = Known.WHOLLY if isinstance(move, SimilarFigure) else Known.DIRECTION
+                yield unknown(X), self.sum(body, K, X, spare)
+            case SimilarFigure(body, K, X, R) if R:
+                yield from ((unknown(X), self.sum(body, known, X)) for known in (K, R))
+            case Slip(body, (A, _), X):
+                yield unknown(X), self._located(body, A, X, Known.WHOLLY)
+            case Carry(body, (A, _), (B, _), X) if "auxiliary point" in forms:
+                Q = auxiliary(body), next(link for link in self.net.members[body] if link not in self.net.welds)
+                yield from ((unknown(Q), self._located(body, known, Q)) for known in (A, B))
+                yield unknown(X), self.sum(body, Q, X)
+            case Auxiliary(body, (A, _), (B, _), Q):
+                yield from ((unknown(Q), self._located(body, known, Q)) for known in (A, B))
             case Guide(slide, point, known, new) if FRAME not in (known, new):
                 B, on = (self.net.place(point, link) for link in (new, known))
                 yield unknown(B), self.sliding(slide, B, on)
             case Rest(place):
                 yield from ((unknown(place), right) for right in self._driven(place))
 
-    def _located(self, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
+    def _located(self, body: str, A: BodyPoint, X: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
         """What the vector of X is made of, from that of a point of which a locus is known."""
-        base, *rest = self.sum(A, X, spare)
+        base, *rest = self.sum(body, A, X, spare)
         return [base._replace(known=Known.LOCUS), *rest]
 
     def _driven(self, place: BodyPoint) -> Iterator[list[Vector]]:
@@ -233,7 +246,7 @@ class MotionStages:
         if weld and weld.slide:
             yield self.sliding(weld.slide, place, self.net.place(place[0], weld.to), Known.WHOLLY)
         elif weld and weld.at != place[0]:
-            found = self.sum((weld.at, ""), place, Known.WHOLLY)
+            found = self.sum("", (weld.at, ""), place, Known.WHOLLY)
             yield found if weld.drive.rates[1] or self.words.symbol == "v" else found[:-1]
 
     # ---- others -------------------------------------------------------------------------------------------------

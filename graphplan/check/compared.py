@@ -29,7 +29,8 @@ UNBOUNDED = (kinds.SLIDE_ARM, kinds.POWER, kinds.POWER_MOMENT)
 class Compared(NamedTuple):
     """A printed number and the `truth` that the solver says; `gap` is their difference, `bound` how far the number may
     be off, `size` what both count beside. `apart` says that the two are proven to differ, `close` that they differ by
-    no more than rounding."""
+    no more than rounding, `near` that they differ by no more than the rounding of what is drawn as large as the
+    mechanism: of a far smaller number beside it, that may be all digits."""
 
     value: Any
     truth: Any
@@ -38,6 +39,7 @@ class Compared(NamedTuple):
     size: Any
     apart: bool = False
     close: bool = True
+    near: bool = False
 
     @property
     def holds(self) -> bool:
@@ -120,7 +122,7 @@ def _vector(ours: tuple[Any, ...], theirs: tuple[Any, ...], least: float, scale:
     size = max([least, *(number.size for number in numbers)])
     for number in numbers:
         close = number.close or number.gap <= CLOSE * size
-        yield number._replace(size=size, close=close)
+        yield number._replace(size=size, close=close, near=bool(number.gap <= CLOSE * scale))
 
 
 def _number(ours: Any, theirs: Any, scale: float) -> Compared:

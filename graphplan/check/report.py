@@ -164,7 +164,8 @@ class Report:
     @property
     def same(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
-        return not self.wrong and all(number.gap <= LOST * number.size or number.holds for _, _, number in self._all)
+        return not self.wrong and all(number.gap <= LOST * number.size or number.holds or number.near
+                                      for _, _, number in self._all)
 
     @property
     def _all(self) -> list[tuple[str, str, Compared]]:

@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from fractions import Fraction
 from functools import cached_property
+from heapq import heapify, heappop, heapreplace
 from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
@@ -348,12 +349,18 @@ def _renumbered(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[in
 def gathered(program: Program) -> tuple[Program, list[int]]:
     """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
     drawn: dict[int, None] = {}
-    left = program.steps
-    while left:
-        for step in left:
-            if step.panel == left[0].panel and all(arg in drawn for arg in step.args):
+    left: dict[str, list[Step]] = {}
+    for step in program.steps:
+        left.setdefault(step.panel, []).append(step)
+    queue = [(steps[0].index, steps) for steps in left.values()]  # the plan whose next step comes first is next
+    heapify(queue)
+    while queue:
+        _, steps = queue[0]
+        for step in steps:
+            if all(arg in drawn for arg in step.args):
                 drawn[step.index] = None
-        left = tuple(step for step in left if step.index not in drawn)
+        waiting = [step for step in steps if step.index not in drawn]
+        heapreplace(queue, (waiting[0].index, waiting)) if waiting else heappop(queue)
     return _renumbered(program.steps, program.wanted, list(drawn)), list(drawn)
 
 

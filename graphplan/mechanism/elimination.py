@@ -127,4 +127,8 @@ class Elimination:
 
 def transpose(rows: Sequence[Mapping[int, Number]], width: int) -> list[dict[int, Number]]:
     """The columns of a system as rows."""
-    return [{i: row[j] for i, row in enumerate(rows) if j in row} for j in range(width)]
+    columns: list[dict[int, Number]] = [{} for _ in range(width)]
+    for i, row in enumerate(rows):
+        for j, value in row.items():
+            columns[j][i] = value
+    return columns

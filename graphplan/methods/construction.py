@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -79,17 +79,13 @@ class Construction(Recorded, Given):
 
     @cached_property
     def _expander(self) -> Expander:
-        panels = {step.panel for step in self.program.steps}
-        windows: dict[str, Window] = {panel: self._window(panel) for panel in panels}
+        points: dict[str, list[tuple[float, float]]] = {}
+        for step in self.program.steps:
+            if step.op.gives == POINT:
+                points.setdefault(step.panel, []).append(self.truth[step.index])
+        windows = {panel: _window(own) for panel, own in points.items()}
         keep = STRICT if self.strict else BY_SET_SQUARE
         return Expander(self.program, self.truth, keep, windows, self.prefer)
-
-    def _window(self, panel: Panel) -> Window:
-        """The sheet around a panel: about as much again as the points that no form has a choice about."""
-        points = [self.truth[s.index] for s in self.program.steps if s.panel == panel and s.op.gives == POINT]
-        xs, ys = zip(*points, strict=True)
-        centre = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
-        return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-9 * (abs(centre[0]) + 1)))
 
     @cached_property
     def _gathered(self) -> tuple[Program, list[Any]]:
@@ -240,3 +236,10 @@ PLAIN = {
     (False, kinds.VELOCITY): said("polar velocity plan"),
     (False, kinds.ACCELERATION): said("polar acceleration plan"),
 }
+
+
+def _window(points: Iterable[tuple[float, float]]) -> Window:
+    """The sheet around a panel: about as much again as these points, which no form has a choice about."""
+    xs, ys = zip(*points, strict=True)
+    centre = (min(xs) + max(xs)) / 2, (min(ys) + max(ys)) / 2
+    return Window(centre, 1.25 * max(max(xs) - min(xs), max(ys) - min(ys), 1e-9 * (abs(centre[0]) + 1)))

@@ -16,7 +16,7 @@ from graphplan.methods.forces.free_bodies import DrawnForces, reaction_on
 from graphplan.methods.forces.friction import rough
 from graphplan.methods.forces.loading import Acting, Loading
 from graphplan.methods.forces.statics import Equilibrium, StaticMove
-from graphplan.methods.forces.unknown_forces import ForceGroup, groups, in_general, posed
+from graphplan.methods.forces.unknown_forces import ForceGroup, Position, groups, in_general, posed
 from graphplan.methods.motion.planner import Planner
 from graphplan.methods.panels import MECHANISM, JointForce, slide_named
 from graphplan.methods.poses import Pose
@@ -59,11 +59,15 @@ class ForceTransfer:
         changed = rough(self.scene)
         return self if changed.links == self.scene.links else ForceTransfer(changed)
 
+    @cached_property
+    def _posed(self) -> Position:
+        return posed(self.scene)
+
     def moves(self, group: ForceGroup, way: Way) -> list[StaticMove]:
         """The moves of a group; where the pose refuses them it may be singular, which the numbers will show."""
         key = group.links, way
         if key not in self._moves:
-            for positions in ((self._general, posed(self.scene)), (self._general,)):
+            for positions in ((self._general, self._posed), (self._general,)):
                 equilibrium = Equilibrium(group, positions, *way)
                 try:
                     self._moves[key] = equilibrium.plan()

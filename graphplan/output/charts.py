@@ -26,9 +26,11 @@ LEFT, RIGHT, ABOVE, BELOW = 16.0, 8.0, 10.0, 13.0  # around a picture: readings 
 RAIL, BESIDE = 2.6, 1.8  # mm from rail to rail, and from the numbers to the first
 ROOM = 0.06  # of the numbers' range, left free at both ends
 KEY, SAMPLE = 5.0, 9.0  # from line to line of the key; the length of its samples
-SIDES = (*((h, 0) for h in (1, -1)), *((h, v) for v in (1, -1, 2.4, -2.4, 3.8, -3.8) for h in (0, 0.9, -0.9)))
+SIDES = (*((h, 0) for h in (1, -1)),
+         *((h, v * line) for line in (1, 2.4, 3.8, 5.2, 6.6) for v in (1, -1) for h in (0, 0.9, -0.9)))
 PIECES = 12  # in which a line is looked at
 FAR = 2  # words so many lines away are led to their mark
+ON_WORDS, ON_A_MARK, ON_A_LINE, AWAY = 20.0, 10.0, 1.0, 0.6  # what is amiss with a place for words; AWAY for each line
 READINGS = 8, 5  # at most, along the first and the second axis
 FRAME, DIVISION, EDGE = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, GREY)
 
@@ -199,36 +201,38 @@ def _line(canvas: Canvas, series: Series, x: _Scale, y: _Scale) -> None:
 
 
 def _labels(canvas: Canvas, panel: SubChart, rect: Rect, x: _Scale, y: _Scale) -> None:
-    """The words of each series at its last spot, where they cover the least of marks, lines and other words."""
-    taken = [box for series in panel.series for box in _covered(series, x, y)]
+    """The words of each series at its last spot, where least is amiss with them; from afar a line leads to them."""
+    taken = [covered for series in panel.series for covered in _covered(series, x, y)]
     for series in panel.series:
         if not series.label or not series.spots or series.look.area:
             continue
-        words, (a, b) = _set(series.label), series.spots[-1]
+        words, spot = _set(series.label), (x(series.spots[-1][0]), y(series.spots[-1][1]))
         wide, off = width(words, LABEL), series.look.size / 2 + 1.0
-        boxes = {_box((x(a) + h * (off + wide / 2), y(b) + v * (off + LABEL / 2)), wide, LABEL): v for h, v in SIDES}
-        best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes,
-                   key=lambda box: sum(map(box.meets, taken)))
-        taken.append(best)
-        if abs(boxes[best]) > FAR:
-            near = min(max(x(a), best.left), best.right), best.bottom if boxes[best] > 0 else best.top
-            canvas.line([(x(a), y(b)), near], DIVISION)
+        boxes = {_box((spot[0] + h * (off + wide / 2), spot[1] + v * (off + LABEL / 2)), wide, LABEL): abs(v)
+                 for h, v in SIDES}
+        best = min([box for box in boxes if all(map(rect.holds, box.corners))] or boxes, key=lambda box: (
+            AWAY * boxes[box] + sum(amiss for other, amiss in taken if box.meets(other))))
+        taken.append((best, ON_WORDS))
+        if boxes[best] > FAR:
+            near = min(max(spot[0], best.left), best.right), min(max(spot[1], best.bottom), best.top)
+            canvas.line([spot, near], EDGE)
         canvas.text((best.left, best.bottom + 0.14 * LABEL), words, LABEL)
 
 
-def _covered(series: Series, x: _Scale, y: _Scale) -> Iterable[Rect]:
-    """What a series covers: its marks, their spreads, and lines along the axes."""
+def _covered(series: Series, x: _Scale, y: _Scale) -> Iterable[tuple[Rect, float]]:
+    """What a series covers, and how bad words are there: its marks, its line, and the spreads of its spots."""
     spots = [(x(a), y(b)) for a, b in series.spots]
     if series.look.marker:
-        yield from (_box(spot, series.look.size, series.look.size) for spot in spots)
-    for (across, up), (one, other) in zip(spots, series.spreads, strict=False):
-        (left, low), (right, high) = ((x(a), y(b)) for a, b in (one, other))
-        yield from (Rect(left, up, right, up).inset(-0.1, -0.1, -0.1, -0.1),
-                    Rect(across, low, across, high).inset(-0.1, -0.1, -0.1, -0.1))
-    for (left, low), (right, high) in pairwise(spots) if series.look.width else ():
-        wide, high = (right - left) / PIECES, (high - low) / PIECES
-        yield from (_box((left + (k + 0.5) * wide, low + (k + 0.5) * high), abs(wide) + 0.2, abs(high) + 0.2)
-                    for k in range(PIECES))
+        yield from ((_box(spot, series.look.size, series.look.size), ON_A_MARK) for spot in spots)
+    lines = list(pairwise(spots)) if series.look.width else []
+    for (across, up), corners in zip(spots, series.spreads, strict=False):
+        (left, low), (right, high) = ((x(a), y(b)) for a, b in corners)
+        lines += [((left, up), (right, up)), ((across, low), (across, high))]
+    for (left, low), (right, high) in lines:
+        wide, tall = (right - left) / PIECES, (high - low) / PIECES
+        for k in range(PIECES):
+            middle = left + (k + 0.5) * wide, low + (k + 0.5) * tall
+            yield _box(middle, abs(wide) + 0.2, abs(tall) + 0.2), ON_A_LINE
 
 
 def _box(centre: Spot, wide: float, high: float) -> Rect:

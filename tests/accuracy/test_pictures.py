@@ -85,8 +85,8 @@ def test_ways_to_draw_are_beside_the_own_form() -> None:
     rows = [replace(draft, scene=scene) for draft in DRAFTS for scene in ("triad", "stephenson")]
     _, *series = draughtsman.picture(rows, str(Pencil())).panels[0].series
     assert {one.label: one.spots[0] for one in series} == {
-        "pose's own, orthogonal (2)": (1.0, 1.0), "auxiliary, orthogonal (2)": (1.0, 1.0),
-        "trial, polar, strict (2)": (2.25, 0.5), "poles, polar, strict (2)": (2.375, 1.5)}
+        "pose's own, auxiliary: orthogonal": (1.0, 1.0), "trial: polar, strict": (2.25, 0.5),
+        "poles: polar, strict": (2.375, 1.5)}
 
 
 @pytest.mark.parametrize(("best", "name"), [

@@ -62,8 +62,8 @@ def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
-TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form with set squares, orthogonal plans")
-TIMES_ERROR = Axis("pencil error of the worst result, beside the same")
+TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form with set squares, orthogonal plans", shows=(0.85, 4.5))
+TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the same form", shows=(0.5,))
 FRONT = Look(INK, width=0.25)
 MODEL = (
     "The pencil error is that of the worst result beside the largest of its kind, to first order, all on sheets of "
@@ -87,11 +87,13 @@ def picture(rows: Sequence[Draft], pencil: str) -> Chart:
     for of in scenes.values():
         for way, place in _beside_own(of):
             ways.setdefault(way, []).append(place)
-    found = {way: median(places) for way, places in ways.items()}
-    middles = [middle for middle, _, _ in found.values()]
-    series = [Series(_look(*way), (middle,), ((low, high),), label=_told(*way, len(ways[way])))
-              for way, (middle, low, high) in found.items()]
-    panel = SubChart("medians and quartiles", TIMES_OPERATIONS, TIMES_ERROR, (
+    found: dict[tuple[tuple[float, float], ...], list[tuple[str, str, str]]] = {}
+    for way, places in ways.items():
+        found.setdefault(median(places), []).append(way)
+    middles = [middle for middle, *_ in found]
+    series = [Series(_look(*alike[0]), (place[0],), ((place[1], place[2]),), label=_told(alike))
+              for place, alike in found.items()]
+    panel = SubChart("", TIMES_OPERATIONS, TIMES_ERROR, (
         Series(FRONT, tuple(stairs(front(middles), _ends(middles)))), *series))
     title, remarks = "The draughtsman: operations against pencil error", REMARKS.format(
         paper=PAPER, pencil=pencil, scenes=len(scenes))
@@ -107,8 +109,12 @@ def _beside_own(rows: Sequence[Draft]) -> Iterator[tuple[tuple[str, str, str], P
         yield from ((way, (x / own[0], y / own[1])) for way, (x, y) in there.items())
 
 
-def _told(method: str, plan: str, tools: str, scenes: int) -> str:
-    return f"{method}, {plan}{', strict' if tools == STRICT else ''} ({scenes})"
+def _told(alike: Sequence[tuple[str, str, str]]) -> str:
+    """The ways to draw that stand at one place: the methods by plan and tools."""
+    methods: dict[str, list[str]] = {}
+    for method, plan, tools in alike:
+        methods.setdefault(f"{plan}{', strict' if tools == STRICT else ''}", []).append(method)
+    return "; ".join(f"{', '.join(named)}: {how}" for how, named in methods.items())
 
 
 def _ends(places: Sequence[Place]) -> Place:

@@ -67,17 +67,17 @@ def test_the_atlas_marks_what_is_drawn_and_what_is_not() -> None:
 def test_exact_errors_stand_on_rails() -> None:
     """No error stands on the exact rail, proven digits on theirs."""
     levels = [series.spots[0][1] for series in machine.details(MEASURES).panels[0].series]
-    assert levels == [1e-15, "exact", "20 digits"]
+    assert levels == [1e-15, "fractions", "20 proven digits"]
 
 
 def test_medians_are_over_all_scenes() -> None:
     """The chart of the machine has the median and quartiles of each arithmetic, and the front of the medians."""
     rows = [measure("one pose", time, 1e-15, scene) for scene, time in (("a", 1.0), ("b", 3.0), ("c", 5.0))]
     line, exact, series = machine.picture([measure("fractions", 9.0, 0.0), *rows]).panels[0].series
-    assert (series.spots, series.label) == (((3.0, 1e-15),), "one pose")
+    assert (series.spots, series.label, exact.label) == (((3.0, 1e-15),), "one pose", "")
     assert series.spreads == (((2.0, 1e-15), (4.0, 1e-15)),)
-    assert exact.spots == ((9.0, "exact"),)
-    assert line.spots == ((3.0, 1e-15), (9.0, 1e-15), (9.0, "exact"))
+    assert exact.spots == ((9.0, "fractions"),)
+    assert line.spots == ((3.0, 1e-15), (9.0, 1e-15), (9.0, "fractions"))
 
 
 def test_ways_to_draw_are_beside_the_own_form() -> None:

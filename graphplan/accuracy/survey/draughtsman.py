@@ -62,8 +62,9 @@ def _drawn(scene: Scene, pencil: Pencil, long: bool) -> Iterator[Draft]:
 MARKERS = {"pose's own": "circle", "every method": "plus", "auxiliary": "square", "trial": "up", "poles": "diamond"}
 COLOURS = {"orthogonal": BLUE, "polar": RED}
 OPERATIONS, ERROR = Axis("drawing operations"), Axis("pencil error, %")
-TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form with set squares, orthogonal plans", shows=(0.85, 4.5))
-TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the same form", shows=(0.5,))
+TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form, set squares, orthogonal plans",
+                        shows=(0.85, 4.5))
+TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the pose's own form", shows=(0.5,))
 FRONT = Look(INK, width=0.25)
 MODEL = (
     "The pencil error is that of the worst result beside the largest of its kind, to first order, all on sheets of "

@@ -7,12 +7,22 @@ beside the largest value of their kind, measured against what is true of these v
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 from graphplan.accuracy.preference import called, led_to
 from graphplan.accuracy.survey.picture import Axis, Chart, Look, Place, Series, SubChart, front, grouped, median, stairs
-from graphplan.accuracy.survey.problem import ARITHMETICS, COMPILED, FORTY, LAPACK, SOLVERS, TWENTY, Problem, Run
+from graphplan.accuracy.survey.problem import (
+    ARITHMETICS,
+    COMPILED,
+    FORTY,
+    FRACTIONS,
+    LAPACK,
+    SOLVERS,
+    TWENTY,
+    Problem,
+    Run,
+)
 from graphplan.accuracy.survey.timing import ratios
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
@@ -102,20 +112,19 @@ def forms(scene: Scene) -> Iterator[tuple[str, str, Drawn]]:
 MARKERS = dict(zip((*ARITHMETICS, *SOLVERS), (
     "cross", "up", "circle", "square", "star", "plus", "diamond", "down", "left", "right", "crossed"), strict=True))
 COLOURS = {"": GREY, "pose's own": INK, "every method": INK, "auxiliary": BLUE, "trial": RED, "poles": GREEN}
-PROVEN = {"20 digits": 1e-20, "40 digits": 1e-40}
-RAILS = {TWENTY: "20 digits", FORTY: "40 digits"}
-EXACT = "exact"
-TIME = Axis("time for a pose; 1 is LAPACK, many poses at once")
-ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (EXACT, "40 digits", "20 digits")),
-             pitch=10.0, shows=(1e-16, 1e-12))
+PROVEN = {TWENTY: 1e-20, FORTY: 1e-40}
+EXACT = FRACTIONS
+TIME = Axis("time for a pose; LAPACK's is 1")
+ERROR = Axis("largest error, relative", before=tuple((name, name) for name in (EXACT, FORTY, TWENTY)), pitch=8.0,
+             shows=(1e-16, 1e-12))
 OWN, SOLVERS_OWN = Look(INK, "circle", size=2.6), Look(GREY, "square", size=2.6)
 RIVAL, FRONT = Look(RED, "diamond", hollow=True, size=3.0), Look(GREY, width=0.35)
 BY_RULES = ("rules, one pose", "rules, many poses")  # which the replay has replaced: in the details alone
 REMARKS = (
     "Left is faster, lower is more accurate; left of and below the line is nothing. Each mark is a median over scenes "
     "with its quartiles: of ours over all packaged scenes, of other programs over those of the bench. Times are beside "
-    "LAPACK, which solves the equations of the same scene in the same run; errors are the largest of any number in "
-    "five poses beside the largest of its kind, against fractions."
+    "LAPACK, which solves the equations of the same scene for many poses at once in the same run; errors are the "
+    "largest of any number in five poses beside the largest of its kind, against fractions."
 )
 DETAILS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, 1 being the "
@@ -140,16 +149,19 @@ def _medians(rows: Sequence[Measure]) -> Iterator[Series]:
              for name, of in grouped(chosen, "arithmetic").items()}
     middles = [middle for middle, _, _ in found.values()]
     best = stairs(front(middles), (max(x for x, _ in middles), max(y for _, y in middles)))
-    yield Series(FRONT, tuple((x, _level(y, "")) for x, y in best), through=True)
+    ends = {middle: name for name, (middle, _, _) in found.items()}
+    levels = {y: _level(y, ends[x, y]) for x, y in front(middles)}
+    yield Series(FRONT, tuple((x, levels.get(y, y)) for x, y in best), through=True)
     for name, (middle, low, high) in found.items():
         spot, *corners = ((x, _level(y, name)) for x, y in (middle, low, high))
         look = OWN if name in ARITHMETICS else SOLVERS_OWN if name in SOLVERS else RIVAL
-        yield Series(look, (spot,), ((corners[0], corners[1]),), label=name)
+        yield Series(look, (spot,), ((corners[0], corners[1]),), label="" if isinstance(spot[1], str) else name)
 
 
 def details(rows: Sequence[Measure]) -> Chart:
     """The chart of every form in every scene."""
-    panels = tuple(SubChart(f"{scene}, {asked}", TIME, ERROR, tuple(_marks(of)))
+    close = replace(ERROR, pitch=4.0)
+    panels = tuple(SubChart(f"{scene}, {asked}", TIME, close, tuple(_marks(of)))
                    for asked, every in grouped(rows, "asked").items() for scene, of in grouped(every, "scene").items())
     return Chart("The machine: time against error, scene by scene", DETAILS, panels, 6, (44.0, 44.0), tuple(_key()))
 
@@ -161,8 +173,8 @@ def _marks(rows: Iterable[Measure]) -> Iterator[Series]:
 
 
 def _level(error: float, arithmetic: str) -> Place:
-    """An error as a number, or the rail of the digits that are proven of it."""
-    rail = RAILS.get(arithmetic) or next((name for name, most in reversed(PROVEN.items()) if error < most), "")
+    """An error as a number, or the rail of the digits that are proven of it: all that its arithmetic promises."""
+    rail = arithmetic if arithmetic in PROVEN else next((name for name, most in PROVEN.items() if error < most), "")
     return EXACT if error == 0 else rail if rail and error < PROVEN[rail] else error
 
 

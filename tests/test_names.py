@@ -24,7 +24,7 @@ CUTTING = {"startswith", "endswith", "partition", "rpartition", "removeprefix", 
 # What bears a plan, a kind of result, a law, a reason or a form, by the word that it goes by.
 NAMED = {"panel", "home", "kind", "quantity", "law", "why", "reason", "form"}
 OWN = {  # what is no such name, and who reads it: rows of surveys, and a dyad's form
-    "accuracy/survey/draughtsman.py", "accuracy/survey/forms.py", "accuracy/survey/machine.py",
+    "accuracy/survey/draughtsman.py", "accuracy/survey/growth.py", "accuracy/survey/machine.py",
     "mechanism/structure.py",
 }
 

@@ -4,7 +4,6 @@ charts:
   machine        time for a pose against error, of every form in every arithmetic
   draughtsman    drawing operations against pencil error, of every form
   stability      where methods fail: errors on the way to special poses, and what serves there
-  forms          which form is best where in the cycle
   growth         time and steps against the number of links
 
 examples:
@@ -48,7 +47,6 @@ CHARTS = {
     "draughtsman": Survey("Draft", lambda module, scene, hand, named: module.drafts(scene, hand, long=named)),
     "stability": Survey("Sample", lambda module, hand, tell: module.samples(*module.DEGENERACIES, pencil=hand),
                         "{0.degeneracy}, d = {0.distance:.0e}"),
-    "forms": Survey("Sample", lambda module, scene, hand, named: module.samples(scene, hand)),
     "growth": Survey("Stage", lambda module, hand, tell: module.stages(tell=tell), "{0.links} links"),
 }
 PICTURES = {"picture": "", "details": "-scenes"}  # what draws them, and how their files are called
@@ -58,8 +56,8 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("names", metavar="NAME", nargs="*", help=f"{', '.join(CHARTS)}; without a name all of them")
     command.add_argument("folder", metavar="FOLDER", type=Path, help="where pictures and tables are written")
     command.add_argument("--scenes", metavar="SCENE", nargs="+", default=[],
-                         help="the scenes of machine, draughtsman and forms, with what is left out of all of them as "
-                         "it takes long")
+                         help="the scenes of machine and draughtsman, with what is left out of all of them as it "
+                         "takes long")
     command.add_argument("--beside", metavar="FILE.csv", type=Path,
                          help="rows of machine that were measured elsewhere, beside LAPACK on the same scenes")
     add_pencil(command)

@@ -125,7 +125,7 @@ class _Scale:
         return -value if self.axis.falling else value
 
     def ticks(self) -> list[tuple[float, Runs]]:
-        """Readings along the axis: decades, or steps that are told, or round numbers; rails by their labels. Those that
+        """Readings along the axis: decades or round numbers; rails by their labels. Those that
         would run into the one before are left out."""
         kept = [(self.rails[name], _set(label)) for name, label in (*self.axis.before, *self.axis.after) if label]
         if self.high == self.low:
@@ -134,8 +134,7 @@ class _Scale:
         decades = self.axis.log and high - low >= 2
         if self.axis.log and not decades:
             low, high = 10**low, 10**high
-        step = math.ceil((high - low) / self.readings) if decades else (
-            self.axis.step or round_up((high - low) / self.readings))
+        step = math.ceil((high - low) / self.readings) if decades else round_up((high - low) / self.readings)
         last = -math.inf
         for k in range(math.ceil(low / step), math.floor(high / step) + 1):
             plain = -2 <= k * step <= 3 or not decades

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 import pytest
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey import draughtsman, forms, growth, machine, stability
+from graphplan.accuracy.survey import draughtsman, growth, machine, stability
 from graphplan.accuracy.survey.degeneracies import DEGENERACIES
 from graphplan.accuracy.survey.draughtsman import SQUARES, STRICT, Draft
 from graphplan.accuracy.survey.picture import Chart
@@ -87,23 +87,6 @@ def test_ways_to_draw_are_beside_the_own_form() -> None:
     assert {one.label: one.spots[0] for one in series} == {
         "pose's own, auxiliary: orthogonal": (1.0, 1.0), "trial: polar, strict": (2.25, 0.5),
         "poles: polar, strict": (2.375, 1.5)}
-
-
-@pytest.mark.parametrize(("best", "name"), [
-    ([], ""), (["trial, polar"], "trial, polar"), (["poles, polar", "trial, orthogonal"], "trial, orthogonal"),
-    (["auxiliary, polar", "trial, polar", "poles, polar"], "any method, polar")])
-def test_equally_good_forms_have_one_colour(best: list[str], name: str) -> None:
-    """Orthogonal plans before polar ones, and every method on a plan as any."""
-    assert forms.shown(best) == name
-
-
-def test_strips_cover_the_cycle() -> None:
-    """Neighbouring poses with one best form are one stretch, and the stretches fill the turn without a gap."""
-    one = forms.Sample("triad", 0, 0.0, forms.PENCIL, "trial, polar", 1.0, True)
-    rows = [replace(one, pose=k, travel=90.0 * k, best=k != 2) for k in range(4)]
-    spots = [series.spots for series in forms.picture(rows).panels[0].series]
-    ends = [(start, end) for (start, rail), (end, _) in spots if rail == forms.PENCIL]
-    assert ends == [(0.0, 180.0), (180.0, 270.0), (270.0, 360.0)]
 
 
 def test_the_exponent_is_that_of_long_chains() -> None:

@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.survey import forms, growth
+from graphplan.accuracy.survey import growth
 from graphplan.accuracy.survey.draughtsman import LONG, Draft, drafts
 from graphplan.accuracy.survey.growth import STAGES, chain, stages
 from graphplan.accuracy.survey.machine import FORCES, MOTION, Measure, measures
@@ -99,20 +99,6 @@ def test_forms_that_are_not_drawn_have_a_reason() -> None:
     """Strict forms with loads, left out for their time, are rows that say so."""
     rows = drafts(load("jaanimets-11"), Pencil(), long=False)
     assert [row.why for row in rows if row.operations is None] == [LONG] * 2
-
-
-def test_best_forms_over_a_cycle() -> None:
-    """Each pose has all forms by both measures; the best are the least, and where nothing comes there is none."""
-    rows = list(forms.samples(load("triad"), Pencil(), 4))
-    assert len(rows) == 4 * 2 * len(forms.FORMS)
-    for pose in range(4):
-        for measure in (forms.ROUNDING, forms.PENCIL):
-            here = [row for row in rows if (row.pose, row.measure) == (pose, measure)]
-            values = [row.value for row in here if row.value is not None]
-            assert all(row.value is not None or row.why for row in here)
-            assert any(row.best for row in here) == bool(values)
-            assert all(row.value <= 1.05 * min(values) for row in here if row.best and row.value is not None)
-    assert {row.pose for row in rows if row.value is None} == {2}
 
 
 def test_steps_grow_by_equal_increments() -> None:

@@ -48,14 +48,13 @@ class Series:
 
 @dataclass(frozen=True)
 class Axis:
-    """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, the step from
-    reading to reading (of 0 it is free), its rails before and after the numbers, the outermost first, how many mm apart
-    these are (of 0 it is free), numbers that are shown in any case, and readings on its other side."""
+    """A quantity: its label, whether its scale is logarithmic, whether it falls along the axis, its rails before and
+    after the numbers, the outermost first, how many mm apart these are (of 0 it is free), numbers that are shown in any
+    case, and readings on its other side."""
 
     label: str
     log: bool = True
     falling: bool = False
-    step: float = 0.0
     before: Rails = ()
     after: Rails = ()
     pitch: float = 0.0

@@ -120,7 +120,7 @@ class Group:
         flat = [number for part in (*vectors, *self.arms, *(drive.at for drive in drives), *numbers)
                 for number in (part if isinstance(part, tuple) else (part,))]
         found = np.empty((self.unknowns + 1 + 4 * len(self.links), n))
-        run.run([np.broadcast_to(number, n) for number in flat], list(found))
+        run.run([number if isinstance(number, np.ndarray) else np.full(n, number) for number in flat], list(found))
         corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
         links = [Body((x, y), (cos, sin)) for x, y, cos, sin in zip(*(lies[i::4] for i in range(4)), strict=True)]
         return corrections, determinant, links

@@ -120,7 +120,7 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
         settled = far <= SETTLED * size
         rest, trusted[again] = _settled(group, [_some(body, again) for body in known], travel[again],
                                         (state - corrections)[:, again], size, sense,
-                                        np.where(settled, NEAR * size, SHRINKING * far), settled, None)
+                                        np.where(settled, NEAR * size, SHRINKING * far), settled, run)
         for link, other in zip(links, rest, strict=True):
             for array, some in zip((*link.base, *(link.turn or ())), (*other.base, *(other.turn or (1.0, 0.0))),
                                    strict=False):

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import csv
 import io
-import math
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -14,19 +12,29 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.kinds import KINDS
 
+ROWS = 4096  # written in one call
+
 Results = Mapping[str, Mapping[str, Any]]
 
 
 def text(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> str:
-    """Comma-separated text: a heading, then one line for each pose; what there is not is left empty, and says why."""
-    columns = dict(_columns(scene, travel, points, results))
-    file = io.StringIO()
-    writer = csv.writer(file, lineterminator="\n")
-    writer.writerow(["pose", *columns, "fault"])
-    for pose, numbers in enumerate(zip(*columns.values(), strict=True)):
-        told = ["" if math.isnan(number) else repr(float(number) + 0.0) for number in numbers]
-        writer.writerow([pose, *told, faults.get(pose, "")])
-    return file.getvalue()
+    """Comma-separated text: a heading, then one line for each pose; what there is not is left empty, and says why.
+
+    Numbers have as many digits as tell them apart. Python writes a list of lists in one call, much faster than numbers
+    one by one.
+    """
+    headings, columns = zip(*_columns(scene, travel, points, results), strict=True)
+    lines = [",".join(map(_quoted, ("pose", *headings, "fault")))]
+    for start in range(0, len(travel), ROWS):
+        rows = np.stack([column[start : start + ROWS] for column in columns], axis=1) + 0.0  # a zero has no sign
+        numbers = str(rows.tolist())[2:-2].replace(", ", ",").replace("nan", "").split("],[")
+        lines += [f"{pose},{row},{_quoted(faults.get(pose, ''))}" for pose, row in enumerate(numbers, start)]
+    return "\n".join([*lines, ""])
+
+
+def _quoted(cell: str) -> str:
+    """A cell as comma-separated text has it."""
+    return '"' + cell.replace('"', '""') + '"' if any(mark in cell for mark in ',"\n\r') else cell
 
 
 def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> bytes:

@@ -239,9 +239,11 @@ class Continuation:
 
 
 def _ahead(knots: Sequence[Knot], travel: float) -> Array:
-    """The state at this travel on the curve through these knots."""
-    at, state, rate = (np.array([knot[i] for knot in knots]) for i in range(3))
-    *rest, found = newton(at[:, None], state, rate)
-    for k, coefficients in reversed([*enumerate(rest)]):
-        found = found * (travel - at[k // 2]) + coefficients
+    """The state at this travel on the curve through these knots with their rates (Hermite, in Lagrange's form)."""
+    found: Array = 0.0
+    for knot in knots:
+        gaps = [(knot.travel - other.travel, travel - other.travel) for other in knots if other is not knot]
+        weight, away = math.prod(far / gap for gap, far in gaps) ** 2, travel - knot.travel
+        slope = 2 * sum(1 / gap for gap, _ in gaps)
+        found = found + weight * (1 - slope * away) * knot.state + weight * away * knot.rate
     return found

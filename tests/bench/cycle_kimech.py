@@ -1,8 +1,8 @@
 """A turn of an eight-link chain in 360 poses, against kimech.
 
-kimech finds its own positions and cannot be handed any. So there are three rows: its rates alone, which are what the
-whole takes longer than the positions, against ours from given poses; the whole against ours from given poses; and the
-whole against ours with positions found too.
+kimech finds its own positions and cannot be handed any. So there are four rows: its rates alone, which are what the
+whole takes longer than the positions, against ours from given poses; the whole against ours from given poses; the whole
+against ours with positions found too; and the same where we find 10,000 poses, each pose of kimech taking as long.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from graphplan.accuracy.survey.machine import Measure
 from graphplan.accuracy.survey.problem import LAPACK, SOLVERS, Problem
 from graphplan.cycle import follow
 
-POSES = 360
+POSES, MANY = 360, 10_000
+FINE = "ours with many positions, as many of them"
 SCENE = "alt-eight-link-2"  # whose crank turns all the way round
 
 
@@ -30,8 +31,8 @@ def rows() -> list[Row]:
     given, whole = Target("at least", 2000), Target("at least", 1500)
     return [compared("turn, given poses", "kimech, rates", given, found.times, over=POSES, errors=found.errors),
             compared("turn, poses given to ours", "kimech", given, found.times, over=POSES, errors=found.errors),
-            compared("turn with positions", "kimech", whole, found.times, ours="ours with positions", over=POSES,
-                     errors=found.errors)]
+            *(compared(f"turn with positions, {count:,} poses", "kimech", whole, found.times, ours=ours, over=POSES,
+                       errors=found.errors) for count, ours in ((POSES, "ours with positions"), (MANY, FINE)))]
 
 
 @cache
@@ -43,6 +44,7 @@ def measured() -> Measured:
     runs = {"ours": lambda: motion(drawing, points),
             "ours with positions": lambda: motion(drawing, moving(scene))}
     motions = dict(runs)
+    runs[FINE] = lambda: motion(drawing, moving(scene, MANY))
     runs[LAPACK] = SOLVERS[LAPACK](Problem(scene, points=points)).call
     if module := peer("by_kimech"):
         chain = module.Kimech(scene)
@@ -51,6 +53,7 @@ def measured() -> Measured:
     truth = exact.of_travel(scene, travel, points)
     errors = {name: exact.error(found(), truth) for name, found in motions.items()}
     times = alternate(runs)
+    times[FINE] = [spent * POSES / MANY for spent in times[FINE]]
     if module:
         times["kimech, rates"] = [a - b for a, b in zip(times["kimech"], times["its positions"], strict=True)]
         errors["kimech, rates"] = errors["kimech"]

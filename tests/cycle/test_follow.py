@@ -6,6 +6,8 @@ import math
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
+from importlib.util import find_spec
+from time import process_time
 from typing import Any
 
 import four_bars
@@ -14,6 +16,7 @@ import pytest
 from random_mechanisms import GROUPS, mechanism
 
 import graphplan as gp
+from graphplan.accuracy.survey.growth import chain
 from graphplan.cycle import Turn, follow
 from graphplan.cycle.dyads import assembled
 from graphplan.cycle.groups import Group
@@ -172,9 +175,11 @@ def test_compass_rules_place_dyads_as_newton_does(group: str) -> None:
                          ids=["turning", "sliding", "rocking"])
 def test_many_poses_are_placed_as_few_are(scene: Scene) -> None:
     """Thousands of poses, block after block, hold together as well as a few, and contain the same."""
-    many = follow(scene, 4500)
-    assert_holds_together(scene, many)
-    assert_same(follow(scene, 45), many, scene, every=100)
+    few = follow(scene, 45)
+    for compiled in (False, *([True] if find_spec("numba") else [])):
+        many = follow(scene, 4500, compiled=compiled)
+        assert_holds_together(scene, many)
+        assert_same(few, many, scene, every=100)
 
 
 @pytest.mark.parametrize("short", [2**-4, 2**-12, 2**-20])
@@ -356,6 +361,28 @@ def test_a_first_drive_that_stands_still_leads_nothing() -> None:
     assert np.all(turn.points["B"] == place(scene, "B"))
     assert np.allclose(turn.points["A"] - place(scene, "O"),
                        (place(scene, "A") - place(scene, "O")) * np.exp(1j * turn.travel))
+
+
+@pytest.mark.parametrize(("scene", "closed"), [
+    (gp.load("alt-eight-link-2"), True), (four_bar(50, 40, 45, 60, 30), False), (gp.load("five-bar"), True)])
+def test_whether_a_cycle_closes(scene: Scene, closed: bool) -> None:
+    """After a full turn all is as it was where every crank turns all the way; a span says nothing of it."""
+    assert follow(scene, 12).closed is closed
+    assert not follow(scene, 12, (0, 360)).closed
+
+
+def test_growth_is_linear() -> None:
+    """Four times as many links take about four times as long, not sixteen times; the limits that they find differ."""
+    def spent(links: int) -> float:
+        return min(timed(chain(links // 2 - 1)) for _ in range(2))
+
+    def timed(scene: Scene) -> float:
+        start = process_time()
+        assert follow(scene, 12).faults
+        return process_time() - start
+
+    spent(20)
+    assert spent(160) < 8 * spent(40)
 
 
 def test_progress_is_told() -> None:

@@ -14,6 +14,8 @@ from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.motion.time_scale import Tempo
 
+ASIDE = 40  # numbers: some hundreds of bytes
+
 
 class Reading(NamedTuple):
     """What is read from the program: of what kind, of which thing, between which wanted marks (by position).
@@ -84,12 +86,14 @@ class Recorded:
     def blank(self, n: int, value: float | None = math.nan) -> dict[str, dict[str, Any]]:
         """Arrays for the readings in n poses, by kind and name, complex ones for vectors; with None as they come.
 
-        All are rows of one array: a large piece of memory is handed out faster than many small ones.
+        All are rows of one array: a large piece of memory is handed out faster than many small ones. Rows are a little
+        longer than they need be, lest the same pose of all of them share one place in a cache.
         """
         import numpy as np
 
         single = sum(reading.kind.single for reading in self.readings)
-        numbers, vectors = np.empty((single, n)), np.empty((len(self.readings) - single, n), complex)
+        numbers, vectors = (np.empty((rows, n + ASIDE), kind)[:, :n]
+                            for rows, kind in ((single, float), (len(self.readings) - single, complex)))
         if value is not None:
             numbers[:] = vectors[:] = value
         rows = {True: iter(numbers), False: iter(vectors)}

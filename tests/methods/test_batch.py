@@ -181,10 +181,17 @@ def test_no_workers_are_refused(workers: int | str, monkeypatch: pytest.MonkeyPa
         gp.construct(gp.load("four-bar")).evaluate({"B": [1j]}, workers=workers)
 
 
-def test_machine_code_gives_what_numpy_gives() -> None:
-    """Where numba is installed, the compiled replay gives the same results to the last bit."""
+@pytest.mark.parametrize("name", ["slider-crank", "jaanimets-10"])
+def test_machine_code_gives_what_numpy_gives(name: str) -> None:
+    """Where numba is installed, the compiled replay gives the same results and faults, forces too."""
     pytest.importorskip("numba")
-    drawing = gp.construct(gp.load("slider-crank"))
-    points = shaken(drawing.scene, 10)
-    compiled = drawing.evaluate(points, compiled=True)
-    assert np.array_equal(compiled.velocity["B"], drawing.evaluate(points).velocity["B"])
+    drawing = gp.construct(gp.load(name))
+    points = shaken(drawing.scene, 20)
+    for z in points.values():
+        z[7] = 0
+    compiled, ours = drawing.evaluate(points, compiled=True), drawing.evaluate(points)
+    assert list(ours.faults) == [7]
+    assert compiled.faults == ours.faults
+    for kind, named in ours.results.items():
+        assert all(np.array_equal(z, compiled.results[kind][of], equal_nan=True) for of, z in named.items())
+

@@ -43,7 +43,7 @@ class Machine:
             inputs = [np.resize(array, LANES) for array in inputs]
         read, write = _laid_out(inputs), _laid_out(outputs, n < LANES)
         failed = np.empty(max(n, LANES), np.bool_)
-        self._loop(read.layout, write.layout)(read.addresses, write.addresses, failed.ctypes.data, len(failed))
+        self._loop(read.layout, write.layout)(read.addresses, write.addresses, _address(failed), len(failed))
         for output, array in zip(outputs, write.arrays, strict=True):
             if array is not output:
                 output[:] = array[:n]
@@ -73,14 +73,20 @@ def _laid_out(arrays: Sequence[Any], short: bool = False) -> LaidOut:
     found, begins, layout = list[Any](), list[Any](), list[int]()
     while len(found) < len(arrays):
         one, *two = arrays[len(found) : len(found) + 2]
-        if not short and two and one.strides == two[0].strides == (16,) and two[0].ctypes.data == one.ctypes.data + 8:
+        if not short and two and one.strides == two[0].strides == (16,) and _address(two[0]) == _address(one) + 8:
             group = [one, two[0]]
         else:
             group = [np.resize(one, LANES) if short else np.ascontiguousarray(one)]
         begins.append(group[0])
         layout.append(len(group))
         found += group
-    return LaidOut(found, tuple(layout), (ctypes.c_void_p * len(begins))(*(array.ctypes.data for array in begins)))
+    return LaidOut(found, tuple(layout), (ctypes.c_void_p * len(begins))(*map(_address, begins)))
+
+
+def _address(array: Any) -> int:
+    """Where an array begins: quicker than by its `ctypes`."""
+    place: int = array.__array_interface__["data"][0]
+    return place
 
 
 # ---- the assembly ------------------------------------------------------------------------------------------------

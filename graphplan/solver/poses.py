@@ -1,4 +1,4 @@
-"""The second opinion over many poses: the same equations filled with arrays, all systems solved at once by LAPACK.
+"""The second opinion over many poses: the same equations filled with arrays, each block solved at once by LAPACK.
 
 A scene whose links are held just once has square systems, for the rates and for the forces. Where special geometry
 makes conditions redundant they are solved by singular values. Numbers may know the size of what cancels in them, too.
@@ -17,7 +17,10 @@ from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.numerals import mapped
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
+from graphplan.solver.blocks import Block, blocks
 from graphplan.solver.equations import Equations, Row, held, moved
+
+TOGETHER = 24  # unknowns that one dense block has at most: over many poses small blocks cost no more than their sum
 
 _ROUNDING = 2.0**-44
 """Below this part of the largest a singular value counts as zero."""
@@ -90,8 +93,9 @@ def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:
     """
     equations = moved(scene, np.sqrt)
     zero: Any = Sized(np.zeros(n)) if sizes else np.zeros(n)
-    scales = [1.0, 1.0, _reach(equations)] * len(equations.columns)
-    return rates.motion(equations, lambda right: _solved(equations.rows, right, n, scales, sizes), zero)
+    scales = [1.0, 1.0, _reach(equations)] * len(equations.columns) + [1.0, 1.0] * len(equations.pins)
+    found = blocks(equations.rows, equations.width, TOGETHER)
+    return rates.motion(equations, lambda right: _solved(equations.rows, right, n, scales, sizes, found), zero)
 
 
 def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) -> statics.Reactions:
@@ -99,7 +103,8 @@ def reactions(scene: Scene, motion: rates.Rates, n: int, sizes: bool = False) ->
     equations = held(scene)
     right = [-value for value in statics.resultants(equations, statics.acting(scene, motion))]
     scales = [1.0 if isinstance(fact, Along) else 1 / _reach(equations) for fact in equations.facts]
-    values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes)
+    found = [block.transposed for block in reversed(blocks(equations.rows, equations.width, TOGETHER))]
+    values = _solved(transpose(equations.rows, equations.width), right, n, scales, sizes, found)
     return statics.read(equations, values, statics.repeating(equations), motion)
 
 
@@ -109,22 +114,39 @@ def _reach(equations: Equations) -> float:
     return max(map(float, parts), default=0.0) or 1.0
 
 
-def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool) -> Sequence[Any]:
+def _solved(rows: Sequence[Row], right: Sequence[Any], n: int, scales: Sequence[float], sizes: bool,
+            found: Sequence[Block]) -> Sequence[Any]:
     """The unknowns, which `scales` make comparable, each over all poses; with `sizes` they know theirs."""
-    matrix, sides = np.zeros((n, len(rows), len(scales))), np.empty((n, len(rows), 1))
-    terms = np.empty_like(sides)
-    for i, (row, side) in enumerate(zip(rows, right, strict=True)):
-        sides[:, i, 0], terms[:, i, 0] = (sized(side).value, sized(side).size) if sizes else (side, 0)
-        for j, value in row.items():
-            matrix[:, i, j] = value
-    if not sizes:
-        solve = np.linalg.solve if len(rows) == len(scales) else _shortest
-        return list(_everywhere(solve, matrix, sides)[:, :, 0].T)
-    return _with_sizes(matrix, sides, terms, np.reshape(scales, (-1, 1)))
+    values: list[Any] = [0.0] * len(scales)
+    side: Any
+    for block in found:
+        place = {column: k for k, column in enumerate(block.columns)}
+        matrix, sides = np.zeros((n, len(block.rows), len(place))), np.empty((n, len(block.rows), 1))
+        terms, known = np.empty_like(sides), np.zeros((n, 1, 1))
+        for k, i in enumerate(block.rows):
+            side = sized(right[i]) if sizes else right[i]
+            for j, value in rows[i].items():
+                if j in place:
+                    matrix[:, k, place[j]] = value
+                else:
+                    side = side - value * values[j]
+                    known[:, 0, 0] = np.maximum(known[:, 0, 0], scales[j] * values[j].size if sizes else 0.0)
+            sides[:, k, 0], terms[:, k, 0] = (side.value, side.size) if sizes else (side, 0)
+        if sizes:
+            own = _with_sizes(matrix, sides, terms, np.reshape([scales[j] for j in block.columns], (-1, 1)), known)
+        else:
+            solve = np.linalg.solve if len(block.rows) == len(place) else _shortest
+            own = list(_everywhere(solve, matrix, sides)[:, :, 0].T)
+        for j, solution in zip(block.columns, own, strict=True):
+            values[j] = solution
+    return values
 
 
-def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any) -> list[Sized]:
-    """The unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left."""
+def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any, known: Any) -> list[Sized]:
+    """The unknowns with the size of what cancels in each: its share of all terms, of which the unknowns are left.
+
+    `known` is the largest size among the unknowns that they hang on, which are left as well.
+    """
     square = matrix.shape[1] == matrix.shape[2]
     inverse = (_everywhere(np.linalg.inv, matrix) if square
                else _shortest(matrix, np.broadcast_to(np.eye(matrix.shape[1]), (*matrix.shape[:2], matrix.shape[1]))))
@@ -133,7 +155,8 @@ def _with_sizes(matrix: Any, sides: Any, terms: Any, scales: Any) -> list[Sized]
     left = np.abs(values)
     terms = np.abs(inverse) @ (np.abs(matrix) @ left + terms)
     whole, most = (np.max(part * scales, axis=1, keepdims=True, initial=0.0) for part in (terms, left))
-    own = np.maximum(left, terms * most / np.where(whole > 0, whole, 1.0))
+    share = np.minimum(np.maximum(most, known) / np.where(whole > 0, whole, 1.0), 1.0)
+    own = np.maximum(left, terms * share)
     return [Sized(value, size) for value, size in zip(values[:, :, 0].T, own[:, :, 0].T, strict=True)]
 
 

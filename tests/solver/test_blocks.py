@@ -17,7 +17,7 @@ from graphplan.check.forces import bounded_reactions
 from graphplan.errors import SingularPose
 from graphplan.mechanism.model import FRAME, Balance, Force, Loads, Mass, Scene
 from graphplan.solver import blocks as blocks_of
-from graphplan.solver import reactions, solve
+from graphplan.solver import poses, reactions, solve
 from graphplan.solver.blocks import TOGETHER, blocks
 from graphplan.solver.equations import moved
 
@@ -135,3 +135,21 @@ def test_a_rail_held_three_times_is_solved(order: Callable[[int], Scene]) -> Non
         assert np.allclose(rates.velocity[point], tuple(map(float, value)), rtol=0, atol=1e-9)
     assert exact.velocity["F1"] == exact.velocity[f"P{DYADS}"]
     assert max(number.error for number in components(bounded_rates(held, FLOATS).velocity)) < 1e-9
+
+
+@pytest.mark.parametrize("sizes", [False, True])
+def test_many_poses_of_many_links_are_solved_as_each_alone(sizes: bool) -> None:
+    """Turned round as a whole, a chain of many blocks has the rates and the reactions that it has alone, turned."""
+    scene = shuffled(loaded(chain(DYADS)))
+    assert scene.loads is not None
+    scene = replace(scene, loads=replace(scene.loads, gravity=(0, 0), forces=()))
+    turns = np.exp(1j * np.array([0.0, 0.7, 4.0]))
+    posed = poses.posed(scene, {name: complex(*map(float, at)) * turns for name, at in scene.points.items()}, {})
+    rates = poses.solve(posed, len(turns), sizes)
+    alone, many = reactions(scene), poses.reactions(posed, rates, len(turns), sizes)
+    for one, other in ((alone.rates.velocity, rates.velocity), (alone.rates.acceleration, rates.acceleration),
+                       (alone.joints, many.joints)):
+        size = max(abs(complex(*map(float, value))) for value in one.values())
+        for name, value in one.items():
+            x, y = (getattr(number, "value", number) for number in other[name])
+            assert np.abs((x + 1j * y) / turns - complex(*map(float, value))).max() < 1e-9 * size

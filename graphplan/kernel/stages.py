@@ -63,11 +63,17 @@ def _added(vectors: Iterable[Vector]) -> str:
 
 @dataclass(frozen=True)
 class Stage:
-    """A part of a construction: its title, the law by which it is drawn, and the equations that it solves."""
+    """A part of a construction: its title, the law by which it is drawn, and the equations that it solves.
+
+    It tells itself, where its words hang on no form.
+    """
 
     title: Said
     law: Said
     equations: tuple[Equation, ...] = ()
+
+    def __call__(self, forms: Collection[str]) -> Stage:
+        return self
 
     @property
     def equation(self) -> str:

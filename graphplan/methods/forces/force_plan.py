@@ -56,9 +56,9 @@ class ForcePolygon(FreeBodies):
             case statics.Pin(site):
                 others = [link for link in self.group.scene.links_of[site.point] if link != site.link]
                 forces = [Vector(reaction_letter(self.forces.scene, site.point, link)) for link in others]
-                return partial(stages.joint, site.point, (*forces, Vector(self.letter(site), Told.NOTHING)))
+                return stages.joint(site.point, (*forces, Vector(self.letter(site), Told.NOTHING)))
             case statics.Assume(site=site):
-                return partial(stages.false_position, self.letter(site))
+                return stages.false_position(self.letter(site))
 
     def _moments_of(self, part: Part, letter: str, about: str, unknown: Vector) -> Teller:
         """The moments of the forces on a part, and those of couples."""
@@ -336,7 +336,7 @@ class ForcePolygon(FreeBodies):
         """Tell the groups that follow what was found here."""
         with self.board.on(self.panel, self.group.links):
             for point in self.group.points:
-                with self.board.on(stage=partial(stages.joint, point)):
+                with self.board.on(stage=stages.joint(point)):
                     for link in self.group.members(point):
                         self.forces.joints[point, link] = self._at_joint(point, link)
         for site, span in self.ends.items():

@@ -6,7 +6,6 @@ R_12 is the force of link 1 on link 2, and 0 is the frame.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import partial
 from typing import NamedTuple
 
 from graphplan.kernel.program import Board, Mark
@@ -97,7 +96,7 @@ def reaction_on(forces: DrawnForces, board: Board, point: str, link: str) -> Spa
         return forces.joints[point, link]
     spans = [forces.joints[point, other][::-1] for other in forces.scene.links_of[point] if other != link]
     first, mark = spans[0]
-    with board.on(stage=partial(joint, point)):
+    with board.on(stage=joint(point)):
         for tail, head in spans[1:]:
             mark = board.transfer(tail, head, mark)
     return first, mark
@@ -132,18 +131,18 @@ class FreeBodies:
         self.seats: dict[UnknownForce, Mark] = {}
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
-        with board.on(self.panel, group.links, partial(begun, str(forces.corners + 1), self.panel.words)):
+        with board.on(self.panel, group.links, begun(str(forces.corners + 1), self.panel.words)):
             self.origin = self.numbered(board.begin(plan=self.panel.words, number=1))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None
-            with board.on(MECHANISM, group.links, partial(line_of_action, self.letter(site))):
+            with board.on(MECHANISM, group.links, line_of_action(self.letter(site))):
                 at = pose.points[site.at]
                 line = board.guide(at, dx=site.direction[0], dy=site.direction[1])
             self.known[site] = Known(None, line, at)
         for slide in group.scene.slides:
             if has_line(slide) and not group.done.intersection(slide.links) and {*slide.links} & {*group.links}:
-                with board.on(MECHANISM, group.links, partial(line_of_action, self.letter(slide))):
+                with board.on(MECHANISM, group.links, line_of_action(self.letter(slide))):
                     line = board.perpendicular(pose.guide(slide), pose.points[slide.at])
                 self.known[slide] = Known(None, line, pose.points[slide.at])
 
@@ -160,7 +159,7 @@ class FreeBodies:
         """The known forces, link after link, head to tail; couples beside them."""
         corner = self.origin
         for link in self.group.links:
-            with self.board.on(stage=partial(known_forces, link)):
+            with self.board.on(stage=known_forces(link)):
                 self.chains[link] = own = self._in_chain(link, corner)
                 corner = own[-1].head if own else corner
                 couples = list(self.loading.couples(link, corner))

@@ -13,7 +13,6 @@ from collections import ChainMap
 from collections.abc import Callable, Iterator, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Any
 
 from graphplan.kernel.program import Mark
@@ -92,7 +91,7 @@ class Rubbed:
         if tail is head:
             return points[at]
         why = said("the friction of the journal {0}, of {1} in {2}", at, *map(link_named, pair))
-        with self.board.on(MECHANISM, pair, partial(stages.journal, why)):
+        with self.board.on(MECHANISM, pair, stages.journal(why)):
             slip = self.velocity.slip(journal.pin, journal.link, arm)
             return self.board.touch(points[at], points[arm], slip, tail, head, name=f"{at}'", why=why,
                                     radius=journal.friction.radius * journal.friction.coefficient)
@@ -110,7 +109,7 @@ class Rubbed:
     def _leaning(self, slide: Slide, friction: Friction) -> Mark:
         """The guide of a slide, turned by the friction angle."""
         pose, why = self.loading.pose, said("the friction of the slide {0}", slide_named(slide))
-        with self.board.on(MECHANISM, (slide.link, slide.along), partial(stages.guide, why)):
+        with self.board.on(MECHANISM, (slide.link, slide.along), stages.guide(why)):
             slip = self.velocity.slip(slide.along, slide.link, slide.at)
             return self.board.lean(pose.guide(slide), pose.points[slide.at], slip, *self.forces.slides[slide],
                                    coefficient=friction.coefficient, why=why)

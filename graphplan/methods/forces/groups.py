@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import cached_property, partial
+from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Board, Mark
@@ -139,7 +139,7 @@ def arms(scene: Scene, forces: DrawnForces, board: Board, pose: Pose, named: Ite
     """Where the reactions of these slides act: from the slide's point along the guide to their lines."""
     for slide in (slide for slide in scene.slides if slide.name in named):
         seat, pair = forces.seats[slide], forces.pairs[slide]
-        with board.on(MECHANISM, (slide.link, slide.along), partial(told.seat, slide)):
+        with board.on(MECHANISM, (slide.link, slide.along), told.seat(slide)):
             H = seat if pair is None else board.resultant(
                 seat, *forces.slides[slide], pair[1].at, pair[0].at, pair[0].tail, pair[0].head, name=f"H_{slide.link}",
                 why=said("the reaction of the slide {0} acts here", slide_named(slide)))

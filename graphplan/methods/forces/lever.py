@@ -124,7 +124,7 @@ class Lever:
         self.shown: list[Shown] = []
         self.loads: list[str] = []
         self.stage = partial(stages.lever, panel, letter, self.loads)
-        with self.board.on(panel, stage=partial(begun, "o", panel.words)):
+        with self.board.on(panel, stage=begun("o", panel.words)):
             self.pole = self.board.begin(plan=panel.words, number=1, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------

@@ -113,7 +113,7 @@ class Loading:
         name, points = _replaced(link), self.pose.standing
         if name not in points:
             home, end, P, R, tip = self._couple_of(link, mass, radius2)
-            with self.board.on(stage=partial(stages.inertia, link)):
+            with self.board.on(stage=stages.inertia(link)):
                 points[name] = self.board.resultant(
                     points[mass.centre], end, home, P, R, end, tip, name=f"K_{link}",
                     why=said("the inertia force of {0}, shifted by its couple over it", link_named(link)))
@@ -124,7 +124,7 @@ class Loading:
         the second, from that end; both for a mass of one."""
         assert self.motion is not None
         one, two = self.arm_points(link)
-        with self.board.on(stage=partial(stages.inertia, link)):
+        with self.board.on(stage=stages.inertia(link)):
             home, end = self.motion.figure(link, mass.centre), self.motion.end_in(link, mass.centre)
             P, R, ends = *self.arm(link), (self.motion.end_in(link, one), self.motion.end_in(link, two))
             return home, end, P, R, self.board.inertia_pair(P, R, *ends, end, ratio=radius2)
@@ -139,7 +139,7 @@ class Loading:
         """The centre of oscillation for a pivot: with it the link is replaced by two points (Ozols 1974, 9-2)."""
         name, points = _replaced(link), self.pose.standing
         if name not in points:
-            with self.board.on(MECHANISM, (link,), partial(stages.inertia, link)):
+            with self.board.on(MECHANISM, (link,), stages.inertia(link)):
                 points[name] = self.board.step_off(
                     points[pivot], points[centre], points[centre], ratio=part, name=f"K_{link}",
                     why=said("the radius of gyration is the mean of the distances from {0}", centre))
@@ -210,7 +210,7 @@ class Loading:
         """A point beside this one, where all points of the scene coincide: couples need an arm."""
         name, points = "point aside", self.pose.standing
         if name not in points:
-            with self.board.on(MECHANISM, stage=stages.arm):
+            with self.board.on(MECHANISM, stage=stages.arm()):
                 points[name] = self.board.lay_off(points[point], dx=Fraction(1), dy=Fraction(0),
                                                   name=self.pose.letter(name), why=said("an arm for couples"))
         return name

@@ -1,4 +1,7 @@
-"""The stages of forces: the equilibrium of free bodies, joint by joint, levers, friction."""
+"""The stages of forces: the equilibrium of free bodies, joint by joint, levers, friction.
+
+What is told of moves is worked out when it is asked for: `forms` are those of their compounds, which say nothing here.
+"""
 
 from __future__ import annotations
 
@@ -26,12 +29,12 @@ SEAT = said("a force and a couple are one force, shifted by the couple over the 
 POWERS = said("moments about the pole balance, since powers do")
 
 
-def known_forces(link: str, forms: Collection[str] = ()) -> Stage:
+def known_forces(link: str) -> Stage:
     """The known forces on a link."""
     return Stage(said("Known forces on {0}", link_named(link)), CHAIN)
 
 
-def line_of_action(letter: str, forms: Collection[str] = ()) -> Stage:
+def line_of_action(letter: str) -> Stage:
     """The line of a force of known direction."""
     return Stage(said("Line of action of {0}", letter), DIRECTED)
 
@@ -57,37 +60,37 @@ def _equilibrium(letter: str, links: Sequence[str]) -> Said:
     return said("{0}: equilibrium of {1}", letter, listed(links))
 
 
-def joint(point: str, forces: tuple[Vector, ...] = (), forms: Collection[str] = ()) -> Stage:
+def joint(point: str, forces: tuple[Vector, ...] = ()) -> Stage:
     """The last force of a joint from those of its other links."""
     return Stage(said("Forces at the joint {0}", point), JOINT, (Equation.closed(forces),) if forces else ())
 
 
-def false_position(letter: str, forms: Collection[str] = ()) -> Stage:
+def false_position(letter: str) -> Stage:
     """A force that is assumed, twice."""
     return Stage(arranged("{0:capital}", said("false position of {0}", letter)), LAWS[FalsePosition])
 
 
-def inertia(link: str, forms: Collection[str] = ()) -> Stage:
+def inertia(link: str) -> Stage:
     """Where the inertia force of a link acts."""
     return Stage(said("Inertia force of {0}", link_named(link)), INERTIA)
 
 
-def arm(forms: Collection[str] = ()) -> Stage:
+def arm() -> Stage:
     """A point beside another, where couples need an arm."""
     return Stage(arranged("{0:capital}", said("an arm for couples")), COUPLE)
 
 
-def journal(why: Said, forms: Collection[str] = ()) -> Stage:
+def journal(why: Said) -> Stage:
     """Where the force of a journal that rubs acts."""
     return Stage(arranged("{0:capital}", why), JOURNAL)
 
 
-def guide(why: Said, forms: Collection[str] = ()) -> Stage:
+def guide(why: Said) -> Stage:
     """How the force of a slide that rubs leans."""
     return Stage(arranged("{0:capital}", why), GUIDE)
 
 
-def seat(slide: Slide, forms: Collection[str] = ()) -> Stage:
+def seat(slide: Slide) -> Stage:
     """Where the reaction of a slide acts."""
     return Stage(said("Line of action of the reaction of the slide {0}", slide_named(slide)), SEAT)
 

@@ -181,7 +181,7 @@ class Normal(MotionPlan):
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
             name = self.figure_name(link, anchor.point)
-            with self.board.on(self.panel, stage=partial(begun, name, self.panel.words)):
+            with self.board.on(self.panel, stage=begun(name, self.panel.words)):
                 begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
                 before = sum(step.panel == self.panel for step in begins)
                 return self.board.begin(plan=self.panel.words, number=before + 1, name=name)
@@ -301,7 +301,7 @@ class PolarAcceleration(Normal):
     panel, ending = ACCELERATION_PLAN, "{0}'"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        with board.on(self.panel, stage=partial(begun, "pi", self.panel.words)):
+        with board.on(self.panel, stage=begun("pi", self.panel.words)):
             self.pole = board.begin(plan=self.panel.words, number=1, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 

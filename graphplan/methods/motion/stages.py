@@ -285,6 +285,6 @@ def auxiliary(body: str) -> str:
     return f"auxiliary point of {body}"
 
 
-def begun(name: str, plan: Said, forms: Collection[str] = ()) -> Stage:
+def begun(name: str, plan: Said) -> Stage:
     """Where a plan begins."""
     return Stage(said("Origin {0} of the {1}", name, plan), BEGUN)

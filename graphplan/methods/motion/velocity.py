@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion.moves import Carry, Guide, Meet, Settle, SimilarFigure, Slip, Swing
@@ -94,7 +92,7 @@ class Polar(Velocity):
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
-        with board.on(self.panel, stage=partial(begun, "p", self.panel.words)):
+        with board.on(self.panel, stage=begun("p", self.panel.words)):
             self.pole = board.begin(plan=self.panel.words, number=1, name="p")
 
     def far_from(self, place: BodyPoint) -> Mark:

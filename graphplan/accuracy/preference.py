@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -11,7 +12,7 @@ from graphplan.accuracy import PREFERENCES
 from graphplan.accuracy.drafted import Drafted, drafted, percent
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import ConstructionError, GraphplanError, Refused
-from graphplan.kernel.kinds import FAILURES
+from graphplan.kernel.kinds import FAILURES, plain
 from graphplan.kernel.program import Program
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct as unchecked
@@ -83,8 +84,23 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    ways = led_to(partial(construct, scene, plan=plan, strict=strict, inertia=inertia), lambda drawing: drawing.drawn)
+    how = {"plan": plan, "strict": strict, "inertia": inertia}
+    ways = led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
     return sorted([form for way in ways for form in made(*way)], key=lambda form: FORMS.index(form.methods[0]))
+
+
+def _drawn_once(scene: Scene, how: dict[str, Any], construct: Constructing, known: dict[Any, Construction],
+                method: str) -> Construction:
+    """The construction to which a method leads: one that is `known` where it is the same program, drawn in such forms.
+    """
+    key: Any = None
+    with suppress(GraphplanError):
+        steps = unchecked(scene, method=method, **how).program.steps
+        wished = {plain(form) for step in steps for form in step.op.forms} & {METHODS.get(method)}
+        key = tuple([step.key for step in steps]), *wished
+    if key is None or key not in known:
+        known[key] = construct(scene, method=method, **how)
+    return known[key]
 
 
 def led_to(draw: Constructing,

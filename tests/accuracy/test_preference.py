@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -13,6 +14,8 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import FORMS, Form, forms, preferred, weighed
 from graphplan.commands import main
 from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construction import Construction
 
 SCENE = gp.load("alt-eight-link")
 POSE = """
@@ -93,3 +96,18 @@ def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], t
     told = capsys.readouterr().out
     assert "accurate form preferred: trial; weighed on A2:" in told
     assert re.search(r"step \d+: trial figure", told)
+
+
+@pytest.mark.parametrize(("name", "times"), [("four-bar", 1), ("triad", 3)])
+def test_methods_that_lead_to_one_program_are_judged_once(name: str, times: int) -> None:
+    """Nothing of a four-bar is drawn otherwise by another method; a triad's own form, auxiliary points, trial figures
+    are three drawings, of which the poles' is one."""
+    judged: list[str] = []
+
+    def construct(scene: Scene, method: str, **how: Any) -> Construction:
+        judged.append(method)
+        return gp.construct(scene, method=method, **how)
+
+    found = forms(gp.load(name), Pencil(), plan="polar", construct=construct)
+    assert sorted(method for form in found for method in form.methods) == sorted(FORMS)
+    assert len(judged) == times

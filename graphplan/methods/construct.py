@@ -15,7 +15,6 @@ from graphplan.methods.motion.network import Network
 from graphplan.methods.styles import METHODS, Style, style
 from graphplan.phrases import said
 
-INSTEAD = said("the method that was asked for does not serve in this pose; another way is drawn")
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 
 
@@ -50,7 +49,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
         if not method:
             raise
     for found in _by_plans(scene, "", chosen) if method else ():
-        found.notes.append(INSTEAD)
+        found.notes.append(said("the method that was asked for does not serve in this pose; another way is drawn"))
         found.strict = strict
         yield found
 

@@ -10,8 +10,9 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import replace
+from functools import cache
 from html import escape
 from importlib.resources import files
 from typing import Any
@@ -19,7 +20,7 @@ from xml.etree.ElementTree import tostring
 
 from svgwrite.container import SVG
 
-from graphplan.output.svg import MAKE, Element, group, groups
+from graphplan.output.svg import MAKE, Element, group, inked, parted
 from graphplan.phrases import arranged, said
 from graphplan.sheet.cycle_frames import CycleFrame, CycleFrames
 from graphplan.sheet.layout.scales import digits
@@ -53,7 +54,7 @@ def stepper(found: CycleFrames) -> str:
 def _parts(found: CycleFrames) -> dict[str, str]:
     """What the page is filled with besides words."""
     sheet = found.frames[0].sheet
-    poses = [_groups(frame) for frame in found.frames]
+    poses = list(_poses(found.frames))
     return {
         "language": sheet.language, "title": escape(sheet.title), "source": escape(found.drawing.scene.source),
         "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, poses),
@@ -125,12 +126,21 @@ def _box(sheet: Sheet, rect: Rect) -> list[float]:
 # ---- the picture -------------------------------------------------------------------------------------------------
 
 
-def _groups(frame: CycleFrame) -> Groups:
-    """The groups of a sheet; the words of the steps stand in groups apart, as a page lights them up otherwise."""
-    return dict(groups(replace(frame.sheet, items=tuple(map(_parted, frame.sheet.items)))))
+def _poses(frames: Iterable[CycleFrame]) -> Iterator[Groups]:
+    """The groups of each sheet; the words of the steps stand in groups apart, as a page lights them up otherwise.
+
+    What is drawn alike in two poses that follow each other is one group.
+    """
+    drawn: dict[str, tuple[list[Item], Element]] = {}
+    for frame in frames:
+        sheet, before, drawn = replace(frame.sheet, items=tuple(map(_apart, frame.sheet.items))), drawn, {}
+        for key, items in parted(sheet):
+            was = before.get(str(key))
+            drawn[str(key)] = was if was and was[0] == items else (items, inked(sheet, key, items))
+        yield {key: element for key, (_, element) in drawn.items()}
 
 
-def _parted(item: Item) -> Item:
+def _apart(item: Item) -> Item:
     """Words of a step, in a layer of their own."""
     if isinstance(item, Text) and item.layer == "text" and item.step is not None:
         return replace(item, layer=f"words-{item.step}", step=None)
@@ -187,9 +197,10 @@ def _packed(found: CycleFrames, poses: list[Groups]) -> str:
     """
     if len(poses) < 2:
         return ""
-    insides = [{key: _inside(group) for key, group in pose.items()} for pose in poses]
+    inside = cache(_inside)
+    insides = [{key: inside(group) for key, group in pose.items()} for pose in poses]
     keys = dict.fromkeys(key for pose in poses for key in pose)
-    varied = {key: [inside.get(key, "") for inside in insides] for key in keys}
+    varied = {key: [pose.get(key, "") for pose in insides] for key in keys}
     data = {"groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
             "spots": list(map(_spots, found.frames))}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))

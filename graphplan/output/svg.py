@@ -6,7 +6,7 @@ same text.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
 from typing import Any
@@ -44,14 +44,23 @@ def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[s
 
     Steps that `number` gives the same one, as those of the pose's own points have 0, are one group.
     """
-    writer = _SheetWriter(sheet.height)
+    for key, items in parted(sheet, number):
+        yield str(key), inked(sheet, key, items)
+
+
+def parted(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str | int, list[Item]]]:
+    """The items of each group."""
     for key, items in groupby(sheet.items, lambda item: item.layer if item.step is None else number(item.step)):
-        drawn = list(items)
-        steps = dict.fromkeys(item.step for item in drawn if item.step is not None)
-        made = group(key, " ".join(sheet.sentences[step] for step in steps))
-        for item in drawn:
-            made.add(writer.item(item))
-        yield str(key), made
+        yield key, list(items)
+
+
+def inked(sheet: Sheet, key: str | int, items: Sequence[Item]) -> Element:
+    """A group of these items."""
+    writer, steps = _SheetWriter(sheet.height), dict.fromkeys(item.step for item in items if item.step is not None)
+    made = group(key, " ".join(sheet.sentences[step] for step in steps))
+    for item in items:
+        made.add(writer.item(item))
+    return made
 
 
 def group(key: str | int, sentence: str) -> Element:

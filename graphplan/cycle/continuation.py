@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from functools import cached_property
 from typing import NamedTuple
 
 import numpy as np
@@ -105,35 +106,30 @@ class Path:
         """The states of the knots nearest to n travels, shape (unknowns, n)."""
         return self._state[np.argmin(np.abs(self.travel - travel[:, None]), axis=1)].T
 
-    def prediction(self) -> Prediction:
-        """The states between the knots."""
-        steps = np.abs(np.diff(self._state, axis=0)).max(axis=1, initial=0)
-        return Prediction(self.travel, self._state, self._rate, np.maximum(steps, self._pace * np.diff(self.travel)))
-
-
-class Prediction:
-    """The states between knots, each by the knots around it (Hermite), and the length of the step around it."""
-
-    def __init__(self, travel: Array, state: Array, rate: Array, steps: Array):
-        self._travel, self._steps, width = travel, steps, min(_BESIDE, len(travel))
-        first = np.clip(np.arange(1 - width // 2, len(travel) - width // 2), 0, len(travel) - width)
-        around = np.arange(width)[:, None] + first
-        self._table = np.concatenate([*newton(travel[around][..., None], state[around], rate[around])], axis=1).T.copy()
-        self._nodes, self._shape = travel[around], (2 * width, state.shape[1])
-
-    def __call__(self, travel: Array) -> tuple[Array, Array]:
-        """The states at n travels, shape (unknowns, n), and the lengths (n,) of the steps around them."""
-        i = np.clip(np.searchsorted(self._travel, travel) - 1, 0, len(self._travel) - 2)
-        around, table = travel - self._nodes.take(i, axis=1), self._table.take(i, axis=1)
-        *rest, found = table.reshape(*self._shape, len(travel))
-        for k, coefficients in reversed([*enumerate(rest)]):
+    def predicted(self, travel: Array) -> tuple[Array, Array]:
+        """The states at n travels by the knots around each (Hermite), shape (unknowns, n), and the steps there."""
+        nodes, table, steps = self._between
+        i = np.clip(np.searchsorted(self.travel, travel) - 1, 0, len(self.travel) - 2)
+        around, coefficients = travel - nodes.take(i, axis=1), table.take(i, axis=1)
+        *rest, found = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
+        for k, coefficient in reversed([*enumerate(rest)]):
             found *= around[k // 2]
-            found += coefficients
-        return found, self._steps.take(i)
+            found += coefficient
+        return found, steps.take(i)
+
+    @cached_property
+    def _between(self) -> tuple[Array, Array, Array]:
+        """Between any two knots: those around, the coefficients of the curve through them, the length of the step."""
+        width = min(_BESIDE, len(self.travel))
+        first = np.arange(1 - width // 2, len(self.travel) - width // 2).clip(0, len(self.travel) - width)
+        around = np.arange(width)[:, None] + first
+        table = np.concatenate(divided(self.travel[around][..., None], self._state[around], self._rate[around]), axis=1)
+        steps = np.abs(np.diff(self._state, axis=0)).max(axis=1, initial=0)
+        return self.travel[around], table.T.copy(), np.maximum(steps, self._pace * np.diff(self.travel))
 
 
-def newton(travel: Array, state: Array, rate: Array) -> list[Array]:
-    """The coefficients, in Newton's form, of the polynomials through m knots with their rates; the first axis is m."""
+def divided(travel: Array, state: Array, rate: Array) -> list[Array]:
+    """The divided differences of m knots, the first axis, with their rates: the coefficients of Newton's polynomial."""
     nodes, column = travel.repeat(2, axis=0), np.empty((2 * len(travel) - 1, *state.shape[1:]))
     column[::2], column[1::2] = rate, (state[1:] - state[:-1]) / (travel[1:] - travel[:-1])
     found = [state[0], column[0]]

@@ -12,7 +12,7 @@ import numpy as np
 
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body
-from graphplan.cycle.continuation import Path, Prediction
+from graphplan.cycle.continuation import Path
 from graphplan.cycle.dyads import Failure, assembled
 from graphplan.cycle.groups import NEAR, SETTLED, SHRINKING, Group
 from graphplan.cycle.linkage import Array, Linkage
@@ -51,11 +51,10 @@ class Placing:
             return
         taped = machine or at.size > _FEW
         runs = [newton.for_many(group.layout, machine) if taped and group.unknowns else None for group in self.groups]
-        prediction = path.prediction()
         with np.errstate(all="ignore"):
             for start in range(0, len(at), BLOCK):
                 some = at[start : start + BLOCK]
-                self._followed(prediction, path.senses, travel[some], some, runs)
+                self._followed(path, travel[some], some, runs)
 
     def stand(self, path: Path, travel: Array, at: Array) -> None:
         """Take the poses `at` these places from the path: where one is singular, it cannot be closed."""
@@ -79,15 +78,14 @@ class Placing:
         _, found = assembled(self.linkage, self.groups, travel[at])
         self.failures += [(failure, at[missing]) for failure, missing in found]
 
-    def _followed(self, prediction: Prediction, senses: Array, travel: Array, at: Array,
-                  runs: Sequence[newton.Run | None]) -> None:
+    def _followed(self, path: Path, travel: Array, at: Array, runs: Sequence[newton.Run | None]) -> None:
         """One block."""
-        state, size = prediction(travel)
+        state, size = path.predicted(travel)
         bodies = {FRAME: Body()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
-            links, trusted = _settled(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size, senses[i],
-                                      NEAR * size, np.zeros(len(travel), dtype=bool), runs[i])
+            links, trusted = _settled(group, known, travel, state[self.ends[i] : self.ends[i + 1]], size,
+                                      path.senses[i], NEAR * size, np.zeros(len(travel), dtype=bool), runs[i])
             if not trusted.all():
                 why = Failure(group.part, "Newton's method does not stay on their branch")
                 self.failures.append((why, at[~trusted]))

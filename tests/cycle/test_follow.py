@@ -371,6 +371,23 @@ def test_whether_a_cycle_closes(scene: Scene, closed: bool) -> None:
     assert not follow(scene, 12, (0, 360)).closed
 
 
+def test_a_crank_alone_goes_round() -> None:
+    """Where nothing is to be closed, the drive alone says where all is."""
+    scene = gp.parse("""
+        [points]
+        O = [1, 2]
+        A = [4, 6]
+        [links]
+        1 = "O A"
+        frame = "O"
+        [[drive]]
+        link = "1"
+        omega = 1""", "crank")
+    turn = follow(scene, 8)
+    assert turn.closed
+    assert np.allclose(turn.points["A"], 1 + 2j + (3 + 4j) * np.exp(1j * turn.travel), rtol=1e-15, atol=0)
+
+
 def test_growth_is_linear() -> None:
     """Four times as many links take about four times as long, not sixteen times; the limits that they find differ."""
     def spent(links: int) -> float:

@@ -9,12 +9,15 @@ import numpy as np
 import pytest
 
 import graphplan as gp
+from graphplan.accuracy.survey.growth import chain
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.tape.blocks import BlockWriter
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.batch import Poses
 from graphplan.methods.motion.network import Network
+from graphplan.methods.replay import moving, replay_of
 
 GUIDED = """
 [points]
@@ -195,3 +198,15 @@ def test_machine_code_gives_what_numpy_gives(name: str) -> None:
     for kind, named in ours.results.items():
         assert all(np.array_equal(z, compiled.results[kind][of], equal_nan=True) for of, z in named.items())
 
+
+def test_a_long_chain_needs_no_more_registers() -> None:
+    """Velocity and acceleration of a joint stand together, so that a block keeps as few numbers for sixty links as for
+    twenty: a pose's time is linear in its steps."""
+    def registers(links: int) -> int:
+        drawing = gp.construct(chain(links // 2 - 1), checked=False)
+        reading = replay_of(drawing, tuple(key for item in moving(drawing) for part in item.parts for key in part),
+                            ("velocity", "acceleration"))
+        assert reading is not None
+        return BlockWriter(reading.tape, reading.inputs, reading.outputs).registers
+
+    assert registers(20) == registers(60) < 30

@@ -1,8 +1,8 @@
 """A tape as machine code: one loop in the assembly language of LLVM, which numba brings, several poses at a time.
 
 The statements are vector instructions already, so that LLVM has but to choose registers: numba, given the same
-statements in Python, takes a hundred times as long. Complex arrays are read and written where they stand. A question
-sets a mask; nothing leaves the loop.
+statements in Python, takes some fifty times as long, and does not see that arrays are apart. Complex arrays are read
+and written where they stand. A question sets a mask; nothing leaves the loop.
 """
 
 from __future__ import annotations

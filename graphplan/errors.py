@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import lru_cache
 
 
 def printable(text: str) -> str:
@@ -18,6 +19,7 @@ def printable(text: str) -> str:
 Key = tuple[tuple[int, int, str], ...]
 
 
+@lru_cache(1 << 15)
 def by_name(name: str) -> Key:
     """The key by which names are ordered: numbers in them by size, so that 10 comes after 9."""
     parts = re.findall(r"\d+|\D+", name)

@@ -186,7 +186,8 @@ class Expander:
                 return None
             if not self._agrees(op, args, self.value(out), truth, before, rating.sharpest):
                 return None
-            made = {index: how for index, how in self._made.items() if index >= before}
+            drawn = range(before, len(self.board.steps))
+            made = {index: self._made[index] for index in drawn if index in self._made}
             return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:], made,
                            board.letters)
         except (Undrawable, ZeroDivisionError):
@@ -195,11 +196,10 @@ class Expander:
             return Attempt(Rating(form, int(self._limit) + 1 - before, left_off=True))
         finally:
             self._limit = limit
-            drawn = len(self.board.steps)
+            for index in range(before, len(self.board.steps)):
+                self._made.pop(index, None)
             self.board.rewind(before)
             del self.values[before:], self.reach[before:]
-            for index in range(before, drawn):
-                self._made.pop(index, None)
 
     def _reach(self, step: Step) -> float:
         """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts.

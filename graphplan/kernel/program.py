@@ -177,7 +177,7 @@ class Board(Verbs):
             raise TypeError(f"{op.name} reads {op.reads}, was given {kinds}")
         if params.keys() != set(op.params):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
-        if any(arg.board is not self for arg in args):
+        if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
         places = tuple([step.index for step in read])
         key = _key(op, places, params)

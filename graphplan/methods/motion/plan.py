@@ -49,6 +49,7 @@ class MotionPlan:
         self.board, self.net, self.pose, self.tempo = board, net, pose, tempo
         self.ends: dict[BodyPoint, Mark] = {}
         self.loci: dict[Locus, Mark] = {}
+        self._located: set[BodyPoint] = set()
         self.prime = ""  # of the letters in a trial figure
         self.known: dict[str, tuple[BodyPoint, ...]] = dict.fromkeys(net.members, ())
         self._told: set[tuple[str, str]] = set()
@@ -124,8 +125,7 @@ class MotionPlan:
     def draw(self, planned: Iterable[Move]) -> None:
         for group in self.stages.grouped(planned):
             place = self.stages.place(group[-1])
-            located = any(known == place for known, _ in self.loci)
-            stage = partial(self.stages.tell, group, self.prime, located)
+            stage = partial(self.stages.tell, group, self.prime, place in self._located)
             for move in group:
                 with self.board.on(self.panel, self._links(move), stage):
                     if isinstance(move, moves.FalsePosition):
@@ -198,6 +198,7 @@ class MotionPlan:
         if mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
             self.board.annotate(mark.step.index, why=law)
         self.loci[locus] = mark
+        self._located.add(locus[0])
 
     def point(self, place: BodyPoint) -> Mark:
         """The place on the mechanism plan."""

@@ -80,6 +80,8 @@ class Expander:
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
         self.panel = Panel()
+        self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
+        self.serves: list[int] = []
         self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 
@@ -95,7 +97,9 @@ class Expander:
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             place.append(self.board.named(mark, step.name))
-        return Program(tuple(self.board.steps), tuple(place[index].step.index for index in self.program.wanted))
+            self.serves += [step.index] * (len(self.board.steps) - len(self.serves))
+        self.place = [mark.step.index for mark in place]
+        return Program(tuple(self.board.steps), tuple(self.place[index] for index in self.program.wanted))
 
     def _params(self, step: Step, args: tuple[Mark, ...]) -> Mapping[str, Any]:
         """A step's parameters, turned round where the line that it reads runs the other way than in the program.

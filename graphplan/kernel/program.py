@@ -278,7 +278,7 @@ class Program:
     def sentence(self, index: int) -> Said:
         """A step in words, in the letters of the sheet."""
         step = self.steps[index]
-        params = {name: _plain(value) for name, value in step.params.items()}
+        params = {name: worded(value) for name, value in step.params.items()}
         marks = [self.text(arg) for arg in step.args]
         return step.op.spoken(marks, out=self.text(index), **params)
 
@@ -299,7 +299,7 @@ def _joins(name: str) -> bool:
     return bool(name) and not (len(letters) > 1 and letters.isalpha())
 
 
-def _plain(value: Any) -> str:
+def worded(value: Any) -> str:
     """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
     if isinstance(value, str):
         return CHOICES.get(value, value)

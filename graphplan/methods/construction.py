@@ -14,7 +14,7 @@ from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Panel, Program, evaluate, gathered
+from graphplan.kernel.program import Panel, Program, Step, evaluate, gathered, worded
 from graphplan.methods import kinds
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, LeverPlan
 from graphplan.methods.recorded import Recorded
@@ -88,9 +88,24 @@ class Construction(Recorded, Given):
         return Expander(self.program, self.truth, keep, windows, self.prefer)
 
     @cached_property
-    def _gathered(self) -> tuple[Program, list[Any]]:
+    def _gathered(self) -> tuple[Program, list[Any], list[int]]:
         program, order = gathered(self._expander.run())
-        return program, [self._expander.values[index] for index in order]
+        return program, [self._expander.values[index] for index in order], order
+
+    @cached_property
+    def compounds(self) -> list[tuple[Said, list[Step]]]:
+        """The compounds that take several movements, each in words and with these, by its first in drawing order."""
+        drawn, _, order = self._gathered
+        now = {before: index for index, before in enumerate(order)}
+        place, whole = [now[before] for before in self._expander.place], dict[int, list[Step]]()
+        for step, before in zip(drawn.steps, order, strict=True):
+            whole.setdefault(self._expander.serves[before], []).append(step)
+
+        def words(one: Step) -> Said:
+            told = {name: worded(value) for name, value in one.params.items()}
+            return one.op.spoken([drawn.text(place[arg]) for arg in one.args], out=drawn.text(place[one.index]), **told)
+
+        return [(words(self.program.steps[index]), steps) for index, steps in whole.items() if len(steps) > 1]
 
     @cached_property
     def broken(self) -> str:

@@ -68,7 +68,8 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     and where on the paper."""
     drawing, say = composition.plans.drawing, composition.plans.tongue
     drawn, entries = drawing.drawn, []
-    stage_of = {step.index: number for number, (_, steps) in enumerate(drawn.stages) for step in steps}
+    stage_of, compound_of = ({step.index: number for number, (_, steps) in enumerate(of) for step in steps}
+                             for of in (drawn.stages, drawing.compounds))
     for plate in composition.plates.steps:
         step, number = plate.step, stage_of.get(plate.index)
         entries.append({
@@ -82,6 +83,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "sentence": plate.sentence,
             "stage": number,
             "why": say(step.why or ("" if number is None else drawn.stages[number][0].law)),
+            "compound": compound_of.get(plate.index),
             "form": str(step.choice or ""),
             "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
             "links": list(step.links),
@@ -97,6 +99,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "forms": list(map(say, drawing.forms)),
         "cost": say(counts(drawn).told),
         "stages": [_stage(stage, say) for stage, _ in drawn.stages],
+        "compounds": [say(sentence) for sentence, _ in drawing.compounds],
         "steps": entries,
     }
 

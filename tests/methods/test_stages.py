@@ -17,6 +17,7 @@ from graphplan.kernel.program import Program
 from graphplan.kernel.stages import Equation, Known, Stage
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construct import construct
+from graphplan.methods.construction import Construction
 
 FREE = {Known.WHOLLY: 0, Known.DIRECTION: 1, Known.LOCUS: 1, Known.NOTHING: 2}
 TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
@@ -28,8 +29,12 @@ TEXTBOOK = {  # scenes with some of their equations, as they are found by hand
 
 
 @cache
+def drawing_of(name: str) -> Construction:
+    return construct(gp.load(name))
+
+
 def program(name: str) -> Program:
-    return construct(gp.load(name)).drawn
+    return drawing_of(name).drawn
 
 
 @pytest.mark.parametrize("name", TEXTBOOK)
@@ -46,6 +51,23 @@ def test_a_form_is_named_in_the_title() -> None:
             "Normal acceleration of F about B, by the right triangle", "Velocity of C"} <= titles
     trial = construct(gp.load("alt-eight-link"), method="trial").drawn
     assert "Trial figure of link 3, locus of v_c" in {str(stage.title) for stage, _ in trial.stages}
+
+
+def test_compounds_are_told_as_one_step() -> None:
+    """What takes several movements is told in one sentence, in the letters and numbers of its movements."""
+    drawing = drawing_of("slider-crank")
+    told = {str(words): [drawing.drawn.number(step.index) for step in steps] for words, steps in drawing.compounds}
+    assert told["Construct the relative normal acceleration of B about A by the relative velocity from point 12 to "
+                "v_b; from a lay it off: mark b."] == [13, 14, 15, 16, 17, 18, 19, 23]
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_a_compound_stands_in_one_stage(name: str) -> None:
+    """The movements of a compound are of one stage, and none is a part of two compounds."""
+    compounds = [steps for _, steps in drawing_of(name).compounds]
+    assert compounds
+    assert all(len({step.stage for step in steps}) == 1 for steps in compounds)
+    assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))
 
 
 @pytest.mark.parametrize("name", packaged())

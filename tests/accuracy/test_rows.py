@@ -6,6 +6,7 @@ import csv
 import io
 from dataclasses import replace
 from fractions import Fraction
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -93,6 +94,17 @@ def test_forms_of_a_four_bar(four_bar: Scene) -> None:
     best = [row for row in rows if row.front]
     assert min(row.operations or 0 for row in rows) in {row.operations for row in best}
     assert min(row.error or 0.0 for row in rows) in {row.error for row in best}
+
+
+def test_the_gallery_has_what_the_command_gives() -> None:
+    """The rows of a scene in the gallery's table are those that are measured today, to the last digits."""
+    shown = Path(__file__).parents[2] / "gallery" / "charts" / "draughtsman.csv"
+    with shown.open(encoding="utf-8") as file:
+        rows = [row for row in csv.DictReader(file) if row["scene"] == "slider-crank"]
+    found = drafts(load("slider-crank"), Pencil())
+    assert [(row["plan"], row["tools"], row["operations"]) for row in rows] == [
+        (row.plan, row.tools, str(row.operations)) for row in found]
+    assert [float(row["error"]) for row in rows] == pytest.approx([row.error for row in found], rel=1e-9)
 
 
 def test_forms_that_are_not_drawn_have_a_reason() -> None:

@@ -7,7 +7,7 @@ along its guide, seats a link whole; a slide alone seats it but for its displace
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -48,6 +48,7 @@ class Group:
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
         self._run = newton.for_one(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
+        self._still = np.empty((len(self._flat), 0))  # the same for as many poses as were asked for
 
     # ---- one pose ---------------------------------------------------------------------------------------------
 
@@ -116,11 +117,16 @@ class Group:
     def _replayed(self, known: Sequence[Body], drives: Sequence[closure.Drive], numbers: Sequence[Any], run: newton.Run,
                   n: int) -> tuple[Array, Array, list[Body]]:
         """The same by the tape."""
-        vectors = [part for body in known[1:] for part in (body.base, body.turn or (1.0, 0.0))]
-        flat = [number for part in (*vectors, *self.arms, *(drive.at for drive in drives), *numbers)
-                for number in (part if isinstance(part, tuple) else (part,))]
+        def arrays(vectors: Iterable[Any]) -> Iterator[Array]:
+            for number in (number for part in vectors for number in (part if isinstance(part, tuple) else (part,))):
+                yield number if isinstance(number, np.ndarray) else np.full(n, number)
+
+        if self._still.shape[1] < n:
+            self._still = np.repeat(np.array(self._flat)[:, None], n, axis=1)
+        bases = (part for body in known[1:] for part in (body.base, body.turn or (1.0, 0.0)))
+        moving = (*(drive.at for drive in drives), *numbers)
         found = np.empty((self.unknowns + 1 + 4 * len(self.links), n))
-        run.run([number if isinstance(number, np.ndarray) else np.full(n, number) for number in flat], list(found))
+        run.run([*arrays(bases), *self._still[:, :n], *arrays(moving)], list(found))
         corrections, (determinant, *lies) = found[: self.unknowns], found[self.unknowns:]
         links = [Body((x, y), (cos, sin)) for x, y, cos, sin in zip(*(lies[i::4] for i in range(4)), strict=True)]
         return corrections, determinant, links

@@ -66,7 +66,7 @@ class Counts:
 
 
 BY = {SET_SQUARES: phrase("by set squares {0}"), DIVIDERS: phrase("by dividers {0}"),
-      COMPASSES: phrase("by compasses {0}")}
+      COMPASSES: phrase("by compasses {0}"), STRAIGHTEDGE: phrase("by the straightedge {0}")}
 
 
 class Tally:

@@ -8,6 +8,7 @@ import pytest
 
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.expand import STRICT, Expander
+from graphplan.kernel.kinds import SCALE, TABLE
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import evaluate, freeze
@@ -70,3 +71,10 @@ def test_set_squares_are_counted_plainly() -> None:
     found = counts(freeze(board, [board.meet(board.parallel(l, C), board.perpendicular(l, B))]))
     assert not found.strict
     assert found.told == "3 operations: lines 1, arcs 0, by set squares 2"
+
+
+def test_what_no_form_draws_is_counted_by_its_instrument() -> None:
+    """A compound that stays one step, as no form of it serves in a pose, is told with its instrument whatever that is.
+    """
+    for instrument in {op.instrument for op in TABLE.values() if op.compound} - {SCALE}:
+        assert str(Counts(others={instrument: 3}).told).endswith(" 3")

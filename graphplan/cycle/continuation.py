@@ -15,7 +15,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from functools import cached_property
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -94,13 +94,13 @@ class Limit(NamedTuple):
 class Path:
     """The knots in order of travel, the given pose among them, and the limits at the ends, if any.
 
-    `travel` has the shape (knots,), `senses` are the signs of the groups' determinants; `pace` is that of the fastest
-    drive.
+    `travel` has the shape (knots,), `steps` are the lengths of the steps between them, `senses` the signs of the
+    groups' determinants.
     """
 
-    def __init__(self, knots: Sequence[Knot], senses: Array, lower: Limit | None, upper: Limit | None, pace: float):
+    def __init__(self, knots: Sequence[Knot], steps: Array, senses: Array, lower: Limit | None, upper: Limit | None):
         self.travel, self._state, self._rate = (np.array([knot[i] for knot in knots]) for i in range(3))
-        self.senses, self.lower, self.upper, self._pace = senses, lower, upper, pace
+        self.knots, self._steps, self.senses, self.lower, self.upper = knots, steps, senses, lower, upper
 
     def nearest(self, travel: Array) -> Array:
         """The states of the knots nearest to n travels, shape (unknowns, n)."""
@@ -108,24 +108,23 @@ class Path:
 
     def predicted(self, travel: Array) -> tuple[Array, Array]:
         """The states at n travels by the knots around each (Hermite), shape (unknowns, n), and the steps there."""
-        nodes, table, steps = self._between
+        nodes, table = self._between
         i = np.clip(np.searchsorted(self.travel, travel) - 1, 0, len(self.travel) - 2)
         around, coefficients = travel - nodes.take(i, axis=1), table.take(i, axis=1)
         *rest, found = coefficients.reshape(2 * len(nodes), self._state.shape[1], len(travel))
         for k, coefficient in reversed([*enumerate(rest)]):
             found *= around[k // 2]
             found += coefficient
-        return found, steps.take(i)
+        return found, self._steps.take(i)
 
     @cached_property
-    def _between(self) -> tuple[Array, Array, Array]:
-        """Between any two knots: those around, the coefficients of the curve through them, the length of the step."""
+    def _between(self) -> tuple[Array, Array]:
+        """Between any two knots: those around, and the coefficients of the curve through them."""
         width = min(_BESIDE, len(self.travel))
         first = np.arange(1 - width // 2, len(self.travel) - width // 2).clip(0, len(self.travel) - width)
         around = np.arange(width)[:, None] + first
         table = np.concatenate(divided(self.travel[around][..., None], self._state[around], self._rate[around]), axis=1)
-        steps = np.abs(np.diff(self._state, axis=0)).max(axis=1, initial=0)
-        return self.travel[around], table.T.copy(), np.maximum(steps, self._pace * np.diff(self.travel))
+        return self.travel[around], table.T.copy()
 
 
 def divided(travel: Array, state: Array, rate: Array) -> list[Array]:
@@ -146,6 +145,7 @@ class Continuation:
                  progress: Progress | None = None):
         self.linkage, self.groups = linkage, groups
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
+        self._angle = np.array([i < group.layout.angles for group in groups for i in range(group.unknowns)], dtype=bool)
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
         self.longest = _LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
                                       in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
@@ -166,36 +166,57 @@ class Continuation:
             up, upper = self._walk(start, self.upper, 0.0)
             down, lower = self._walk(start, upper.travel - TURN if closed and upper else self.lower, 0.5)
         self.progress(1.0)
-        return Path([*down[:0:-1], *up], np.sign(start.determinants), lower, upper, self.pace)
+        knots = [*down[:0:-1], *up]
+        travel, states = (np.array([knot[i] for knot in knots]) for i in range(2))
+        steps = self._size(np.diff(travel), np.diff(states, axis=0), states[:-1])
+        return Path(knots, steps, np.sign(start.determinants), lower, upper)
 
-    def _walk(self, start: Knot, goal: float, done: float) -> tuple[list[Knot], Limit | None]:
-        """The knots up to the goal, or to the limit before it."""
-        knots, at, step = [start], 0.0, math.copysign(_FIRST * self.longest, goal)
+    def state(self, path: Path, travel: float) -> Array | None:
+        """The state at this travel, which the path reaches, walked to from the nearest knot; none where rounding hides
+        it.
+        """
+        near = path.knots[int(np.argmin(np.abs(path.travel - travel)))]
+        with np.errstate(all="ignore"):
+            knots, limit = self._walk(near, travel)
+        return None if limit else knots[-1].state
+
+    def _walk(self, start: Knot, goal: float, done: float | None = None) -> tuple[list[Knot], Limit | None]:
+        """The knots up to the goal, or to the limit before it; `done` so much of the path."""
+        knots, at, step = [start], start.travel, math.copysign(_FIRST * self.longest, goal - start.travel)
         while at != goal:
             left = goal - at
             step = left if abs(left) <= abs(step) + self.finest else step
             travel = goal if step == left else at + step
             predicted = _ahead(knots[-_BACK:], travel)
-            size = self._size(knots[-1], predicted, travel)
+            size = float(self._size(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
             knot = self._closed(travel, predicted, size)
             if isinstance(knot, int) or not knot.regular(start):
                 step /= 2
                 if abs(step) < self.finest:
                     return self._stopped(knots, math.copysign(_ACROSS * self.longest, step))
                 continue
-            missed = np.abs(knot.state - predicted).max(initial=0.0) / size
+            missed = float(self._weighed(knot.state - predicted, predicted).max(initial=0.0)) / size
             if missed <= _EASY and 2 * abs(step) <= self.longest:
                 step *= 2
             elif missed > _HARD:
                 step /= 2
             knots.append(knot)
             at = travel
-            self.progress(done + at / goal / 2)
+            if done is not None:
+                self.progress(done + at / goal / 2)
         return knots, None
 
-    def _size(self, last: Knot, predicted: Array, travel: float) -> float:
-        """The length of a step: the largest change of an unknown or a drive; no more than a radian or a reach."""
-        return min(1.0, float(np.abs(predicted - last.state).max(initial=self.pace * abs(travel - last.travel))))
+    def _size(self, travel: Any, change: Array, state: Array) -> Any:
+        """The lengths of steps of some travels, by which states change: the largest change of an unknown or a drive.
+
+        It is no more than a radian or a reach.
+        """
+        return np.minimum(1.0, np.maximum(self._weighed(change, state).max(axis=-1, initial=0.0), self.pace * travel))
+
+    def _weighed(self, change: Array, state: Array) -> Array:
+        """The sizes of changes, beside the state where that is a displacement of more than a reach: it may be endless.
+        """
+        return np.abs(change) / np.where(self._angle, 1.0, np.maximum(1.0, np.abs(state)))
 
     def _closed(self, travel: float, predicted: Array, size: float) -> Knot | int:
         """The knot at this travel; the place of the first group in which Newton's method is not to be trusted there."""
@@ -222,7 +243,8 @@ class Continuation:
         before = next((knot for knot in reversed(knots) if abs(last.travel - knot.travel) >= abs(step)), start)
         travel = last.travel + step
         predicted = _ahead([before], travel)
-        beyond = self._closed(travel, predicted, self._size(before, predicted, travel))
+        beyond = self._closed(travel, predicted, 
+                              float(self._size(abs(travel - before.travel), predicted - before.state, before.state)))
         if isinstance(beyond, int) or (beyond.determinants / before.determinants > 0).all():
             i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
             return knots, Limit(last.travel, _SLACK * self.finest, self.linkage.parts[i], False)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import chain
 from typing import Any
 
 import numpy as np
@@ -78,7 +79,7 @@ class Group:
                 found = self.corrected(placed, travel, state)
             except (ZeroDivisionError, OverflowError, ValueError):  # singular, or a state that has gone to infinity
                 return None
-            far = max(map(abs, found.corrections), default=0.0)
+            far = self._far(found.corrections, state)
             if not far <= allowed or abs(found.determinant) < newton.NOTHING:
                 return None
             state = [value - correction for value, correction in zip(state, found.corrections, strict=True)]
@@ -86,6 +87,12 @@ class Group:
                 return state, found
             settled = far <= SETTLED * size
             allowed = NEAR * size if settled else SHRINKING * far
+
+    def _far(self, corrections: Sequence[float], state: Sequence[float]) -> float:
+        """The largest correction, as the path weighs changes."""
+        n = self._angles
+        far = (abs(a) / max(1.0, abs(b)) for a, b in zip(corrections[n:], state[n:], strict=True))
+        return max(chain(map(abs, corrections[:n]), far), default=0.0)
 
     # ---- many poses -------------------------------------------------------------------------------------------
 

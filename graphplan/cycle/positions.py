@@ -6,7 +6,7 @@ many more as it takes. Poses are placed in blocks that stay in the cache.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 
 import numpy as np
 
@@ -56,10 +56,18 @@ class Placing:
                 some = at[start : start + BLOCK]
                 self._followed(path, travel[some], some, runs)
 
-    def stand(self, path: Path, travel: Array, at: Array) -> None:
-        """Take the poses `at` these places from the path: where one is singular, it cannot be closed."""
-        some = travel[at]
-        state, bodies = path.nearest(some), {FRAME: Body()}
+    def retry(self, walked: Callable[[float], Array | None], travel: Array) -> None:
+        """Place the poses that failed by the states to which one can walk at their travels."""
+        lost = {place for _, at in self.failures for place in at.tolist()}
+        found = {place: state for place in sorted(lost) if (state := walked(float(travel[place]))) is not None}
+        if found:
+            at = np.array([*found])
+            self.stand(np.stack([*found.values()], axis=1), travel, at)
+            self.failures = [(failure, np.setdiff1d(poses, at)) for failure, poses in self.failures]
+
+    def stand(self, state: Array, travel: Array, at: Array) -> None:
+        """Take the poses `at` these places from states, (unknowns, n): where one is singular, it cannot be closed."""
+        some, bodies = travel[at], {FRAME: Body()}
         for i, group in enumerate(self.groups):
             known = [bodies[link] for link in (FRAME, *group.carriers)]
             self._enter(group, group.lie(known, some, state[self.ends[i] : self.ends[i + 1]]), bodies, at)
@@ -110,7 +118,9 @@ def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, s
     if not group.unknowns:
         return group.lie(known, travel, state), np.ones(len(travel), dtype=bool)
     corrections, determinant, links = group.step(known, travel, state, run)
-    far = np.abs(corrections).max(axis=0)
+    far, n = np.abs(corrections), group.layout.angles
+    far[n:] /= np.maximum(1.0, np.abs(state[n:]))  # as the path weighs changes
+    far = far.max(axis=0)
     trusted = (far <= allowed) & (np.sign(determinant) == sense)
     again = np.flatnonzero(trusted & ~settled & (far * far > _CLOSED * size))
     if again.size:

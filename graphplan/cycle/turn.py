@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -58,12 +59,15 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     groups = [Group(linkage, part) for part in linkage.parts]
     closed = span is None and closes(scene, linkage.paces)
     ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
-    path = Continuation(linkage, groups, *ends, progress).path(closed)
+    continuation = Continuation(linkage, groups, *ends, progress)
+    path = continuation.path(closed)
     course = Course(scene, path, travel, closed)
     slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
     placing = Placing(linkage, groups, positions, [slide.along for slide in slides])
     placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
-    placing.stand(path, course.at, np.flatnonzero(course.knots))
+    placing.retry(partial(continuation.state, path), course.at)
+    knots = np.flatnonzero(course.knots)
+    placing.stand(path.nearest(course.at[knots]), course.at, knots)
     placing.refuse(course.at, np.flatnonzero(~course.reached))
     for array in (*placing.points.values(), *placing.turns.values()):
         for _, lost in placing.failures:

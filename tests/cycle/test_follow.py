@@ -388,6 +388,22 @@ def test_a_crank_alone_goes_round() -> None:
     assert np.allclose(turn.points["A"], 1 + 2j + (3 + 4j) * np.exp(1j * turn.travel), rtol=1e-15, atol=0)
 
 
+def test_a_block_that_runs_to_infinity_stops_at_its_limit() -> None:
+    """A slot turns parallel to the guide of its block: the limit is as near as the determinant tells, 2^-22 of it."""
+    slot = gp.parse("""
+title = "a block in a slot"
+points = { O = [0, 0], B = [1, 1] }
+links = { 1 = "O", 2 = "B", 3 = "B", frame = "O" }
+slides = [{ link = "2", along = "1", at = "B", direction = [1, 1] },
+          { link = "3", along = "frame", at = "B", direction = [1, 0] }]
+drive = [{ link = "1", omega = 1 }]
+""", "slot")
+    turn = follow(slot, 3, (-45 + 1e-5, 135 - 1e-5))
+    assert not turn.faults
+    assert np.allclose(turn.points["B"], 1 / np.tan(turn.travel + np.pi / 4) + 1j)
+    assert set(follow(slot, 2, (-45 + 9e-6, 135 - 9e-6)).faults) == {0, 1}
+
+
 def test_growth_is_linear() -> None:
     """Four times as many links take about four times as long, not sixteen times; the limits that they find differ."""
     def spent(links: int) -> float:

@@ -1,0 +1,47 @@
+"""Any linkage is followed as far as it can move, and what its pairs hold together stays together on the way."""
+
+from __future__ import annotations
+
+import math
+from itertools import combinations
+
+import numpy as np
+import pytest
+from linkages import scenes
+
+from graphplan.cycle import follow
+from graphplan.mechanism.model import Scene
+
+LINKAGES = range(0, 160, 20)  # the last of them has a pose near a limit to which one step does not lead
+TOGETHER = 20
+TRAVEL = (-90.0, 120.0)  # degrees, or lengths
+CLOSE = 1e-10  # of the largest distance between points
+
+
+def torn(scene: Scene, points: dict[str, np.ndarray]) -> float:
+    """The largest change of a distance between two points of a link, beside the largest distance in the given pose."""
+    given = {name: complex(*map(float, at)) for name, at in scene.points.items()}
+    reach = max(abs(one - other) for one in given.values() for other in given.values()) or 1.0
+    pairs = [pair for names in scene.links.values() for pair in combinations(names, 2)]
+    changes = (np.abs(points[one] - points[other]) - abs(given[one] - given[other]) for one, other in pairs)
+    return max((float(np.nanmax(np.abs(change), initial=0)) for change in changes), default=0.0) / reach
+
+
+@pytest.mark.parametrize("first", LINKAGES)
+def test_linkages_are_followed_up_to_their_limits(first: int) -> None:
+    """Links keep their figures in every pose, and only at a limit and beyond it there is none."""
+    for seed in range(first, first + TOGETHER):
+        scene = next(scenes(seed, orders=1))
+        if not scene.drives[0].rate:  # it leads no others
+            continue
+        turn = follow(scene, 24, TRAVEL)
+        assert torn(scene, turn.points) < CLOSE, f"linkage {seed}"
+        assert all("limit position" in why or "change point" in why for why in turn.faults.values()), f"linkage {seed}"
+
+
+@pytest.mark.parametrize("seed", [154])
+def test_a_pose_to_which_one_step_does_not_lead_is_walked_to(seed: int) -> None:
+    """Near a limit the curve through the knots may not tell a pose well enough: smaller steps from a knot do."""
+    turn = follow(next(scenes(seed, orders=1)), 48)
+    assert not turn.faults
+    assert math.isclose(turn.travel[2], math.radians(15))

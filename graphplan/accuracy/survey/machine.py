@@ -122,9 +122,9 @@ RIVAL, FRONT = Look(RED, "diamond", hollow=True, size=3.0), Look(GREY, width=0.3
 BY_RULES = ("rules, one pose", "rules, many poses")  # which the replay has replaced: in the details alone
 REMARKS = (
     "Left is faster, lower is more accurate; left of and below the line is nothing. Each mark is a median over scenes "
-    "with its quartiles: of ours over all packaged scenes, of other programs over those of the bench. Times are beside "
-    "LAPACK, which solves the equations of the same scene for many poses at once in the same run; errors are the "
-    "largest of any number in five poses beside the largest of its kind, against fractions."
+    "with its quartiles: of ours over all packaged scenes, of other programs over as many of the bench as stand in "
+    "brackets. Times are beside LAPACK, which solves the equations of the same scene for many poses at once in the "
+    "same run; errors are the largest of any number in five poses beside the largest of its kind, against fractions."
 )
 DETAILS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, 1 being the "
@@ -145,8 +145,9 @@ def _medians(rows: Sequence[Measure]) -> Iterator[Series]:
     """The front, and each arithmetic by its median over the scenes: of the form that the pose chooses for itself."""
     chosen = [row for row in rows if row.time is not None and row.arithmetic not in BY_RULES
               and row.plan in ("", MOTION_PLANS[0]) and row.form.split(", ")[0] in ("", "pose's own", "every method")]
+    several = grouped(chosen, "arithmetic")
     found = {name: median([(row.time, row.error) for row in of if row.time is not None and row.error is not None])
-             for name, of in grouped(chosen, "arithmetic").items()}
+             for name, of in several.items()}
     middles = [middle for middle, _, _ in found.values()]
     best = stairs(front(middles), (max(x for x, _ in middles), max(y for _, y in middles)))
     ends = {middle: name for name, (middle, _, _) in found.items()}
@@ -155,7 +156,8 @@ def _medians(rows: Sequence[Measure]) -> Iterator[Series]:
     for name, (middle, low, high) in found.items():
         spot, *corners = ((x, _level(y, name)) for x, y in (middle, low, high))
         look = OWN if name in ARITHMETICS else SOLVERS_OWN if name in SOLVERS else RIVAL
-        yield Series(look, (spot,), ((corners[0], corners[1]),), label="" if isinstance(spot[1], str) else name)
+        label = "" if isinstance(spot[1], str) else f"{name} ({len(several[name])})" if look is RIVAL else name
+        yield Series(look, (spot,), ((corners[0], corners[1]),), label=label)
 
 
 def details(rows: Sequence[Measure]) -> Chart:

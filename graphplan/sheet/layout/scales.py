@@ -12,7 +12,6 @@ are 1, 2, 3, 5 and powers of ten, as the sources draw vectors two or three times
 from __future__ import annotations
 
 import math
-from bisect import bisect_right
 from dataclasses import dataclass
 from fractions import Fraction
 
@@ -24,8 +23,7 @@ VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acc
 SPEED = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
 SHARPNESS = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
 SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
-WHOLE = tuple(m * 10**n for n in range(12) for m in (1, 2, 3, 5))
-MULTIPLES = (*(Fraction(1, m) for m in reversed(WHOLE)), *map(Fraction, WHOLE[1:]))
+SIMPLE = (1, 2, 3, 5)
 
 
 def round_up(least: float) -> float:
@@ -39,7 +37,12 @@ def round_up(least: float) -> float:
 
 def multiple_below(most: float) -> Fraction:
     """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
-    return MULTIPLES[max(bisect_right(MULTIPLES, most * (1 + 1e-9), key=float) - 1, 0)]
+    most *= 1 + 1e-9
+    if most >= 1:
+        whole = 10 ** math.floor(math.log10(most))
+        return Fraction(max(m * whole for m in SIMPLE if m * whole <= most))
+    whole = 10 ** math.floor(math.log10(1 / most))
+    return Fraction(1, min(m * whole for m in (*SIMPLE, 10) if m * whole * most >= 1))
 
 
 SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")

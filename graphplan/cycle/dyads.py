@@ -4,7 +4,8 @@ The outer joints are called A and C, the inner one B; any of them may be a slide
 point lies, or which way along it, is read once from the given pose: it stays so on the whole path, since it can only
 change at a limit.
 
-Poses that the path does not reach are assembled so, as far as driven links and dyads go, to say what prevents them.
+Where all groups are such, the poses on the path are assembled so; of those that it does not reach this says what
+prevents them.
 """
 
 from __future__ import annotations
@@ -140,11 +141,13 @@ def _rrr(A: Hinge, B: Hinge, C: Hinge) -> tuple[Placed, Placed, str]:
     """B lies on a circle about A and on a circle about C."""
     a, b, c = A.place, B.place, C.place
     side = 1 if ((c - a).conjugate() * (b - a)).imag > 0 else -1
-    AC = C.at - A.at
+    from_a, from_c = A.at, C.at
+    AC = from_c - from_a
     span = AC.real**2 + AC.imag**2
     along = (abs(b - a) ** 2 - abs(b - c) ** 2 + span) / (2 * span)
-    at = A.at + AC * (along + 1j * side * np.sqrt(abs(b - a) ** 2 / span - along**2))
-    return (Placed(b, at, (at - A.at) / (b - a)), Placed(b, at, (at - C.at) / (b - c)),
+    AB = AC * (along + 1j * side * np.sqrt(abs(b - a) ** 2 / span - along**2))
+    at = from_a + AB
+    return (Placed(b, at, AB * (1 / (b - a))), Placed(b, at, (at - from_c) * (1 / (b - c))),
             f"the circles about {A.name} and {C.name} do not meet")
 
 
@@ -152,9 +155,10 @@ def _rrp(A: Hinge, B: Hinge, guide: Hinge) -> tuple[Placed, Placed, str]:
     """B lies on a circle about A, and on a line of the guide's link along the guide."""
     a, b, path = A.place, B.place, guide.on.at(B.place)
     way = 1 if (guide.along.conjugate() * (b - a)).real > 0 else -1
-    off = (A.at - path) * guide.ray.conj()
-    at = path + guide.ray * (off.real + way * np.sqrt(abs(b - a) ** 2 - off.imag**2))
-    return (Placed(b, at, (at - A.at) / (b - a)), guide.on.beside(b, at),
+    from_a, ray = A.at, guide.ray
+    off = (from_a - path) * ray.conj()
+    at = path + ray * (off.real + way * np.sqrt(abs(b - a) ** 2 - off.imag**2))
+    return (Placed(b, at, (at - from_a) * (1 / (b - a))), guide.on.beside(b, at),
             f"the circle about {A.name} does not meet the line of {B.name} along link {guide.carrier}")
 
 

@@ -1,12 +1,13 @@
 """Placing: the links and points of many poses, group after group in the order of motion transfer.
 
-The states of groups are predicted from the knots of the path and closed by Newton's step; where that was long, by as
-many more as it takes. Poses are placed in blocks that stay in the cache.
+Linkages of driven links and plain dyads alone are assembled by the compass rules. Of all others the states of groups
+are predicted from the knots of the path and closed by Newton's step; where that was long, by as many more as it takes;
+where it is not to be trusted, the pose is walked to. Poses are placed in blocks that stay in the cache.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -34,11 +35,13 @@ class Placing:
     `failures` tells for each group that could not be placed in which poses.
     """
 
-    def __init__(self, linkage: Linkage, groups: Sequence[Group], n: int, turning: Sequence[str]):
+    def __init__(self, linkage: Linkage, groups: Sequence[Group], n: int, turning: Iterable[str]):
         self.linkage, self.groups = linkage, groups
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
-        self.points = {point: np.full(n, np.nan, dtype=complex) for point in linkage.places}
-        self.turns = {link: np.full(n, np.nan, dtype=complex) for link in turning}
+        links = dict.fromkeys(turning)
+        rows = np.empty((len(linkage.places) + len(links), n), dtype=complex)  # one large piece of memory is had faster
+        self.points = dict(zip(linkage.places, rows, strict=False))
+        self.turns = dict(zip(links, rows[len(linkage.places):], strict=True))
         self.failures: list[tuple[Failure, Array]] = []
         self.owned = {link: [(point, linkage.places[point] - linkage.origins[link]) for point in linkage.points(link)
                              if link == min(linkage.scene.links_of[point], key=linkage.order.__getitem__)]
@@ -47,14 +50,29 @@ class Placing:
     def follow(self, path: Path, travel: Array, at: Array, machine: bool) -> None:
         """Place the poses `at` these places, which the path reaches; by machine code if asked for."""
         self._stay(at)
-        if not at.size:
+        blocks = [at[start : start + BLOCK] for start in range(0, len(at), BLOCK)]
+        if not blocks or self._assembled(travel, blocks):
             return
         taped = machine or at.size > _FEW
         runs = [newton.for_many(group.layout, machine) if taped and group.unknowns else None for group in self.groups]
         with np.errstate(all="ignore"):
-            for start in range(0, len(at), BLOCK):
-                some = at[start : start + BLOCK]
+            for some in blocks:
                 self._followed(path, travel[some], some, runs)
+
+    def _assembled(self, travel: Array, blocks: Sequence[Array]) -> bool:
+        """Place blocks of poses by compass rules, which need no path; not where some group is no plain dyad."""
+        for some in blocks:
+            placed, found = assembled(self.linkage, self.groups, travel[some])
+            if len(placed) < len(self.linkage.links):
+                return False
+            self.failures += [(failure, some[missing]) for failure, missing in found if missing.any()]
+            where = _together(some)
+            for link in self.linkage.links[1:]:
+                for point, _ in self.owned[link]:
+                    self.points[point][where] = placed[link].at(self.linkage.places[point])
+            for link, array in self.turns.items():
+                array[where] = placed[link].turn
+        return True
 
     def retry(self, walked: Callable[[float], Array | None], travel: Array) -> None:
         """Place the poses that failed by the states to which one can walk at their travels."""
@@ -110,6 +128,12 @@ class Placing:
                 array.real[at], array.imag[at] = x + a, y + b
             if link in self.turns:
                 self.turns[link].real[at], self.turns[link].imag[at] = body.turn or (1.0, 0.0)
+
+
+def _together(places: Array) -> slice | Array:
+    """Places as a slice if they follow each other: arrays are then written much faster."""
+    first, last = int(places[0]), int(places[-1])
+    return slice(first, last + 1) if last - first == len(places) - 1 else places
 
 
 def _settled(group: Group, known: Sequence[Body], travel: Array, state: Array, size: Array, sense: float,

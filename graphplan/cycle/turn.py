@@ -69,9 +69,11 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     knots = np.flatnonzero(course.knots)
     placing.stand(path.nearest(course.at[knots]), course.at, knots)
     placing.refuse(course.at, np.flatnonzero(~course.reached))
+    lost = ~course.reached
+    for _, at in placing.failures:
+        lost[at] = True
     for array in (*placing.points.values(), *placing.turns.values()):
-        for _, lost in placing.failures:
-            array[lost] = complex(np.nan, np.nan)
+        array[lost] = complex(np.nan, np.nan)
     points = {name: placing.points[name] for name in scene.points}
     guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
     points |= {name: points[at] for name, at in _under(scene).items()}

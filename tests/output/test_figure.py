@@ -10,7 +10,8 @@ from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, apart, coordinates, dr
 
 import graphplan as gp
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.formula import Language, formula, operations
+from graphplan.kernel.tape.written import PYTHON
+from graphplan.output.exports.formula import formula
 from graphplan.output.exports.walk import corners, identifiers
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
@@ -18,8 +19,6 @@ from graphplan.sheet.plates.display import Arrow, Polygon, Polyline
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.pens import LINK
 from graphplan.sheet.plates.symbols import turn
-
-PYTHON = Language(repr, operations("sqrt({})", "abs({})", "(0.0 if abs({0}) <= {2} * {1} else copysign(1.0, {0}))"))
 
 
 @pytest.mark.parametrize("shared", ["t", ""], ids=["terms by name", "written in full"])

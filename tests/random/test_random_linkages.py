@@ -18,7 +18,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import construct
 from graphplan.solver import Rates, solve
 
-LINKAGES = int(os.environ.get("LINKAGES", "60"))
+LINKAGES = int(os.environ.get("LINKAGES", "100"))
 TOGETHER = 20  # linkages to a test
 LONGEST = 5.0  # seconds for one construction and its numbers
 STYLES = [(method, plan) for plan in ("orthogonal", "polar", "") for method in ("", "trial", "auxiliary", "poles")]

@@ -24,7 +24,7 @@ from graphplan.methods.panels import JointForce
 from graphplan.methods.styles import INERTIA
 from graphplan.solver import Reactions, reactions, with_friction
 
-LINKAGES = int(os.environ.get("LINKAGES", "20"))
+LINKAGES = int(os.environ.get("LINKAGES", "40"))
 TOGETHER = 20  # linkages to a test
 STYLES = [(plan, inertia) for plan in ("", "lever", "polygons", "polar", "polar,lever", "polar,polygons")
           for inertia in INERTIA]

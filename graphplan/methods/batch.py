@@ -17,7 +17,6 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.methods.motion.network import Network
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
@@ -164,7 +163,7 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     shapes = {array.shape for array in (*arrays.values(), *directions.values())} or {(1,)}
     if len(shapes) > 1 or len(next(iter(shapes))) != 1:
         raise Refused("poses", f"the arrays have the shapes {sorted(shapes)}", "one array of shape (n,) a point")
-    for name, at in _shared(construction).items():  # one mark serves both
+    for name, at in construction.shared.items():  # one mark serves both
         if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
@@ -173,14 +172,6 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     for name, z in directions.items():
         given |= {step: _parts(z, "dx", "dy") for step in guide_steps(construction, slides[name])}
     return next(iter(shapes))[0], given
-
-
-def _shared(construction: Recorded) -> dict[str, str]:
-    """The points that lie where another one does, found once."""
-    found: dict[str, dict[str, str]] = construction.__dict__
-    if "_shared" not in found:
-        found["_shared"] = Network(construction.scene).shared
-    return found["_shared"]
 
 
 def _poses(z: Any) -> Any:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields
+from functools import cached_property
 from typing import Any, NamedTuple
 
 from graphplan.kernel.numbers import Domain
@@ -12,6 +13,7 @@ from graphplan.kernel.program import Program, Step, evaluate
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind
+from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.time_scale import Tempo
 
 ASIDE = 40  # numbers: some hundreds of bytes
@@ -45,6 +47,11 @@ class Recorded:
     readings: tuple[Reading, ...]
     turned: bool
     phi: Number = 1
+
+    @cached_property
+    def shared(self) -> dict[str, str]:
+        """The points that lie where another one does, each with that one."""
+        return Network(self.scene).shared
 
     def read(self, domain: Domain, given: Mapping[Any, Mapping[str, Any]] | None = None,
              after: Callable[[Step], None] | None = None) -> dict[str, dict[str, Any]]:

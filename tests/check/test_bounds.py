@@ -21,7 +21,7 @@ from graphplan.mechanism.model import FRAME, Drive, Scene
 from graphplan.mechanism.scene import load, packaged, parse
 
 RATIONAL = [name for name in packaged() if not load(name).irrational]
-DISTANCES = tuple(10.0**-k for k in range(3, 15, 2))
+DISTANCES = tuple(10.0**-k for k in range(3, 15))
 MILLION = Fraction(10**6)
 
 FLAT = """

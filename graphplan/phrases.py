@@ -10,7 +10,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Any
 
-PHRASES, STEPS, UNITS, TITLES = "phrases", "steps", "units", "titles"  # the sections of a catalogue
+PHRASES, STEPS, UNITS, TITLES, NUMBERS = "phrases", "steps", "units", "titles", "numbers"  # sections of a catalogue
+SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class Said(str):
@@ -73,6 +74,25 @@ def sentence(op: str, english: str, put: Iterable[Any], named: dict[str, Any]) -
 def unit(symbol: str) -> Said:
     """A unit of measure, such as mm/s²."""
     return Said(symbol, UNITS, symbol)
+
+
+def figures(written: str) -> Said:
+    """Numbers as they are written in English: other tongues have other signs for their decimals, and between them."""
+    return Said(written, NUMBERS, written)
+
+
+def digits(value: float, count: int = 4) -> Said:
+    """A number in at most `count` significant digits, with a power of ten only where it is very large or small."""
+    text = f"{value + 0.0:.{count}g}"
+    mantissa, _, power = text.partition("e")
+    if power and not 0 < int(power) < 7:
+        return figures(f"{mantissa.replace('-', '−')}·10{str(int(power)).translate(SUPERSCRIPTS)}")
+    return figures((f"{float(text):.0f}" if power else text).replace("-", "−"))
+
+
+def coordinates(values: Iterable[float], count: int = 4) -> Said:
+    """The coordinates of a point, or the components of a vector, in brackets."""
+    return figures(f"({', '.join(digits(value, count) for value in values)})")
 
 
 def arranged(pattern: str, /, *put: Any) -> Said:

@@ -6,6 +6,7 @@ import ast
 import re
 from collections.abc import Iterator
 from functools import cache
+from itertools import cycle
 from pathlib import Path
 from string import Formatter
 
@@ -28,8 +29,10 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import JointForce, LeverPlan
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, said
-from graphplan.sheet.lettering.lettering import ADVANCE
+from graphplan.phrases import Said, coordinates, said
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.lettering.lettering import ADVANCE, plain
+from graphplan.sheet.plates.display import Text
 from graphplan.words import LANGUAGES
 from graphplan.words.tongue import Entry, catalogue, tongue
 
@@ -151,6 +154,22 @@ def test_every_scene_can_be_said(name: str, code: str) -> None:
             *(words for stage, _ in drawing.drawn.stages for words in (stage.title, stage.law))]
     assert all(isinstance(text, Said) for text in told)
     assert all(say(text) and "{" not in say(text) for text in told)
+
+
+@pytest.mark.parametrize(("name", "code"), list(zip(packaged(), cycle(OTHERS), strict=False)))
+def test_numbers_have_the_decimal_sign_of_the_language(name: str, code: str) -> None:
+    """No number on a sheet or in its description has a decimal point, but in the source, which is as it is printed."""
+    drawing = drawing_of(name)
+    sheet = layout(drawing, tongue=tongue(code))
+    told = " ".join(plain(item.runs) for item in sheet.items if isinstance(item, Text))
+    assert re.findall(r"\S*\d\.\d\S*", f"{told} {sheet.description}".replace(drawing.scene.source, "")) == []
+
+
+@pytest.mark.parametrize("code", OTHERS)
+def test_coordinates_stand_apart(code: str) -> None:
+    """Where decimals have a comma, coordinates have a semicolon between them; in English they stay as they are."""
+    pair = coordinates((-13.0, 4.25))
+    assert (tongue(code)(pair), tongue("en")(pair), pair) == ("(−13; 4,25)", "(−13, 4.25)", "(−13, 4.25)")
 
 
 def test_an_unknown_language_is_refused() -> None:

@@ -12,7 +12,7 @@ from graphplan.accuracy.first_order import sampled
 from graphplan.accuracy.preference import Form
 from graphplan.kernel.kinds import DIVIDERS, SET_SQUARES
 from graphplan.mechanism.model import Scene
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import digits
 
 WIDTH = 118
 COUNTED = "form", "sheet", "steps", "operations", "lines", "arcs"

@@ -17,9 +17,8 @@ from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
-from graphplan.phrases import Said, joined, said
+from graphplan.phrases import Said, arranged, digits, joined, said
 from graphplan.sheet.layout.composition import Composer, Composition
-from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.words.tables import Deviation, Deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
@@ -195,9 +194,9 @@ class Drafted(Errors):
         return {"number": number, "makes": say(drawn.text(index)), "sentence": say(drawn.sentence(index))}
 
 
-def percent(part: float) -> str:
+def percent(part: float) -> Said:
     """A part of a whole, in at most two digits."""
-    return f"{digits(100 * part, 2)} %"
+    return arranged("{0} %", digits(100 * part, 2))
 
 
 def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,

@@ -13,8 +13,7 @@ from collections.abc import Callable, Collection
 from dataclasses import asdict, dataclass, fields
 
 from graphplan.errors import Refused
-from graphplan.phrases import Said, said
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Said, digits, said
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.stages import Stage, Teller, staged
-from graphplan.phrases import Said, arranged, phrase, said
+from graphplan.phrases import Said, arranged, digits, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
@@ -303,9 +303,9 @@ def worded(value: Any) -> str:
     """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
     if isinstance(value, str):
         return CHOICES.get(value, value)
-    if not isinstance(value, Fraction | float) or 1000 % Fraction(value).denominator == 0:
-        return f"{float(value):g}" if isinstance(value, Fraction | float) else str(value)
-    return str(value) if isinstance(value, Fraction) and value.denominator <= 16 else f"{float(value):.6g}"
+    if isinstance(value, Fraction) and value.denominator <= 16 and 1000 % value.denominator:
+        return str(value)
+    return digits(float(value), 6) if isinstance(value, Fraction | float) else str(value)
 
 
 # ---- passes: each gives a new program, numbered afresh ---------------------------------------------------------------

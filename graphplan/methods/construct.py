@@ -13,7 +13,7 @@ from graphplan.methods.draughtsman import Draughtsman
 from graphplan.methods.motion.alternatives import growth_of_rates, ways
 from graphplan.methods.motion.network import Network
 from graphplan.methods.styles import METHODS, Style, style
-from graphplan.phrases import said
+from graphplan.phrases import digits, said
 
 UNEVEN = 200.0  # times the shortest side of a link: beside longer ones its vectors are too short to draw
 
@@ -68,7 +68,7 @@ def _by_plans(scene: Scene, method: str, chosen: Style) -> Iterator[Construction
         if other < one:
             first.notes.append(said(
                 "polar plans, as links differ so much in length: errors of the steps grow {0}-fold, with orthogonal "
-                "velocities {1}-fold", f"{other:.2g}", f"{one:.2g}"))
+                "velocities {1}-fold", digits(other, 2), digits(one, 2)))
             yield first
             yield from polar
         yield best

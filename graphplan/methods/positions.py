@@ -14,7 +14,7 @@ from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import Placement, Scene
 from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.placements import needs
-from graphplan.phrases import said
+from graphplan.phrases import digits, said
 
 
 def layout(scene: Scene) -> Program:
@@ -41,7 +41,8 @@ def _put(board: Board, scene: Scene, name: str, placement: Placement, marks: dic
         case "polar":
             start = scene.points[data["from"]]
             dx, dy = (p - q for p, q in zip(scene.points[name], start, strict=True))
-            why = said("{0} long, at {1} degrees from +x", *(f"{float(data[key]):g}" for key in ("distance", "angle")))
+            distance, angle = (digits(float(data[key]), 6) for key in ("distance", "angle"))
+            why = said("{0} long, at {1} degrees from +x", distance, angle)
             return board.lay_off(marks[data["from"]], dx=dx, dy=dy, why=why)
         case "compass":
             one, two = (_arc(board, marks[centre], r) for centre, r in data["distances"].items())

@@ -13,7 +13,8 @@ from itertools import groupby, pairwise
 from typing import TYPE_CHECKING
 
 from graphplan.output.canvas import LINE, MARGIN, TITLE, Canvas
-from graphplan.sheet.layout.scales import digits, round_up
+from graphplan.phrases import digits
+from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.lettering.lettering import SIZE, Run, Runs, width, wrap
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import GREY, PAPER, Pen

@@ -14,8 +14,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from graphplan.output.canvas import CIRCLE, CROSSED, LAYER, LINE, MARGIN, TITLE, Canvas
-from graphplan.phrases import joined, phrase, said, unit
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Run, Runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.display import Arrow, Rect
 from graphplan.sheet.plates.pens import BLUE, GREEN, GREY, INK, PAPER, RED, VIOLET, Pen
@@ -156,7 +155,7 @@ class _Column:
         step = 10 if high - low > 25 else 5
         for y in range(step * int(np.ceil(low / step)), int(np.floor(high)) + 1, step):
             axes.line([(end, y), (end + 1, y)], AXIS)
-            axes.text(end + 2, y - 0.36 * SIZE, digits(y * float(self.diagram.scales.mu[quantity])))
+            axes.text(end + 2, y - 0.36 * SIZE, self.say(digits(y * float(self.diagram.scales.mu[quantity]))))
 
     def _heading(self, quantity: str) -> Runs:
         """What a diagram shows, its scale, and the distance of its pole."""
@@ -165,7 +164,7 @@ class _Column:
         words = [self.say(said("{0} in {1}", letter, measure)),
                  self.say(said("{0} = {1} {2} per mm", f"mu_{letter}", digits(float(scales.mu[quantity])), measure))]
         if quantity == "s":
-            less = f" {'+' if datum < 0 else '−'} {digits(abs(datum))} {self.say(measure)}" if datum else ""
+            less = f" {'+' if datum < 0 else '−'} {self.say(digits(abs(datum)))} {self.say(measure)}" if datum else ""
             words[0] = f"{letter} = {self.say(curve.name)}{less}"
         else:
             reach = joined((digits(float(scales.poles[quantity])), unit("mm")), " ")
@@ -218,7 +217,7 @@ class _Column:
         travel = np.degrees(curve.travel[places]) if angle else curve.travel[places]
         drive = said("drive") if angle else joined((said("drive"), unit(curve.travel_unit)))
         rows = {said("position"): [str(k) for k in range(len(xs))],
-                drive: [digits(value) + ("°" if angle else "") for value in travel]}
+                drive: [self.say(digits(value)) + ("°" if angle else "") for value in travel]}
         for y, (what, words) in zip((level - 3, level - 3 - LINE), rows.items(), strict=True):
             canvas.text((axis - 8, y), sentence_runs(self.say(what)), anchor="end")
             room = max(width((Run(word),), SIZE) for word in words) + 0.7 * SIZE
@@ -234,8 +233,8 @@ class _Column:
         table = [[self.say(head) for head in (said("errors in %"), said("largest"), said("rms"), said("order"))]]
         for error in self.diagram.errors:
             letter, way = self.diagram.curve.letters[error.found.quantity], METHODS[error.found.method][0]
-            order = "–" if error.order is None else digits(round(error.order, 2))
-            sizes = [digits(100 * size, 2) for size in (error.largest, error.rms)]
+            order = "–" if error.order is None else self.say(digits(round(error.order, 2)))
+            sizes = [self.say(digits(100 * size, 2)) for size in (error.largest, error.rms)]
             table.append([f"{letter} {self.say(way())}", *sizes, order])
         table.append([self.say(said("of the plans' largest ordinate at the same abscissas"))])
         for k, row in enumerate(table, 1):

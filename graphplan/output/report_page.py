@@ -28,8 +28,7 @@ from graphplan.marking.judge.findings import (
 from graphplan.marking.judge.score import GROUPS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg
-from graphplan.phrases import arranged, phrase, said
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import arranged, digits, phrase, said
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue
@@ -143,7 +142,7 @@ class _Report(_HtmlPage):
     def _step(self, verdict: Verdict) -> tuple[HtmlCell, ...]:
         drawn, plans = self.judgement.drawing.drawn, self.judgement.composition.plans
         seen = self.judgement.measured(verdict)
-        sizes = [digits(size, FIGURES) if seen else "" for size in (verdict.off, verdict.tolerance)]
+        sizes = [self.say(digits(size, FIGURES)) if seen else "" for size in (verdict.off, verdict.tolerance)]
         return (
             HtmlCell(self.set(called(drawn, verdict.step).short), FIGURE),
             HtmlCell(self.say(plans.plan_of_step[verdict.step].words)),
@@ -174,9 +173,9 @@ class _Report(_HtmlPage):
 
     def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
         return (
-            HtmlCell(self.set(quantity(verdict))), HtmlCell(escape(written(verdict.number)), FIGURE),
-            HtmlCell(figures(verdict.true), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
-            HtmlCell(digits(verdict.off, FIGURES), FIGURE), HtmlCell(digits(verdict.tolerance, FIGURES), FIGURE),
+            HtmlCell(self.set(quantity(verdict))), HtmlCell(self.say(written(verdict.number)), FIGURE),
+            HtmlCell(self.say(figures(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
+            *(HtmlCell(self.say(digits(size, FIGURES)), FIGURE) for size in (verdict.off, verdict.tolerance)),
             HtmlCell(self.set(verdict.mistake or "")),
         )  # fmt: skip
 

@@ -21,9 +21,8 @@ from xml.etree.ElementTree import tostring
 from svgwrite.container import SVG
 
 from graphplan.output.svg import MAKE, Element, group, inked, parted
-from graphplan.phrases import arranged, said
+from graphplan.phrases import Said, arranged, digits, joined, said
 from graphplan.sheet.cycle_frames import CycleFrame, CycleFrames
-from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
 from graphplan.sheet.plates.pens import PAPER
@@ -68,6 +67,10 @@ def _say(found: CycleFrames, text: str) -> str:
     return found.composition.plans.tongue(text)
 
 
+def _degrees(travel: float) -> Said:
+    return arranged("{0}°", digits(travel))
+
+
 def _set(found: CycleFrames, text: str) -> str:
     """Words with the names of marks set as on the sheet."""
     names = tuple(step.name for step in found.drawing.drawn.steps if step.name)
@@ -80,9 +83,9 @@ def _remark(found: CycleFrames) -> str:
     if found.why:
         return _say(found, said("The drive cannot be turned here: {0}.", found.why))
     if found.lost:
-        told = ", ".join("–".join(f"{digits(end)}°" for end in dict.fromkeys(part)) for part in found.lost)
+        lost = (joined(map(_degrees, dict.fromkeys(part)), "–") for part in found.lost)
         return _say(found, said("Not drawn: {0}. There the pose is out of reach or singular, or takes other steps.",
-                                told))
+                                joined(lost)))
     return ""
 
 
@@ -108,7 +111,7 @@ def _data(found: CycleFrames) -> dict[str, Any]:
     return {
         "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},
         "panels": [_box(sheet, rect) for rect in sheet.panels.values()],
-        "travels": [f"{digits(frame.travel)}°" for frame in found.frames],
+        "travels": [_say(found, _degrees(frame.travel)) for frame in found.frames],
         "spots": _spots(found.frames[0]),
     }  # fmt: skip
 

@@ -10,7 +10,7 @@ from graphplan.kernel.lemoine import counts
 from graphplan.kernel.stages import Stage
 from graphplan.methods.construction import Construction
 from graphplan.methods.positions import layout
-from graphplan.phrases import Said, joined, said, unit
+from graphplan.phrases import Said, coordinates, digits, joined, said, unit
 from graphplan.sheet.layout.composition import Composition
 from graphplan.words.tongue import ENGLISH, Tongue
 
@@ -41,8 +41,9 @@ def protocol(drawing: Construction, structure: Iterable[str] = (), drafting: Ite
 def _pose(drawing: Construction, say: Tongue) -> list[str]:
     """How the mechanism plan is laid out: coordinates, and steps where the scene places points by arcs and angles."""
     program = layout(drawing.scene)
-    given = [f"{s.name} ({float(s.params['x']):g}, {float(s.params['y']):g})" for s in program.steps[: program.givens]]
-    lines = _wrapped(say(said("Mechanism plan, given: {0}.", ", ".join(given))), "")
+    given = [joined((step.name, coordinates((float(step.params["x"]), float(step.params["y"])), 6)), " ")
+             for step in program.steps[: program.givens]]
+    lines = _wrapped(say(said("Mechanism plan, given: {0}.", joined(given))), "")
     for step in program.steps[program.givens :]:
         lines += _wrapped(say(program.told(step.index)), "  ")
     return lines
@@ -51,8 +52,8 @@ def _pose(drawing: Construction, say: Tongue) -> list[str]:
 def _tempo(drawing: Construction) -> Said:
     length = drawing.scene.units.length
     return said("Velocities are drawn {0} long: {1} on the plan for {2}; accelerations {3} long.",
-                joined((f"{drawing.kappa:.6g}", unit("s")), " "), unit(length), unit(f"{length}/s"),
-                joined((f"{drawing.kappa**2:.6g}", unit("s^2")), " "))
+                joined((digits(drawing.kappa, 6), unit("s")), " "), unit(length), unit(f"{length}/s"),
+                joined((digits(drawing.kappa**2, 6), unit("s^2")), " "))
 
 
 def _numbered(number: int, sentence: str) -> list[str]:

@@ -1,8 +1,8 @@
 """A tongue: its catalogue, and how what was said in English is said in it.
 
-A catalogue has, in TOML, the sentences of the steps by primitive, the phrases by their English, the units, and the
-titles of the packaged scenes. An entry is a text, or a table of its forms by name, of which the first is the plain one;
-what is put into a text may be asked for in a form, as in `{0:dative}`.
+A catalogue has, in TOML, the sentences of the steps by primitive, the phrases by their English, the units, the signs
+of numbers, and the titles of the packaged scenes. An entry is a text, or a table of its forms by name, of which the
+first is the plain one; what is put into a text may be asked for in a form, as in `{0:dative}`.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ from importlib.resources import files
 from typing import Any
 
 from graphplan.errors import Refused
-from graphplan.phrases import TITLES, UNITS, Said, Shaped
+from graphplan.phrases import NUMBERS, TITLES, UNITS, Said, Shaped
 from graphplan.words import LANGUAGES
 
 _SYMBOL = re.compile(r"[A-Za-z°]+")
@@ -28,6 +28,7 @@ class Tongue:
 
     def __init__(self, code: str, catalogue: Mapping[str, Mapping[str, Entry]] | None = None):
         self.code, self.catalogue = code, catalogue
+        self.signs = str.maketrans({sign: str(own) for sign, own in (catalogue or {}).get(NUMBERS, {}).items()})
 
     def __call__(self, text: str) -> str:
         """The text in this tongue; what is no phrase, such as a title, stays as it is."""
@@ -43,6 +44,8 @@ class Tongue:
             return Shaped(value) if isinstance(value, str) else value
         if value.section == UNITS:
             return Shaped(_SYMBOL.sub(self._symbol, value.key))
+        if value.section == NUMBERS:
+            return Shaped(value.key.translate(self.signs))
         put = [self._formed(part) for part in value.put]
         named = {name: self._formed(part) for name, part in value.named.items()}
         forms = self._forms(value)

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
+from graphplan.phrases import digits
 from graphplan.sheet.layout.paper import divisions
-from graphplan.sheet.layout.scales import Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.layout.scales import Scales, multiple_below, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap

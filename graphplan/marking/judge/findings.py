@@ -24,8 +24,7 @@ from graphplan.marking.judge.verdict import (
 )
 from graphplan.marking.traces import Number
 from graphplan.methods.kinds import WORDS
-from graphplan.phrases import Said, arranged, joined, phrase, said
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said
 from graphplan.sheet.lettering.lettering import Runs, sentence_runs
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import rows
@@ -267,12 +266,11 @@ class Remarks(Words):
         return sentence_runs(self.plans.tongue(text), self.names)
 
 
-def written(number: Number) -> str:
+def written(number: Number) -> Said:
     """A number as it was handed in, with its unit."""
-    return f"{figures(number.value)} {number.unit}".strip()
+    return joined((figures(number.value), *filter(None, [number.unit])), " ")
 
 
-def figures(numbers: Sequence[float]) -> str:
+def figures(numbers: Sequence[float]) -> Said:
     """A number, or the components of a vector, as they are told."""
-    told = [digits(number) for number in numbers]
-    return told[0] if len(told) == 1 else f"({', '.join(told)})"
+    return digits(numbers[0]) if len(numbers) == 1 else coordinates(numbers)

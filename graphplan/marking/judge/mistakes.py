@@ -20,8 +20,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
-from graphplan.phrases import Phrase, Said, phrase, said
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Phrase, Said, digits, phrase, said
 
 FACTORS = (2.0, 0.5, 10.0, 0.1, 1.5)  # the scales that are mistaken for each other
 

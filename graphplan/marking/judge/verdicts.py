@@ -28,8 +28,7 @@ from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRO
 from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
 from graphplan.methods.recorded import Reading
-from graphplan.phrases import Said, said
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Said, digits, said
 
 CLOSEST = 16  # how many mistakes are looked at closely
 FARTHER, RARER = 4.0, 0.5  # what each step back in the drawing, and each place down the table, adds to a sum of squares

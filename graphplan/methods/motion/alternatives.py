@@ -22,7 +22,7 @@ from graphplan.kernel.program import Program
 from graphplan.methods.kinds import ACCELERATION, ORDER, VELOCITY
 from graphplan.methods.motion.network import Network
 from graphplan.methods.motion.planner import Planner
-from graphplan.phrases import joined, said
+from graphplan.phrases import digits, joined, said
 
 if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
@@ -125,7 +125,7 @@ class _Alternative:
         if among > 1:
             self.construction.notes.append(
                 said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
-                     joined(self.construction.ways or [said("travelling facts")]), f"{self.growth:.2g}", among))
+                     joined(self.construction.ways or [said("travelling facts")]), digits(self.growth, 2), among))
         return self.construction, self.planner
 
     @staticmethod

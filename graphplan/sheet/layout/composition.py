@@ -13,10 +13,11 @@ from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, ForcePlan
+from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import TitleBlock
 from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
-from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, digits, multiple_below, ratio, round_up
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 
 from graphplan.mechanism.units import METRES
-from graphplan.phrases import Phrase, Said, arranged, joined, phrase, unit
+from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, unit
 from graphplan.sheet.plates.pens import FORCES
 
 VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
@@ -43,20 +43,6 @@ def multiple_below(most: float) -> Fraction:
         return Fraction(max(m * whole for m in SIMPLE if m * whole <= most))
     whole = 10 ** math.floor(math.log10(1 / most))
     return Fraction(1, min(m * whole for m in (*SIMPLE, 10) if m * whole * most >= 1))
-
-
-SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
-
-
-def digits(value: float, count: int = 4) -> str:
-    """A number in at most `count` significant digits, with a power of ten only where it is very large or small."""
-    text = f"{value + 0.0:.{count}g}"
-    if "e" not in text:
-        return text.replace("-", "−")
-    mantissa, power = text.split("e")
-    if 0 < int(power) < 7:
-        return f"{float(text):.0f}".replace("-", "−")
-    return f"{mantissa.replace('-', '−')}·10{str(int(power)).translate(SUPERSCRIPTS)}"
 
 
 def times(multiple: Fraction) -> str:
@@ -117,11 +103,10 @@ class Scales:
     def ratio(self) -> Said:
         """The scale of the mechanism plan as a title block has it, such as 1 : 5."""
         told = ratio(self.k_s, self.length)
-        plan = next(iter(self.said("", set())))
-        return joined((told, plan), "; ") if self.convention == "drawn" else arranged("{0}", told)
+        return joined((told, *self.said("", set())), "; ") if self.convention == "drawn" else told
 
 
-def ratio(k_s: float, length: str) -> str:
+def ratio(k_s: float, length: str) -> Said:
     """A drawing scale as a ratio of lengths on paper to those of the scene, such as 1 : 5."""
     size = k_s * 1000 * float(METRES[length])
-    return f"1 : {digits(size)}" if size >= 1 else f"{digits(1 / size)} : 1"
+    return arranged("1 : {0}", digits(size)) if size >= 1 else arranged("{0} : 1", digits(1 / size))

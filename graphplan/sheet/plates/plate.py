@@ -15,6 +15,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement, made_by
 from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
+from graphplan.phrases import digits
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
@@ -63,7 +64,7 @@ class Plates:
             if name not in found:
                 (x, y), index = self.plans.place(name), min((0, *(drawn.index for drawn in found.values()))) - 1
                 step = Step(index, name, made_by(Movement.GIVEN), (), {"x": x, "y": y}, MECHANISM)
-                told = step.op.spoken((), out=name, x=f"{x:g}", y=f"{y:g}")
+                told = step.op.spoken((), out=name, x=digits(x, 6), y=digits(y, 6))
                 found[name] = DrawnStep(step, 0, MECHANISM, self.views[MECHANISM], (), (x, y), self.plans.tongue(told))
         return found
 

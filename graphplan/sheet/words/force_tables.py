@@ -13,8 +13,7 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.forces.free_bodies import pair_letter
 from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce, slide_named
-from graphplan.phrases import Phrase, Said, joined, phrase, said, unit
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Phrase, Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
 from graphplan.sheet.words.tables import Deviations, Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
@@ -55,19 +54,22 @@ class ForceTables:
         for name, force in forces.items():
             letter, sign = letters[name]
             moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
-            told = () if moment is None else figure(sign * moment, largest)
+            told = () if moment is None else self._figure(sign * moment, largest)
             sizes = sign * force[0], sign * force[1], math.hypot(*force)
-            table.append([letter, *(figure(size, largest) for size in sizes)])
+            table.append([letter, *(self._figure(size, largest) for size in sizes)])
             column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
-        table = with_deviations(table, list(forces), self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION))
+        table = with_deviations(self.tongue, table, list(forces), self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION))
         if slides:
             table = [[*row, cell] for row, cell in zip(table, column, strict=True)]
         return table if forces else []
 
+    def _figure(self, value: float, largest: float) -> Runs:
+        return figure(self.tongue, value, largest)
+
     def _off(self, kind: str, name: str) -> Runs:
         """How far off a number is drawn, to stand behind it."""
         deviation = self.pencil.of(kind).get(name)
-        return () if deviation is None else sentence_runs(f" ±{deviation}")
+        return () if deviation is None else sentence_runs(f" ±{self.tongue(deviation.told)}")
 
     def _letters(self) -> dict[str, tuple[Runs, int]]:
         """The letter of every reaction, by its name in results, and its sign."""
@@ -88,8 +90,8 @@ class ForceTables:
         for name, (x, y) in self.values.get(kinds.SLIDE_ARM, {}).items():
             slide = next(slide for slide in self.drawing.scene.slides if slide.name == name)
             at = [float(part) for part in self.drawing.scene.points[slide.at]]
-            spot, off = f"({digits(at[0] + x)}, {digits(at[1] + y)})", self.pencil.of(kinds.SLIDE_ARM).get(name)
-            told = [spot, unit(self.drawing.scene.units.length), *([f"±{off}"] if off else [])]
+            spot, off = coordinates((at[0] + x, at[1] + y)), self.pencil.of(kinds.SLIDE_ARM).get(name)
+            told = [spot, unit(self.drawing.scene.units.length), *([arranged("±{0}", off.told)] if off else [])]
             yield said("The reaction of the slide {0} acts at {1}.", slide_named(slide), joined(told, " "))
 
     # ---- balance ---------------------------------------------------------------------------------------------------
@@ -110,12 +112,13 @@ class ForceTables:
 
     def _moment(self, balance: Balance, ways: Mapping[Phrase, float], off: list[Runs]) -> Table:
         name = (*name_runs(f"T_{balance.link}"), *sentence_runs(f" {self.moment}"))
-        values = (sentence_runs(digits(value)) for value in ways.values())
+        values = (sentence_runs(self.tongue(digits(value))) for value in ways.values())
         return [[name, *((*value, *within) for value, within in zip(values, off, strict=True))]]
 
     def _force(self, balance: Balance, ways: Mapping[Phrase, Pair], off: list[Runs]) -> Table:
         largest, letter, units = largest_size(ways), f"F_{balance.link}", sentence_runs(f" {self.unit}")
-        parts = [[(*name_runs(f"{letter}{axis}"), *units), *(figure(v[i], largest) for v in ways.values())]
+        parts = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
                  for i, axis in enumerate("xy")]  # fmt: skip
-        sizes = [(*figure(math.hypot(*v), largest), *within) for v, within in zip(ways.values(), off, strict=True)]
+        found = zip(ways.values(), off, strict=True)
+        sizes = [(*self._figure(math.hypot(*v), largest), *within) for v, within in found]
         return [*parts, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

@@ -7,10 +7,11 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import Said, digits, figures
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.rows import Cell, TextRow
+from graphplan.words.tongue import Tongue
 
 
 @dataclass(frozen=True)
@@ -20,8 +21,9 @@ class Deviation:
     value: float
     mm: float | None = None
 
-    def __str__(self) -> str:
-        return digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else "")
+    @property
+    def told(self) -> Said:
+        return figures(digits(self.value, 2) + (f" ({digits(self.mm, 2)})" if self.mm is not None else ""))
 
 
 @dataclass(frozen=True)
@@ -43,7 +45,7 @@ Table = list[list[Runs]]
 Off = Mapping[str, Deviation]  # how far off results are drawn, by name; empty where that is not told
 
 
-def vectors(what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off,
+def vectors(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off,
             beside: Mapping[str, Any], spoken: Callable[[str], str] = str) -> Table:
     """Components, magnitudes and deviations, each row with its name first; nothing if there are none.
 
@@ -51,30 +53,31 @@ def vectors(what: str, letter: str, unit: str, values: Mapping[str, Any], order:
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
     found = {name: (*values[name], math.hypot(*values[name])) for name in order if name in values}
-    return _table(head, found, max(largest_size(values), largest_size(beside)), off, spoken)
+    return _table(say, head, found, max(largest_size(values), largest_size(beside)), off, spoken)
 
 
-def scalars(what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str], off: Off) -> Table:
+def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
+            off: Off) -> Table:
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     found = {name: (values[name],) for name in order if name in values}
-    return _table(head, found, max(map(abs, values.values()), default=0.0), off)
+    return _table(say, head, found, max(map(abs, values.values()), default=0.0), off)
 
 
-def _table(head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
+def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
            spoken: Callable[[str], str] = str) -> Table:
     """Numbers, of which the largest of their kind is told, under their head."""
-    rows = [[name_runs(spoken(name)), *(figure(x, largest) for x in found)] for name, found in values.items()]
-    return with_deviations([head, *rows], list(values), off) if rows else []
+    rows = [[name_runs(spoken(name)), *(figure(say, x, largest) for x in found)] for name, found in values.items()]
+    return with_deviations(say, [head, *rows], list(values), off) if rows else []
 
 
-def with_deviations(table: Table, names: Sequence[str], off: Off) -> Table:
+def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -> Table:
     """A table with a last column for the deviations of its rows, where they are told."""
     told = [off.get(name) for name in names]
     if not any(told):
         return table
     head = "± (mm)" if any(deviation is not None and deviation.mm is not None for deviation in told) else "±"
-    column = [head, *("" if deviation is None else str(deviation) for deviation in told)]
+    column = [head, *("" if deviation is None else say(deviation.told) for deviation in told)]
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 
 
@@ -83,9 +86,9 @@ def largest_size(values: Mapping[Any, Any]) -> float:
     return max((math.hypot(*value) for value in values.values()), default=0.0)
 
 
-def figure(value: float, largest: float) -> Runs:
+def figure(say: Tongue, value: float, largest: float) -> Runs:
     """A number of a table; what is only rounding beside its largest is zero."""
-    return sentence_runs(digits(value if abs(value) > ROUNDING * largest else 0.0))
+    return sentence_runs(say(digits(value if abs(value) > ROUNDING * largest else 0.0)))
 
 
 def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:

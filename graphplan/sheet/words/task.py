@@ -10,9 +10,8 @@ from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRA
 from graphplan.mechanism.model import Balance, Loads, Pair, Scene
 from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
 from graphplan.methods.panels import JointForce, link_named, listed, slide_named
-from graphplan.phrases import Said, joined, phrase, said, unit
+from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK, TITLE
-from graphplan.sheet.layout.scales import digits
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.words.rows import TextRow
 from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, ticked
@@ -101,7 +100,7 @@ ASKED = {  # how kinds of results are asked for, and how those that have them ar
 def data(scene: Scene) -> Iterator[Said]:
     """The mechanism in its pose, what drives it and what loads it, a sentence each."""
     yield said("Points, in {0}: {1}.", unit(scene.units.length),
-               ", ".join(f"{name} {_pair(at)}" for name, at in scene.points.items()))
+               joined(joined((name, _pair(at)), " ") for name, at in scene.points.items()))
     yield said("Links: {0}.", joined(joined((link_named(link), f"({' '.join(names)})"), " ")
                                      for link, names in scene.links.items()))
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):
@@ -121,8 +120,8 @@ def _motion(scene: Scene) -> Iterator[Said]:
         does = phrase("{0:capital} slides along {1}: {2}." if drive.slides else "{0:capital} turns against {1}: {2}.")
         yield does(*map(link_named, drive.links), joined(tuple(rates)))
     for name, motion in scene.motions.items():
-        velocity = joined((f"v = {_pair(motion.velocity)}", unit(f"{length}/s")), " ")
-        acceleration = joined((f"a = {_pair(motion.acceleration)}", unit(f"{length}/s²")), " ")
+        velocity = joined(("v =", _pair(motion.velocity), unit(f"{length}/s")), " ")
+        acceleration = joined(("a =", _pair(motion.acceleration), unit(f"{length}/s²")), " ")
         yield said("Motion of {0}: {1}.", name, joined((velocity, acceleration)))
 
 
@@ -130,13 +129,13 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     """Gravity, masses, forces, moments and friction."""
     units = scene.units
     if any(loads.gravity):
-        yield said("Gravity: {0}.", joined((f"g = {_pair(loads.gravity)}", unit("m/s²")), " "))
+        yield said("Gravity: {0}.", joined(("g =", _pair(loads.gravity), unit("m/s²")), " "))
     for link, mass in loads.masses.items():
         inertia = [_with_unit("J", mass.inertia, f"{units.mass}·m²")] if mass.inertia else []
         told = _with_unit("m", mass.mass, units.mass), *inertia, said("centre {0}", mass.centre)
         yield said("Mass of {0}: {1}.", link_named(link), joined(told))
     for force in loads.forces:
-        value = joined((f"F = {_pair(force.value)}", unit(units.force), said("at {0}", force.at)), " ")
+        value = joined(("F =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
         yield said("Force on {0}: {1}.", link_named(force.on), value)
     for moment in loads.moments:
         value = _with_unit("M", moment.value, f"{units.force}·m")
@@ -145,7 +144,7 @@ def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
     for friction in loads.frictions:
         where = slide_named(slides[friction.slide]) if friction.slide else said("at {0}", friction.at)
         radius = [] if friction.slide else [_with_unit("r", friction.radius, units.length)]
-        yield said("Friction {0}: {1}.", where, joined((f"mu = {_figure(friction.coefficient)}", *radius)))
+        yield said("Friction {0}: {1}.", where, joined((arranged("mu = {0}", _figure(friction.coefficient)), *radius)))
 
 
 def question(scene: Scene, values: Mapping[str, Mapping[str, Any]]) -> Iterator[Said]:
@@ -173,12 +172,12 @@ def _keeping(balance: Balance) -> Said:
 
 
 def _with_unit(letter: str, value: Any, symbol: str) -> Said:
-    return joined((f"{letter} = {_figure(value)}", unit(symbol)), " ")
+    return joined((letter, "=", _figure(value), unit(symbol)), " ")
 
 
-def _pair(pair: Pair) -> str:
-    return f"({_figure(pair[0])}, {_figure(pair[1])})"
+def _pair(pair: Pair) -> Said:
+    return coordinates(map(float, pair), FIGURES)
 
 
-def _figure(value: Any) -> str:
+def _figure(value: Any) -> Said:
     return digits(float(value), FIGURES)

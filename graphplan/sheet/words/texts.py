@@ -11,8 +11,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
-from graphplan.phrases import arranged, joined, said, unit
-from graphplan.sheet.layout.scales import digits
+from graphplan.phrases import arranged, digits, joined, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Cell, TextRow
@@ -116,8 +115,8 @@ class Words:
         values, scene, say = self.values, self.drawing.scene, self.plans.tongue
         point, link, slide, rate = say(said("point")), say(said("link")), say(said("slide")), say(unit("1/s"))
         yield self._vectors(point, ("velocity", "acceleration"), scene.points, pencil)
-        yield (scalars(link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
-               scalars(link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
+        yield (scalars(say, link, "omega", rate, values.get("omega", {}), scene.links, pencil.of("omega")),
+               scalars(say, link, "alpha", f"{rate}²", values.get("alpha", {}), scene.links, pencil.of("alpha")))
         slides = {slide.name: say(slide_named(slide)) for slide in scene.slides}
         yield self._vectors(slide, ("slide velocity", "slide acceleration"), slides, pencil, slides.__getitem__)
 
@@ -127,7 +126,7 @@ class Words:
         """
         speed = self.plans.tongue(unit(f"{self.drawing.scene.units.length}/s"))
         heads = ("v", speed, "velocity"), ("a", f"{speed}²", "acceleration")
-        one, two = (vectors(what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
+        one, two = (vectors(self.plans.tongue, what, letter, symbol, self.values.get(kind, {}), order, pencil.of(kind),
                             self.values.get(beside, {}), spoken)
                     for kind, (letter, symbol, beside) in zip(kinds, heads, strict=True))
         return one, two

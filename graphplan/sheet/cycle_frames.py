@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -22,8 +22,10 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.layout.paper import MARGIN
+from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.plans import Plans, around, grown
+from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import Words
@@ -147,15 +149,25 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
 
 def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
     """The composition with its windows slid so that they hold the mechanism and the vectors of as many poses as can be.
+
+    What the given pose has on paper stays on it.
     """
     views = dict(composition.views)
-    for panel, window in views.items():
+    for plate in composition.plates:
+        panel, window = plate.panel, plate.view
         boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
             links = (around([plans.place(name) for name in plans.drawing.scene.points]) for plans in poses)
             boxes = [*sorted(links, key=_extent), *boxes]
-        views[panel] = slid(window, _gathered([composition.extents[panel].core, *boxes], window))
+        kept = [window.back(spot) for spot in _shown(plate)]
+        views[panel] = slid(window, _gathered([around(kept), *boxes] if kept else boxes, window)) if boxes else window
     return replace(composition, views=views)
+
+
+def _shown(plate: Plate) -> Iterator[Spot]:
+    """What of a plan must be on paper for its steps to be seen: its marks, and of lines the middle of what is drawn."""
+    yield from (drawn.at for drawn in plate.steps if plate.shown(drawn))
+    yield from (clip.between(*stretch.ends, 0.5) for stretch in plate.stretches.values())
 
 
 def _extent(box: Rect) -> float:

@@ -7,7 +7,7 @@ from functools import cache
 from itertools import count
 
 import pytest
-from sheets import SCENES, composition_of, drawing_of, outside, solved_of
+from sheets import SCENES, composition_of, drawing_of, outside, sheet_of, solved_of
 
 import graphplan as gp
 from graphplan.cycle import follow
@@ -173,6 +173,17 @@ def test_the_round_keeps_scales_and_panels_and_holds_the_mechanism() -> None:
         joints = [spot for index, spot in still.spots.items() if drawing.drawn.steps[index].op.name == "given"]
         assert len(joints) == 4
         assert all(map(solved.panels[MECHANISM].holds, joints))
+
+
+@pytest.mark.parametrize("name", ["four-bar", "ozols-10-1", "shaper", "slotted-link"])
+def test_the_round_shows_in_the_given_pose_all_that_the_sheet_does(name: str) -> None:
+    """However the windows slide for other poses, no step of the given pose leaves the paper."""
+    drawing, composition = drawing_of(name), composition_of(name)
+    turn = follow(drawing.scene, 12)
+    found = turning(drawing, composition, [30.0 * k for k in range(12)], turn.points, turn.guides)
+    alone, among = ({item.step for item in sheet.items if item.layer != "text"}
+                    for sheet in (sheet_of(name), found.frames[0].sheet))
+    assert alone == among
 
 
 def test_poses_that_cannot_be_drawn_are_told_in_stretches() -> None:

@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
+import measured
 import pytest
-from measured import MeasuredSheet, drawn_twice, significand, without_reason
+from inked_sheet import InkedSheet, significand
+from measured import Measure, findings, held
+
+from graphplan.mechanism.scene import load
 
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><desc>k_s = 2.5 mm/mm, k_v = 3</desc>
 <g class="layer-paper"><rect class="panel" data-plan="N-plan" x="0" y="0" width="80" height="50"/></g>"""
 
 
-def sheet(*groups: str) -> MeasuredSheet:
+def sheet(*groups: str) -> InkedSheet:
     """A sheet of one panel, with a group for each step from 1."""
     steps = "".join(f'<g class="step" data-step="{k}">{group}</g>' for k, group in enumerate(groups, 1))
-    return MeasuredSheet.of(f"{HEAD}{steps}</svg>")
+    return InkedSheet.of(f"{HEAD}{steps}</svg>")
 
 
 def letters(text: str, x: float, y: float) -> str:
@@ -25,9 +29,9 @@ def mark(x: float, y: float) -> str:
     return f'<circle cx="{x}" cy="{y}" r="0.5" stroke="#000000"/>'
 
 
-def vector(length: float) -> str:
+def vector(length: float, y: float = 10) -> str:
     """A velocity that is asked for."""
-    return f'<g data-vector="velocity A" data-from="10 10" data-to="{10 + length} 10"/>'
+    return f'<g class="vector" data-vector="velocity A" data-from="10 {y}" data-to="{10 + length} {y}"/>'
 
 
 def test_labels_on_labels_are_found() -> None:
@@ -66,8 +70,34 @@ def test_vectors_that_cannot_be_measured_are_found() -> None:
 def test_space_is_measured() -> None:
     """A panel takes its part of the page, and ink its part of the panel."""
     found = sheet('<polyline points="0,0 40,25" stroke="#555555"/>')
-    assert (found.plans_of_page, found.ink_of_panels) == (0.4, [0.25])
-    assert (found.odd_scales, significand(0.025)) == (["k_v = 3"], 2.5)
+    assert (found.plans_of_page, found.ink_of_panels) == (0.4, 0.25)
+
+
+def test_odd_scales_are_found() -> None:
+    """A scale that no ruler has is a fault, and a plan drawn twice as large as by its scale."""
+    caption = '</g><g class="layer-text"><text x="5" y="5" font-size="3">N-plan, ×2</text>'
+    assert sheet(caption).odd_scales == ["k_v = 3", "×2"]
+    assert [significand(scale) for scale in (0.025, 4000, 12.5)] == [2.5, 4, 1.25]
+
+
+def test_letters_and_subscripts_are_measured_apart() -> None:
+    """The smallest capitals are those of the smallest letters; subscripts count for themselves."""
+    found = sheet(letters('A<tspan font-size="1.8">2</tspan>', 10, 10), letters("B", 30, 10))
+    assert (found.smallest_letters, found.smallest_subscripts) == pytest.approx((0.729 * 2.5, 0.729 * 1.8))
+
+
+def test_marks_that_cannot_be_told_apart_are_found() -> None:
+    """Two marks half a millimetre apart are a fault; two at one place are one."""
+    assert sheet(mark(10, 10), mark(10.5, 10), mark(10, 10)).marks_too_near == [("1", "2"), ("2", "3")]
+    assert not sheet(mark(10, 10), mark(12, 10)).marks_too_near
+
+
+def test_vectors_upon_others_are_found() -> None:
+    """Vectors are measured where they lie upon each other or on a link, not where they cross or only touch."""
+    link = '</g><g class="layer-links"><polyline points="5,10 25,10" stroke="#000000"/><polyline points="12,0 12,20"/>'
+    assert sheet(vector(30), vector(20)).vectors_on_vectors == 20
+    assert sheet(vector(30), vector(20, y=12)).vectors_on_vectors == 0
+    assert sheet(vector(30), link).vectors_on_links == 15
 
 
 def test_the_list_of_steps_is_measured() -> None:
@@ -75,4 +105,24 @@ def test_the_list_of_steps_is_measured() -> None:
     lines = ([1, 2, 3], [2, 4, 6], [1, 2, 4])
     steps = [{"number": k, "kind": "line", "plan": "N-plan", "value": value, "why": "so" if k == 1 else ""}
              for k, value in enumerate(lines, 1)]
-    assert (drawn_twice(steps), without_reason(steps)) == ([2], [2, 3])
+    assert (measured.drawn_twice(steps), measured.without_reason(steps)) == ([2], [2, 3])
+
+
+def test_measures_are_told_with_what_must_be() -> None:
+    """A measure says its bound, and in how many scenes it holds or what is usual."""
+    some = Measure("some", lambda one: [], most=0)
+    usual = Measure("usual", lambda one: 0.0, least=0.6, form=".0%", typical=True)
+    rows = [{"some": found, "usual": part} for found, part in (([], 0.5), (["A"], 0.7), ([], 0.9))]
+    assert [(one.must, held(one, rows)) for one in (some, usual)] == [("≤ 0", "2 of 3"), ("≥ 60%", "70%")]
+
+
+def test_a_scene_is_measured() -> None:
+    """The four-bar has a row with each measure; what is found on it is told."""
+    found = {"four-bar": measured.row(measured.DrawnScene.of(load("four-bar"))) | {"lines drawn twice": [2, 5]}}
+    assert measured.table(found).splitlines()[2].startswith("| four-bar | 0 | 0 | 0 |")
+    assert "four-bar: lines drawn twice: 2, 5" in findings(found)
+
+
+def test_random_linkages_are_measured() -> None:
+    """Linkages that chance makes have rows too, by their seeds."""
+    assert [name for name, _ in measured.measured(measured.random_scenes(3, 6))] == ["random 6", "random 7", "random 8"]

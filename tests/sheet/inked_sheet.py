@@ -1,0 +1,302 @@
+"""A sheet as its SVG has it: panels, letters, strokes, marks and vectors, and what of them cannot be read or measured.
+
+Nothing but the file is read, so a sheet is judged by what a student holds in hand. Lengths are mm of paper.
+"""
+
+from __future__ import annotations
+
+import re
+import xml.etree.ElementTree as ET
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cache, cached_property
+from itertools import combinations
+from statistics import median
+
+import numpy as np
+import shapely
+import shapely.prepared
+from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import TextPath
+
+NS = "{http://www.w3.org/2000/svg}"
+FONT = FontProperties(family="DejaVu Sans")
+CAPITALS = 0.729  # of the size of the letters
+MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
+ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
+TOUCHED = 0.02  # mm²: letters that share less are apart
+NEAR = 0.1  # a stroke may touch the box of letters by so much
+SHORTEST, SMALL = 5.0, 0.02  # a vector that is asked for, and of the largest of its kind what may be shorter
+UPON, SHARED = 0.35, 3.0  # vectors so near to a line lie upon it, where they do so for longer than this
+ROUND = {1.0, 2.0, 2.5, 4.0, 5.0}
+
+
+@dataclass(frozen=True)
+class Label:
+    """Letters on a plan: the layer or step that they belong to, what they say, and the box of their ink."""
+
+    key: str
+    text: str
+    box: shapely.Geometry
+
+
+@dataclass(frozen=True)
+class Stroke:
+    """A line, an arc or a circle, with the layer or step that it belongs to."""
+
+    key: str
+    line: shapely.Geometry
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A drawn vector: what it is, such as velocity A, or nothing where it is not asked for, and its shaft."""
+
+    name: str
+    line: shapely.Geometry
+
+
+@dataclass(frozen=True)
+class InkedSheet:
+    """A sheet as its SVG tells it: panels by plan, labels and strokes on them, marks by step, vectors."""
+
+    root: ET.Element
+
+    @classmethod
+    def of(cls, svg: str) -> InkedSheet:
+        """The sheet of an SVG text."""
+        return cls(ET.fromstring(svg.encode()))
+
+    @property
+    def page(self) -> float:
+        """The area of the paper, mm²."""
+        _, _, wide, high = map(float, self.root.get("viewBox", "").split())
+        return wide * high
+
+    @cached_property
+    def panels(self) -> dict[str, shapely.Geometry]:
+        """The panel of each plan."""
+        return {rect.get("data-plan", ""): shapely.box(x, y, x + wide, y + high)
+                for rect in self.root.iter(f"{NS}rect") if rect.get("class") == "panel"
+                for x, y, wide, high in [[float(rect.get(name, 0)) for name in ("x", "y", "width", "height")]]}
+
+    @cached_property
+    def plans(self) -> shapely.Geometry:
+        """All panels as one area."""
+        return shapely.union_all([*self.panels.values()])
+
+    @cached_property
+    def elements(self) -> list[tuple[str, ET.Element]]:
+        """What is drawn, each with the layer or step of its group; paper and border are left out."""
+        groups = [(g.get("data-step") or g.get("class", ""), g) for g in self.root.findall(f"{NS}g")]
+        return [(key, element) for key, group in groups if key not in ("layer-paper", "layer-border")
+                for element in group.iter()]
+
+    @cached_property
+    def texts(self) -> list[tuple[str, ET.Element]]:
+        """All lettering, with its layer or step."""
+        return [(key, element) for key, element in self.elements if element.tag == f"{NS}text"]
+
+    @cached_property
+    def labels(self) -> list[Label]:
+        """The letters on the plans; captions and protocols are none."""
+        near = shapely.prepared.prep(self.plans.buffer(0.1))
+        return [label(key, element) for key, element in self.texts if key not in ("layer-text", "layer-results")
+                and near.contains(shapely.Point(float(element.get("x", 0)), float(element.get("y", 0))))]
+
+    @cached_property
+    def strokes(self) -> list[Stroke]:
+        """The lines on the plans, circles of marks and pairs among them."""
+        lines = [(key, line) for key, element in self.elements for line in stroked(element)]
+        return [Stroke(key, line) for key, line in lines if self.plans.intersects(line)]
+
+    @cached_property
+    def marks(self) -> list[tuple[str, shapely.Geometry]]:
+        """The marks of steps, by step."""
+        return [(key, spot) for key, spot, r in self._circles if key.isdigit() and r <= MARK]
+
+    @cached_property
+    def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:
+        """All circles: their layer or step, their middle, their radius."""
+        return [(key, shapely.Point(float(e.get("cx", 0)), float(e.get("cy", 0))), float(e.get("r", 0)))
+                for key, e in self.elements if e.tag == f"{NS}circle"]
+
+    @cached_property
+    def vectors(self) -> list[Vector]:
+        """The vectors on all plans."""
+        arrows = [e for _, e in self.elements if e.get("class") == "vector"]
+        return [Vector(e.get("data-vector", ""), shapely.LineString([
+            tuple(map(float, e.get(end, "").split())) for end in ("data-from", "data-to")])) for e in arrows]
+
+    # ---- letters ----------------------------------------------------------------------------------------------------
+
+    @property
+    def labels_on_labels(self) -> list[tuple[str, str]]:
+        """Letters that cover other letters."""
+        return [(a.text, b.text) for a, b in combinations(self.labels, 2)
+                if a.box.intersects(b.box) and a.box.intersection(b.box).area > TOUCHED]
+
+    @property
+    def lines_through_labels(self) -> list[tuple[str, str]]:
+        """Letters through which a line of another step goes, with that step."""
+        tree = shapely.STRtree([stroke.line for stroke in self.strokes])
+        cores = [(one, one.box.buffer(-NEAR)) for one in self.labels]
+        return [(one.text, self.strokes[k].key) for one, core in cores if not core.is_empty
+                for k in tree.query(core, predicate="intersects") if self.strokes[k].key != one.key]
+
+    @property
+    def labels_nearer_to_others(self) -> list[str]:
+        """Letters of a mark that are nearer to the mark of another step."""
+        found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
+                 if (of := [one for one in self.labels if one.key == key])]  # its vector has letters too
+        return [one.text for key, mark, one in found if any(
+            other.distance(one.box) < mark.distance(one.box) - NEAR for step, other in self.marks if step != key)]
+
+    @property
+    def smallest_letters(self) -> float:
+        """The height of the smallest capitals on the sheet, subscripts apart."""
+        return CAPITALS * min((float(text.get("font-size", 0)) for _, text in self.texts), default=np.inf)
+
+    @property
+    def smallest_subscripts(self) -> float:
+        """The height of the smallest capitals of subscripts."""
+        return CAPITALS * min((float(run.get("font-size", np.inf)) for _, text in self.texts for run in text),
+                              default=np.inf)
+
+    # ---- marks and vectors ------------------------------------------------------------------------------------------
+
+    @property
+    def marks_too_near(self) -> list[tuple[str, str]]:
+        """Marks that cannot be told apart from another mark, or from a pair, though they are not the same."""
+        spots = [*self.marks, *((key, spot) for key, spot, _ in self._circles if key == "layer-pairs")]
+        tree = shapely.STRtree([spot for _, spot in spots])
+        found = [(i, int(k)) for i, (_, spot) in enumerate(spots) for k in tree.query(spot, "dwithin", APART)]
+        return [(spots[i][0], spots[k][0]) for i, k in found if i < k and spots[i][1].distance(spots[k][1]) > ONE]
+
+    @property
+    def short_vectors(self) -> list[tuple[str, float]]:
+        """Vectors asked for that are too short to be measured, with their lengths."""
+        asked = [(vector.name, float(vector.line.length)) for vector in self.vectors if vector.name]
+        largest: dict[str, float] = {}
+        for name, length in asked:
+            kind = name.split()[0]
+            largest[kind] = max(length, largest.get(kind, 0.0))
+        return [(name, length) for name, length in asked if SMALL * largest[name.split()[0]] <= length < SHORTEST]
+
+    @property
+    def vectors_on_vectors(self) -> float:
+        """The length over which vectors that are asked for lie upon each other."""
+        asked = [vector.line for vector in self.vectors if vector.name]
+        return sum(upon(one, other) for one, other in combinations(asked, 2))
+
+    @property
+    def vectors_on_links(self) -> float:
+        """The length over which vectors that are asked for lie upon links."""
+        links = shapely.union_all([stroke.line for stroke in self.strokes if stroke.key == "layer-links"])
+        return sum(upon(vector.line, links) for vector in self.vectors if vector.name)
+
+    # ---- paper ------------------------------------------------------------------------------------------------------
+
+    @property
+    def plans_of_page(self) -> float:
+        """The part of the page that plans take."""
+        return float(self.plans.area / self.page)
+
+    @property
+    def ink_of_panels(self) -> float:
+        """The part of its panel that the box of a plan's ink takes: the median of all plans."""
+        drawn = [stroke.line for stroke in self.strokes] + [one.box for one in self.labels]
+        tree, parts = shapely.STRtree(drawn), list[float]()
+        for panel in self.panels.values():
+            inside = [panel.intersection(drawn[k]) for k in tree.query(panel, "intersects")]
+            parts.append(float(shapely.union_all(inside).envelope.area / panel.area))
+        return median(parts)
+
+    @property
+    def odd_scales(self) -> list[str]:
+        """Scales that no ruler has, and plans that are drawn a number of times as large as by their scale."""
+        told = re.findall(r"((?:k|mu)_\w) = ([\d.e+-]+)", self.root.findtext(f"{NS}desc") or "")
+        odd = [f"{name} = {value}" for name, value in told if significand(float(value)) not in ROUND]
+        captions = [said(element) for key, element in self.texts if key == "layer-text"
+                    and self.plans.contains(shapely.Point(float(element.get("x", 0)), float(element.get("y", 0))))]
+        return odd + [times for caption in captions for times in re.findall(r"×\s?\d[\d/.]*", caption)]
+
+
+def upon(line: shapely.Geometry, other: shapely.Geometry) -> float:
+    """The length over which a line lies upon others, crossings left out."""
+    shared = line.intersection(other.buffer(UPON, cap_style="flat"))
+    return sum(float(part.length) for part in shapely.get_parts(shared) if part.length > SHARED)
+
+
+def significand(value: float) -> float:
+    """The number from 1 to 10 that a value is a power of ten times."""
+    return round(value / 10 ** np.floor(np.log10(value) + 1e-12), 9)
+
+
+# ---- elements -------------------------------------------------------------------------------------------------------
+
+
+def said(element: ET.Element) -> str:
+    """What a text says."""
+    return "".join(element.itertext())
+
+
+def label(key: str, element: ET.Element) -> Label:
+    """A text with the box of its ink: its runs one after the other, indices lower, from its anchor."""
+    x, y, size = (float(element.get(name, 0)) for name in ("x", "y", "font-size"))
+    runs = [(element.text or "", size, 0.0), *((run.text or "", float(run.get("font-size", size)),
+                                               float(run.get("dy", 0))) for run in element)]
+    boxes, width = [], 0.0
+    for text, high, down in runs:
+        y += down
+        if text.strip():
+            left, top, right, bottom = inked(text, high)
+            boxes.append((width + left, y - bottom, width + right, y - top))
+        width += advance(text, high)
+    shift = x - {"middle": width / 2, "end": width}.get(element.get("text-anchor", ""), 0.0)
+    box = shapely.union_all([shapely.box(a + shift, b, c + shift, d) for a, b, c, d in boxes]).envelope
+    return Label(key, said(element), box)
+
+
+def inked(text: str, size: float) -> tuple[float, ...]:
+    """The box of a text's ink, from its base line upwards."""
+    return tuple(size * end for end in letters(text))
+
+
+@cache
+def letters(text: str) -> tuple[float, ...]:
+    """The box of the ink of letters of size 1."""
+    return tuple(map(float, TextPath((0, 0), text, size=1, prop=FONT).get_extents().extents))
+
+
+def advance(text: str, size: float) -> float:
+    """How far a text leads."""
+    return inked(text + "|", size)[2] - inked("|", size)[2] if text else 0.0
+
+
+def stroked(element: ET.Element) -> Iterator[shapely.Geometry]:
+    """The line of an element that has one; what is only filled has none."""
+    if element.get("stroke") in (None, "none"):
+        return
+    if element.tag in (f"{NS}polyline", f"{NS}polygon"):
+        spots = [tuple(map(float, spot.split(","))) for spot in element.get("points", "").split()]
+        yield shapely.LineString([*spots, spots[0]] if element.tag.endswith("polygon") else spots)
+    elif element.tag == f"{NS}circle":
+        x, y, r = (float(element.get(name, 0)) for name in ("cx", "cy", "r"))
+        yield shapely.Point(x, y).buffer(r).exterior
+    elif element.tag == f"{NS}path":
+        yield arc(element.get("d", ""))
+
+
+def arc(path: str) -> shapely.Geometry:
+    """An arc as graphplan writes it, M x y A r r 0 large 0 u v, counter-clockwise on paper, as a chain."""
+    x, y, r, _, _, large, _, u, v = map(float, re.findall(r"-?[\d.]+", path))
+    half, start, end = np.hypot(u - x, v - y) / 2, complex(x, y), complex(u, v)
+    if start == end:  # to a hundredth of a millimetre
+        return shapely.Point(x, y)
+    away = np.sqrt(max(r * r - half * half, 0.0)) * (1 if large else -1)
+    centre = (start + end) / 2 + away * 1j * (end - start) / (2 * half)
+    first = np.angle(start - centre)
+    turn = -(np.angle((start - centre) / (end - centre)) % (2 * np.pi))
+    at = centre + r * np.exp(1j * (first + turn * np.linspace(0, 1, 2 + int(abs(turn) * 15))))
+    return shapely.LineString(np.stack([at.real, at.imag], axis=1))

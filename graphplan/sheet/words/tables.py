@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
-from graphplan.phrases import Said, digits, figures
+from graphplan.phrases import Said, arranged, digits, figures, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.rows import Cell, TextRow
@@ -76,7 +76,8 @@ def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -
     told = [off.get(name) for name in names]
     if not any(told):
         return table
-    head = "± (mm)" if any(deviation is not None and deviation.mm is not None for deviation in told) else "±"
+    on_paper = any(deviation is not None and deviation.mm is not None for deviation in told)
+    head = say(arranged("± ({0})", unit("mm"))) if on_paper else "±"
     column = [head, *("" if deviation is None else say(deviation.told) for deviation in told)]
     return [[*row, sentence_runs(cell)] for row, cell in zip(table, column, strict=True)]
 

@@ -141,7 +141,7 @@ def weighed(found: Sequence[Form], prefer: str) -> Preference:
     drawn = [(form, form.drafted) for form in found if form.drafted is not None]
     word, weigh = WEIGHED[prefer]
     best, on = min(drawn, key=lambda pair: weigh(pair[1]))
-    head = said("{0} form preferred: {1}; weighed on {2}:", word(), best.name, on.paper)
+    head = said("{0} form preferred: {1}; compared on {2}:", word(), best.name, on.paper)
     return Preference(best.methods[0], (head, *(form.told for form in found)))
 
 

@@ -52,7 +52,7 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     add("--inertia", default=INERTIA[0], choices=INERTIA, help="inertia forces: at the centre of mass with a couple "
         "(default), shifted so that they need none, or at two points that replace the link")
     add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
-        help="draw so many rounds of friction; without it they go on until the forces stand")
+        help="draw N rounds of the friction iteration; without it until the forces no longer change")
     command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="")
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")

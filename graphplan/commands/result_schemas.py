@@ -28,7 +28,7 @@ PLAIN: dict[str, Fragment] = {
     "vector": {"type": "array", "items": VALUE, "minItems": 2, "maxItems": 2},
     "percent": {"type": "number", "minimum": 0, "maximum": 100},
     "step": described("the number of the step, 0 for what is given", COUNT),
-    "verdict": described("follows is right after an earlier slip; unseen is of a kind that the drawing does not show",
+    "verdict": described("follows: right after an earlier mistake; unseen: of a kind that the drawing does not show",
                          {"enum": [*STATES]}),
     "counts": table(dict.fromkeys(STATES, COUNT)),
     "units": table({quantity: {"enum": [*units]} for quantity, units in BY_QUANTITY.items()}),

@@ -50,7 +50,7 @@ def options(command: argparse.ArgumentParser) -> None:
         help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over the true one")
     add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict, and how many steps a "
         "number counts for: such as right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); follows is right "
-        "after an earlier slip")
+        "after an earlier mistake")
     add("--json", action="store_true", help="as data")
     add_sheet(command)
     add_choices(command)

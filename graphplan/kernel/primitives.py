@@ -118,7 +118,7 @@ def line_meets_circle(d: Any, l: Any, c: Any, /, *, way: str) -> Any:
     """One of the two intersections of a line with a circle: further `on` or further `back` along the line."""
     n2 = dot(l, l)
     off = (dot(l, c) + l[2]) / n2
-    t = d.sqrt(c[2] / n2 - off * off, "line-misses-circle", "the line passes the circle by")
+    t = d.sqrt(c[2] / n2 - off * off, "line-misses-circle", "the line does not meet the circle")
     t = t if way == "on" else -t
     return c[0] - l[0] * off + t * l[1], c[1] - l[1] * off - t * l[0]
 

@@ -49,7 +49,7 @@ def constructions(scene: Scene, *, method: str = "", plan: str = "", strict: boo
         if not method:
             raise
     for found in _by_plans(scene, "", chosen) if method else ():
-        found.notes.append(said("the method that was asked for does not serve in this pose; another way is drawn"))
+        found.notes.append(said("the chosen method cannot be drawn in this pose; another is drawn"))
         found.strict = strict
         yield found
 

@@ -66,7 +66,7 @@ def test_balanced_has_the_smallest_product(found: list[Form], drawn: dict[str, D
 def test_what_was_weighed_is_told(found: list[Form], drawn: dict[str, Drafted]) -> None:
     """The choice is told with every alternative, its operations and its error, a line each."""
     head, *others = weighed(found, "quick").told
-    assert head == "quick form preferred: auxiliary; weighed on A2:"
+    assert head == "quick form preferred: auxiliary; compared on A2:"
     assert {line.partition(":")[0] for line in others} == {"pose's own, poles", "auxiliary", "trial"}
     assert any(line.startswith("trial") and f"{drawn['trial'].operations} operations" in line for line in others)
 
@@ -94,7 +94,7 @@ def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], t
     scene.write_text(TRIAD)
     assert main(["steps", str(scene), "--plan", "polar", "--prefer", "accurate"]) == 0
     told = capsys.readouterr().out
-    assert "accurate form preferred: trial; weighed on A2:" in told
+    assert "accurate form preferred: trial; compared on A2:" in told
     assert re.search(r"step \d+: trial figure", told)
 
 

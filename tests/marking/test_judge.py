@@ -90,7 +90,7 @@ def test_every_mistake_is_held_against_its_own_step(kind: str) -> None:
 
 
 def test_later_steps_follow_from_a_slip() -> None:
-    """What rests on a wrong mark is right after an earlier slip, what does not is right."""
+    """What rests on a wrong mark is right after an earlier mistake, what does not is right."""
     drawing, sheet = composed("four-bar")
     where = {step.name: step.index for step in drawing.drawn.steps}
     mistake = next(one for one in slipped(drawing, where["v_b"]) if one.told.endswith("AB instead of line 4"))
@@ -255,7 +255,7 @@ def test_numbers_that_cannot_be_judged_are_refused(others: tuple[Number, ...], w
 
 
 def test_a_number_read_off_a_wrong_drawing_follows() -> None:
-    """The student measures his own v_b, which is wrong: the number is right after an earlier slip."""
+    """The student measures his own v_b, which is wrong: the number is right after an earlier mistake."""
     drawing, sheet = composed("four-bar")
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1)
     traces = [replace(trace, spots=((trace.spots[0][0] + 8.0, trace.spots[0][1]),)) if trace.label == "v_b" else trace

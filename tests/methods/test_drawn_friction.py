@@ -79,7 +79,7 @@ def test_kinytskyi(plan: str) -> None:
     found = report(load("kinytskyi"), plan=plan)
     told = data(found)["friction"]
     assert told["rounds"] == 2
-    assert "friction: the forces stand after round 2" in found.drawing.forms
+    assert "friction: the forces no longer change after round 2" in found.drawing.forms
     drawn, stands = (one["balance"][0]["moment"] for one in (told, told["stands"]))
     assert drawn == pytest.approx(stands, rel=1e-12)
     assert drawn == pytest.approx(6.4180678727, rel=1e-10)

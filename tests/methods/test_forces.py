@@ -196,7 +196,7 @@ def test_small_slide_reaction_is_told() -> None:
         found = report(press(weight, Fraction(7)))
         assert found.agrees
         assert ("slide arm" in found.results) == drawn
-        assert any("small beside its moment" in form for form in found.drawing.forms) != drawn
+        assert any("small compared with its moment" in form for form in found.drawing.forms) != drawn
 
 
 def test_unloaded_group_is_not_drawn() -> None:

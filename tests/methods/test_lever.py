@@ -248,7 +248,7 @@ def test_a_force_too_small_to_shift_keeps_its_couple() -> None:
                   .replace("mass = 1\n", "mass = 0.0001\n"), "shifted")
     found = report(scene, exact=True, inertia="shifted")
     assert found.check["force"] == 0
-    assert any("its inertia force is small beside its couple" in form for form in found.drawing.forms)
+    assert any("its inertia force is small compared with its couple" in form for form in found.drawing.forms)
 
 
 def test_what_is_left_out_is_said(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -14,10 +14,10 @@ from graphplan.sheet.layout.composition import Composition
 RIGHT, FOLLOWS, WRONG, MISSING, UNSEEN = "right", "follows", "wrong", "missing", "unseen"
 STATES = {
     RIGHT: phrase("correct"),
-    FOLLOWS: phrase("correct after an earlier slip"),
+    FOLLOWS: phrase("correct after an earlier mistake"),
     WRONG: phrase("wrong"),
     MISSING: phrase("missing"),
-    UNSEEN: phrase("not to be seen"),  # of a kind that the drawing does not show: what follows from it tells
+    UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show: what follows from it tells
 }
 NOT_NEEDED = phrase("not needed")
 

@@ -98,8 +98,8 @@ class Loaded(Draughtsman):
             if force <= SHORT * size or couple > NEAR * size * force:
                 yield link
                 if couple > SHORT * size * size:
-                    self.notes.append(said("{0}: its inertia force is small beside its couple; they are left apart",
-                                           link_named(link)))
+                    self.notes.append(said("{0}: its inertia force is small compared with its couple; they are not "
+                                           "combined", link_named(link)))
 
     def _polygons(self, velocity: Velocity, loading: Loading) -> None:
         """The reactions and the balances, group by group against the motion's order; and once more with friction."""
@@ -127,9 +127,9 @@ class Loaded(Draughtsman):
         if self.loads.rounds:
             self.notes.append(said("friction: rounds drawn, as asked: {0}", forces.number))
         elif stands:
-            self.notes.append(said("friction: the forces stand after round {0}", forces.number))
+            self.notes.append(said("friction: the forces no longer change after round {0}", forces.number))
         else:
-            self.notes.append(said("friction: the forces do not stand after {0} rounds", forces.number))
+            self.notes.append(said("friction: the forces still change after {0} rounds", forces.number))
 
     def _valued(self, marks: Sequence[Mark]) -> list[Any]:
         """The values of marks in this pose."""
@@ -283,8 +283,8 @@ def _with_arms(found: Construction, draw: Callable[[tuple[str, ...]], Constructi
     near = tuple(name for name, size in sizes.items() if size > least and abs(moments[name]) <= reach * size)
     drawn = draw(near) if near else found
     drawn.notes = found.notes + [
-        said("slide {0}: its reaction is small beside its moment; it is told as a force and a couple, not by its line",
-             slide_named(slide))
+        said("slide {0}: its reaction is small compared with its moment; it is given as a force and a couple, not by "
+             "its line of action", slide_named(slide))
         for slide in found.scene.slides
         if slide.name in sizes and slide.name not in near and abs(moments[slide.name]) > least * reach]
     return drawn

@@ -125,7 +125,7 @@ class _Alternative:
         if among > 1:
             self.construction.notes.append(
                 said("rings of links: {0}; errors of the steps grow {1}-fold, the best of {2} ways",
-                     joined(self.construction.ways or [said("travelling facts")]), digits(self.growth, 2), among))
+                     joined(self.construction.ways or [said("joint by joint")]), digits(self.growth, 2), among))
         return self.construction, self.planner
 
     @staticmethod

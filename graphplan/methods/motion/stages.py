@@ -38,8 +38,8 @@ LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Seed: said("the motion of the point is given"),
     Auxiliary: said("the end of the auxiliary point lies on the loci of both points that it was found from"),
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
-    FalsePosition: said("the error of a trial changes in proportion to what is assumed, so two trials tell where it is "
-                        "nothing"),
+    FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is "
+                        "zero"),
 }
 BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
 BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),

@@ -149,7 +149,7 @@ class Words:
         if self.check:
             yield self._heading(said("Check"))
             parts = joined(joined((WORDS[kind], _within(float(gap))), " ") for kind, gap in self.check.items())
-            yield from self.paragraph(said("Largest difference from the analytic solver, beside the number's own "
+            yield from self.paragraph(said("Largest difference from the analytic solver, relative to the number's own "
                                        "size: {0}.", parts), wide)
 
     def _forms(self, wide: float) -> Iterator[TextRow]:

@@ -1,7 +1,8 @@
-"""Print the construction in words, step by step.
+"""Print the construction in words, stage by stage, as it lies on the sheet that the same options draw.
 
 examples:
   graphplan steps alt-eight-link
+  graphplan steps alt-eight-link --movements       with the single movements of what takes several
   graphplan steps scene.toml --strict
   graphplan steps scene.toml --json --paper A3     with the place of every mark on that sheet
   graphplan steps scene.toml --prefer balanced
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
 
 
 def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("--movements", action="store_true", help="below what takes several movements, each of them")
     command.add_argument("--json", action="store_true", help="as data, with the place of every mark on the sheet")
     add_sheet(command)
     add_choices(command, strict=True)
@@ -28,7 +30,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     on_sheet = on_paper(options)
-    write(as_json(data(on_sheet)) if options.json else protocol(on_sheet))
+    write(as_json(data(on_sheet)) if options.json else protocol(on_sheet, movements=options.movements))
     return 0
 
 
@@ -41,10 +43,10 @@ def data(on_sheet: Drafted) -> dict[str, Any]:
     return found | {"cost": on_sheet.cost.data, "pencil": on_sheet.data}
 
 
-def protocol(on_sheet: Drafted) -> str:
-    """The same in words."""
+def protocol(on_sheet: Drafted, *, movements: bool = False) -> str:
+    """The same in words; compounds as one step each, or with their `movements` below."""
     from graphplan.mechanism.structure import structure
     from graphplan.output import text
 
-    drawing, say = on_sheet.drawing, on_sheet.composition.plans.tongue
-    return text.protocol(drawing, structure(drawing.scene).lines(), on_sheet.lines(), say)
+    return text.protocol(on_sheet.composition, structure(on_sheet.drawing.scene).lines(), on_sheet.lines(),
+                         movements=movements)

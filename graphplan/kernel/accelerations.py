@@ -7,20 +7,21 @@ from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, POINT, SET_SQUARES, primitive
 from graphplan.kernel.primitives import apart, dot, vector
+from graphplan.phrases import phrase
 
 
 def _semicircle(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """v < KA: the velocity is a leg, KA the hypotenuse; the leg's projection on KA is v^2/KA."""
     M = s.midpoint(K, A)
-    D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(A, s.opening(m, w)), side="left")
-    return s.transfer(s.foot(s.side(K, A), D), A, k)
+    D = s.circles_meet(s.circle(M, s.opening(M, A)), s.circle(A, s.opening(m, w)), side="left", name="D")
+    return s.transfer(s.foot(s.side(K, A), D, name="E"), A, k)
 
 
 def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """v > KA: the velocity is a leg, KA its projection; the hypotenuse is v^2/KA."""
     KA, arc = s.side(K, A), s.circle(A, s.opening(m, w))
-    D = s.line_meets_circle(s.perpendicular(KA, K), arc, way="on")
-    E = s.meet(KA, s.perpendicular(s.side(A, D), D))
+    D = s.line_meets_circle(s.perpendicular(KA, K), arc, way="on", name="D")
+    E = s.meet(KA, s.perpendicular(s.side(A, D), D), name="E")
     return s.transfer(E, A, k)
 
 
@@ -32,7 +33,14 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
                "nothing to draw": lambda s, K, A, m, w, k: k if s.one(m, w) else None,
                "semicircle": _semicircle,
                "companion": _companion,
-               "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None})
+               "equal lengths": lambda s, K, A, m, w, k: s.transfer(K, A, k) if s.equal(K, A, m, w) else None},
+           before={
+               "semicircle": phrase("On {0}{1} draw the semicircle; about {1} strike the arc through it with the "
+                                    "opening from {2} to {3}: {D}. From {D} drop the perpendicular on {0}{1}: foot "
+                                    "{E}."),
+               "companion": phrase("At {0} draw the perpendicular to {0}{1}; about {1} strike the arc through it with "
+                                   "the opening from {2} to {3}: {D}. At {D} draw the perpendicular to the line "
+                                   "through {1} and {D}: it meets {0}{1} in {E}.")})
 def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """The end a of the vector ka = v^2/KA, parallel to KA and away from k, v being the length mw.
 
@@ -57,7 +65,11 @@ def _half(s: Any, P: Any, B: Any, T: Any, R: Any, b: Any, *, turned: bool) -> An
            source="Ozols 1974, 5-3, fig. 5-24", weighed=True, forms={
                "nothing to draw": lambda s, P, B, T, R, b: b if s.one(B, T) or s.one(B, R) else None,
                "at the pair": partial(_half, turned=False),
-               "at another point of the guide's link": partial(_half, turned=True)})
+               "at another point of the guide's link": partial(_half, turned=True)},
+           by_form=dict.fromkeys(("at the pair", "at another point of the guide's link"), phrase(
+               "From {4} lay off the vector from {K} to {1}, half the Coriolis vector, twice: mark {out}.")),
+           before={"at the pair": phrase("Similar triangles: through {2} draw the parallel to the line through {3} "
+                                         "and {0}; it meets the line through {1} and {3} in {K}.")})
 def coriolis(d: Any, P: Any, B: Any, T: Any, R: Any, b: Any) -> Any:
     """The point b less the Coriolis vector: BT/BP is the guide's turning, BR the orthogonal relative velocity."""
     u = apart(d, B, P, "the pole of the guide lies in the pair")

@@ -82,6 +82,8 @@ class Expander:
         self.panel = Panel()
         self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
         self.serves: list[int] = []
+        self.inner: dict[int, Sequence[tuple[Mark, str]]] = {}  # marks that forms name, by step of the program
+        self._letters: Sequence[tuple[Mark, str]] = ()
         self._made: dict[int, tuple[str, tuple[Mark, ...]]] = {}
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 
@@ -93,10 +95,12 @@ class Expander:
             args = tuple(place[arg] for arg in step.args)
             try:
                 with self.board.on(step.panel, step.links, step.stage):
+                    self._letters = ()
                     mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             place.append(self.board.named(mark, step.name))
+            self.inner[step.index] = self._letters
             self.serves += [step.index] * (len(self.board.steps) - len(self.serves))
         self.place = [mark.step.index for mark in place]
         return Program(tuple(self.board.steps), tuple(self.place[index] for index in self.program.wanted))
@@ -131,6 +135,7 @@ class Expander:
         for mark, letter in best.letters if names else ():
             self.board.named(mark, (names or {}).get(letter, ""))
         if not tried:
+            self._letters = best.letters
             self._explain(op, before, [one.rating for one in found], why, out)
         return out
 
@@ -277,8 +282,11 @@ class FormBoard(Verbs):
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], name: str = "", **params: Any) -> Mark:
         mark = self._expander.draw(op, args, params, tried=True)
-        if name:
-            self.letters.append((mark, name))
+        return self.called(mark, name) if name else mark
+
+    def called(self, mark: Mark, name: str) -> Mark:
+        """A mark that the form has a name for."""
+        self.letters.append((mark, name))
         return mark
 
     def made_by(self, mark: Mark) -> tuple[str, tuple[Mark, ...]]:

@@ -12,6 +12,7 @@ from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT, SET_SQUARES, STRAIGHTEDGE, Form, Variant, primitive
 from graphplan.kernel.primitives import apart, dot, size, vector
+from graphplan.phrases import phrase
 
 
 def _turned(u: Any, turn: str) -> Any:
@@ -84,7 +85,11 @@ def _foot_and_side(s: Any, A: Any, B: Any, C: Any, a: Any, b: Any, *, turn: str)
                "sides": _sides,
                "centre of similitude": _centre_of_similitude,
                "foot and side": _foot_and_side,
-               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None})
+               "ray": lambda s, A, B, C, a, b, turn: s.divide(A, B, C, a, b) if s.in_line(A, B, C) else None},
+           by_form={
+               "sides": phrase("Through {3} and {4} draw the lines {turn} to {0}{2} and {1}{2}: they meet in {out}."),
+               "ray": phrase("Divide the way from {3} to {4} in {out} as {2} divides that from {0} to {1}, by the "
+                             "intercept theorem.")})
 def similar(d: Any, A: Any, B: Any, C: Any, a: Any, b: Any, /, *, turn: str) -> Any:
     """The image of a third point of a link of which two points' images are known."""
     u = apart(d, A, B)
@@ -107,7 +112,8 @@ def _home(s: Any, alpha: Any, A: Any, turn: str) -> Any:
 
 
 def _auxiliary_point(s: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, *, turn: str) -> Any:
-    Q = s.meet(_home(s, alpha, A, turn), _home(s, beta, B, turn), name="Q")
+    y, z = s.called(_home(s, alpha, A, turn), "y"), s.called(_home(s, beta, B, turn), "z")
+    Q = s.meet(y, z, name="Q")
     q = s.meet(alpha, beta, name="q")
     return getattr(s, turn)(s.side(Q, C), q)
 
@@ -141,7 +147,16 @@ def _trials(*ratios: float) -> Form:
                "trial figure": _trials(0.35),
                Variant("trial figure", "on the other side"): _trials(-0.35),
                "two trial figures": _trials(0.3, -0.3),
-               "two trial figures further out": _trials(0.7, 0.2)})
+               "two trial figures further out": _trials(0.7, 0.2)},
+           by_form={
+               "auxiliary point": phrase("Auxiliary point {Q}, where {y} meets {z}: mark {q} where {1} meets {3} and "
+                                         "through it draw {out}, {turn} to {Q}{4}."),
+               "trial figure": phrase("Mark {U} where {1} meets {3}. Trial figure, its corners {A'} on {1} and {B'} on "
+                                      "{3}, its sides {turn} to the link's: through {U} and its third corner {C'} draw "
+                                      "{out}."),
+               **dict.fromkeys(("two trial figures", "two trial figures further out"), phrase(
+                   "Two trial figures, their corners {A'} and {A''} on {1}, {B'} and {B''} on {3}, their sides {turn} "
+                   "to the link's: through their third corners {C'} and {C''} draw {out}."))})
 def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str) -> Any:
     """The locus of a third point's image, where the images of two points of the link lie on known lines.
 
@@ -157,7 +172,7 @@ def carry(d: Any, A: Any, alpha: Any, B: Any, beta: Any, C: Any, /, *, turn: str
 
 
 def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, *, turn: str) -> Any:
-    b = s.meet(getattr(s, turn)(s.side(C, B), c), beta)
+    b = s.meet(getattr(s, turn)(s.side(C, B), c), beta, name="b")
     return s.similar(C, B, A, c, b, turn=turn)
 
 
@@ -169,7 +184,11 @@ def _other_locus(s: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, 
                "the same point": lambda s, C, c, A, alpha, B, beta, turn: c if s.one(C, A) else None,
                "its own locus": lambda s, C, c, A, alpha, B, beta, turn:
                    s.meet(getattr(s, turn)(s.side(C, A), c), alpha),
-               "the other locus": _other_locus})
+               "the other locus": _other_locus},
+           by_form={
+               "its own locus": phrase("Through {1} draw the line {turn} to {0}{2}: it meets {3} in {out}."),
+               "the other locus": phrase("Through {1} draw the line {turn} to {0}{4}: it meets {5} in {b}. From {1} to "
+                                         "{b} draw the figure similar to {0}{4}{2}: mark {out}.")})
 def settle(d: Any, C: Any, c: Any, A: Any, alpha: Any, B: Any, beta: Any, /, *, turn: str) -> Any:
     """The image of A, where the image of C is known and both A and B of the same link have a locus.
 

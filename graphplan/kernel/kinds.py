@@ -14,10 +14,11 @@ import math
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum
+from fractions import Fraction
 from functools import cached_property
 from typing import Any, Self
 
-from graphplan.phrases import Said, joined, said, sentence
+from graphplan.phrases import Phrase, Said, digits, joined, said, sentence
 
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
@@ -98,6 +99,8 @@ class Primitive:
     | `reversal` | the parameter that turns round where the first operand runs the other way, or curves change places |
     | `described` | how a line is spoken of where its number says nothing |
     | `forms` | the ways to draw a compound from other operations, by name, the textbook's first |
+    | `by_form` | how it is spoken as one step where it is drawn in these forms, with their inner marks by name |
+    | `before` | how in these forms that part is spoken which is drawn on another plan, before the rest |
     | `weighed` | whether the choice of its form is told, with its reason |
     | `method` | what it is called where the ways are listed in which forces are found |
     """
@@ -121,6 +124,8 @@ class Primitive:
     weighed: bool = False
     method: str = ""
     forms: dict[str, Form] = field(default_factory=dict, repr=False)
+    by_form: dict[str, Phrase] = field(default_factory=dict, repr=False)
+    before: dict[str, Phrase] = field(default_factory=dict, repr=False)
 
     def __reduce__(self) -> tuple[Callable[[str], Primitive], tuple[str]]:
         """Copied and sent elsewhere by name: there is one table."""
@@ -168,6 +173,20 @@ class Primitive:
         """The parameters with that of its reversal turned round: to the other side, or negative."""
         given = params[self.reversal]
         return {**params, self.reversal: OPPOSITE[given] if isinstance(given, str) else -given}
+
+
+# What stands in a sentence for a choice that a step is given.
+CHOICES: dict[str, Said] = {str(word): word for word in (
+    said("on"), said("back"), said("left"), said("right"), said("parallel"), said("perpendicular"))}
+
+
+def worded(value: Any) -> str:
+    """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
+    if isinstance(value, str):
+        return CHOICES.get(value, value)
+    if isinstance(value, Fraction) and value.denominator <= 16 and 1000 % value.denominator:
+        return str(value)
+    return digits(float(value), 6) if isinstance(value, Fraction | float) else str(value)
 
 
 TABLE: dict[str, Primitive] = {}

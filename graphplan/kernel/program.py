@@ -9,22 +9,18 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
-from fractions import Fraction
 from functools import cached_property
 from heapq import heapify, heappop, heapreplace
 from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
-from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive
+from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.stages import Stage, Teller, staged
-from graphplan.phrases import Said, arranged, digits, phrase, said
+from graphplan.phrases import Said, arranged, phrase, said
 
 NUMBERED = {POINT: phrase("point {0}"), LINE: phrase("line {0}"), OPENING: phrase("opening {0}"),
             CIRCLE: phrase("arc {0}")}
-# What stands in a sentence for a choice that a step is given.
-CHOICES: dict[str, Said] = {str(word): word for word in (
-    said("on"), said("back"), said("left"), said("right"), said("parallel"), said("perpendicular"))}
 
 
 class Panel(str):
@@ -256,7 +252,7 @@ class Program:
         return NUMBERED[step.op.gives](self.number(index))
 
     def described(self, index: int) -> str:
-        """How a mark is spoken of away from the sheet, where its number says nothing: a line by how it runs."""
+        """How a mark is spoken of away from the sheet: a line by how it runs, not by its number."""
         step = self.steps[index]
         if step.name or not step.op.described:
             return self.text(index)
@@ -277,10 +273,12 @@ class Program:
 
     def sentence(self, index: int) -> Said:
         """A step in words, in the letters of the sheet."""
-        step = self.steps[index]
+        return self.spoken(self.steps[index])
+
+    def spoken(self, step: Step, words: Callable[..., Said] | None = None) -> Said:
+        """A step of these marks in its own words, or in others that are filled in with the same."""
         params = {name: worded(value) for name, value in step.params.items()}
-        marks = [self.text(arg) for arg in step.args]
-        return step.op.spoken(marks, out=self.text(index), **params)
+        return (words or step.op.spoken)(list(map(self.text, step.args)), out=self.text(step.index), **params)
 
     @cached_property
     def stages(self) -> list[tuple[Stage, list[Step]]]:
@@ -297,15 +295,6 @@ def _joins(name: str) -> bool:
     """Whether a point's name can stand beside another's, as in KA: words such as pi would run together."""
     letters = name.partition("_")[0]
     return bool(name) and not (len(letters) > 1 and letters.isalpha())
-
-
-def worded(value: Any) -> str:
-    """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
-    if isinstance(value, str):
-        return CHOICES.get(value, value)
-    if isinstance(value, Fraction) and value.denominator <= 16 and 1000 % value.denominator:
-        return str(value)
-    return digits(float(value), 6) if isinstance(value, Fraction | float) else str(value)
 
 
 # ---- passes: each gives a new program, numbered afresh ---------------------------------------------------------------

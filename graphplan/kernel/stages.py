@@ -23,6 +23,11 @@ class Known(Enum):
     LOCUS = "locus"  # a line on which it ends, drawn in a stage before
     NOTHING = "nothing"
 
+    @property
+    def lines(self) -> int:
+        """How many times it is underlined: twice, once where one number is left open, or not."""
+        return {"magnitude and direction": 2, "nothing": 0}.get(self.value, 1)
+
 
 class Vector(NamedTuple):
     """A vector by its letter, such as a^n_BA, the normal acceleration of B about A."""
@@ -36,6 +41,17 @@ class Equation(NamedTuple):
 
     text: str
     vectors: tuple[Vector, ...]
+
+    @property
+    def underlined(self) -> list[tuple[int, int, int]]:
+        """Of each vector as it is written, from which letter to which, and how many times it is underlined."""
+        found, at = list[tuple[int, int, int]](), 0
+        for vector in self.vectors:
+            start = self.text.find(name := vector.name.removeprefix("-"), at)
+            if start >= 0:
+                at = start + len(name)
+                found.append((start, at, vector.known.lines))
+        return found
 
     @classmethod
     def sum(cls, left: Vector, right: Iterable[Vector]) -> Self:

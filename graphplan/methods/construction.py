@@ -14,12 +14,12 @@ from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Panel, Program, Step, evaluate, gathered, worded
+from graphplan.kernel.program import Panel, Program, Step, evaluate, gathered
 from graphplan.methods import kinds
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, LeverPlan
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
-from graphplan.phrases import Said, said
+from graphplan.phrases import Phrase, Said, said
 
 if TYPE_CHECKING:
     from graphplan.methods.batch import Poses
@@ -46,6 +46,38 @@ class ForceArrow(NamedTuple):
     kind: str
     letter: str
     marks: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class Compound:
+    """A compound as it is drawn: its step, of drawn marks, its movements, and the marks that its form has names for.
+    """
+
+    drawn: Program
+    step: Step
+    movements: tuple[Step, ...]
+    inner: Mapping[str, int]
+
+    @property
+    def form(self) -> str:
+        """The form in which it is drawn, or of which that is a variant."""
+        return next((step.choice.form for step in self.movements if step.choice), "")
+
+    @property
+    def sentence(self) -> Said:
+        """All of it as one step, in the source's words."""
+        return self._spoken(self.step.op.by_form) or self.drawn.spoken(self.step)
+
+    @property
+    def before(self) -> Said | None:
+        """What of it is drawn on another plan before the rest, where its form has words for that."""
+        return self._spoken(self.step.op.before)
+
+    def _spoken(self, phrases: Mapping[str, Phrase]) -> Said | None:
+        if self.form not in phrases:
+            return None
+        words, inner = phrases[self.form], {name: self.drawn.text(mark) for name, mark in self.inner.items()}
+        return self.drawn.spoken(self.step, lambda marks, **named: words(*marks, **named, **inner))
 
 
 @dataclass(repr=False)
@@ -93,19 +125,20 @@ class Construction(Recorded, Given):
         return program, [self._expander.values[index] for index in order], order
 
     @cached_property
-    def compounds(self) -> list[tuple[Said, list[Step]]]:
-        """The compounds that take several movements, each in words and with these, by its first in drawing order."""
+    def compounds(self) -> list[Compound]:
+        """The compounds that take several movements, by their first in drawing order."""
         drawn, _, order = self._gathered
         now = {before: index for index, before in enumerate(order)}
         place, whole = [now[before] for before in self._expander.place], dict[int, list[Step]]()
         for step, before in zip(drawn.steps, order, strict=True):
             whole.setdefault(self._expander.serves[before], []).append(step)
 
-        def words(one: Step) -> Said:
-            told = {name: worded(value) for name, value in one.params.items()}
-            return one.op.spoken([drawn.text(place[arg]) for arg in one.args], out=drawn.text(place[one.index]), **told)
+        def compound(one: Step, steps: list[Step]) -> Compound:
+            inner = {name: now[mark.step.index] for mark, name in self._expander.inner[one.index]}
+            as_drawn = one.but(index=place[one.index], args=tuple(place[arg] for arg in one.args))
+            return Compound(drawn, as_drawn, tuple(steps), inner)
 
-        return [(words(self.program.steps[index]), steps) for index, steps in whole.items() if len(steps) > 1]
+        return [compound(self.program.steps[index], steps) for index, steps in whole.items() if len(steps) > 1]
 
     @cached_property
     def broken(self) -> str:

@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from typing import Any
 
 from graphplan.kernel.lemoine import counts
-from graphplan.kernel.stages import Stage
+from graphplan.kernel.stages import Equation, Stage
 from graphplan.methods.construction import Construction
 from graphplan.methods.positions import layout
-from graphplan.phrases import Said, coordinates, digits, joined, said, unit
+from graphplan.phrases import arranged, coordinates, joined, said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.words.tongue import ENGLISH, Tongue
+from graphplan.sheet.words.protocol import Passage, Protocol
+from graphplan.words.tongue import Tongue
 
 WIDTH = 110
+HANGING = 9  # letters: what hangs from a number
+RULES = " -="  # under a vector of which nothing is known, one number, or both
 
 
-def protocol(drawing: Construction, structure: Iterable[str] = (), drafting: Iterable[str] = (),
-             say: Tongue = ENGLISH) -> str:
-    """The whole construction as numbered sentences, plan by plan; `drafting` is what is told of its cost and errors."""
-    scene, drawn = drawing.scene, drawing.drawn
-    lines = [say.title(scene.title), *filter(None, [scene.source]), ""]
+def protocol(composition: Composition, structure: Iterable[str] = (), drafting: Iterable[str] = (), *,
+             movements: bool = False) -> str:
+    """The whole construction stage by stage, as it lies on its sheet; `movements` unfolds what takes several.
+
+    `drafting` is what is told of its cost and errors.
+    """
+    plans, say = composition.plans, composition.plans.tongue
+    drawing, told = plans.drawing, Protocol(plans, composition.scales)
+    lines = [say.title(drawing.scene.title), *filter(None, [drawing.scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
-    lines += ["", *_pose(drawing, say), "", say(_tempo(drawing)), ""]
-    panel = ""
-    for step in drawn.steps[drawn.givens :]:
-        if step.panel != panel:
-            panel = step.panel
-            lines.append(say(said("On the {0}", step.panel.words)) + ":")
-        lines += _numbered(drawn.number(step.index), say(drawn.told(step.index)))
-    lines += ["", say(said("Cost: {0}.", counts(drawn).told))]
+    lines += ["", *_pose(drawing, say), "", *_scales(composition), *_wrapped(say(said(
+        "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
+        "locus is.")), ""), *_passages(told.passages, say, movements)]
+    lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]
     if drawing.forms:
         lines += ["", say(said("Forms chosen for this pose:"))]
@@ -49,19 +52,55 @@ def _pose(drawing: Construction, say: Tongue) -> list[str]:
     return lines
 
 
-def _tempo(drawing: Construction) -> Said:
-    length = drawing.scene.units.length
-    return said("Velocities are drawn {0} long: {1} on the plan for {2}; accelerations {3} long.",
-                joined((digits(drawing.kappa, 6), unit("s")), " "), unit(length), unit(f"{length}/s"),
-                joined((digits(drawing.kappa**2, 6), unit("s^2")), " "))
+def _scales(composition: Composition) -> Iterator[str]:
+    """What a millimetre of each plan stands for."""
+    plans, scales = composition.plans, composition.scales
+    told = [joined((plan.words, joined(scales.said(plan, plans.kinds(plan)))), ": ") for plan in plans.panels]
+    paper = composition.arrangement.paper
+    yield from _wrapped(plans.tongue(said("Scales on {0}: {1}.", paper, joined(told, "; "))), "")
 
 
-def _numbered(number: int, sentence: str) -> list[str]:
-    return textwrap.wrap(sentence, WIDTH, initial_indent=f"{number:4d}. ", subsequent_indent=" " * 6)
+def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iterator[str]:
+    """What is drawn, plan by plan and stage by stage, numbered by steps."""
+    plan = ""
+    for passage in passages:
+        if passage.plan != plan:
+            plan = passage.plan
+            yield from ("", say(said("On the {0}", passage.plan.words)) + ":")
+        yield from _head(passage, say)
+        for entry in passage.entries:
+            yield from _numbered(entry.number, say(entry.told))
+            for one in entry.movements if movements and entry.folded else ():
+                yield from _numbered(str(one.number), say(one.sentence), HANGING)
 
 
-def _wrapped(text: str, indent: str) -> list[str]:
-    return textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent + "  ")
+def _head(passage: Passage, say: Tongue) -> Iterator[str]:
+    """A stage's title, its equations with what is known in them, and its law where it was not told before."""
+    if passage.stage is None or passage.title is None:
+        return
+    yield from ("", *_wrapped(say(arranged("{0:capital}", passage.title)), "  "))
+    for equation in () if passage.again else passage.stage.equations:
+        yield from (4 * " " + line for line in (equation.text, _underlines(equation)) if line)
+    if passage.law:
+        yield from _wrapped(say(arranged("{0:capital}.", passage.law)), "    ", "")
+
+
+def _underlines(equation: Equation) -> str:
+    """Rules under the vectors of an equation."""
+    line = [" "] * len(equation.text)
+    for start, end, times in equation.underlined:
+        line[start:end] = RULES[times] * (end - start)
+    return "".join(line).rstrip()
+
+
+def _numbered(number: str, sentence: str, indent: int = 0) -> list[str]:
+    """A sentence that hangs from its number."""
+    return textwrap.wrap(sentence, WIDTH, initial_indent=f"{' ' * indent}{number:>{HANGING - 2}}. ",
+                         subsequent_indent=" " * (HANGING + indent))
+
+
+def _wrapped(text: str, indent: str, hanging: str = "  ") -> list[str]:
+    return textwrap.wrap(text, WIDTH, initial_indent=indent, subsequent_indent=indent + hanging)
 
 
 def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, Any]:
@@ -69,8 +108,10 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     and where on the paper."""
     drawing, say = composition.plans.drawing, composition.plans.tongue
     drawn, entries = drawing.drawn, []
-    stage_of, compound_of = ({step.index: number for number, (_, steps) in enumerate(of) for step in steps}
-                             for of in (drawn.stages, drawing.compounds))
+    told = Protocol(composition.plans, composition.scales)
+    stages, stage_of = told.stages
+    compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
+                   for one in compound.movements}
     for plate in composition.plates.steps:
         step, number = plate.step, stage_of.get(plate.index)
         entries.append({
@@ -83,7 +124,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "plan": plate.panel,
             "sentence": plate.sentence,
             "stage": number,
-            "why": say(step.why or ("" if number is None else drawn.stages[number][0].law)),
+            "why": say(step.why or ("" if number is None else stages[number].law)),
             "compound": compound_of.get(plate.index),
             "form": str(step.choice or ""),
             "reason": step.choice.reason() if step.choice and step.choice.compound.weighed else "",
@@ -99,8 +140,11 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "method": drawing.method,
         "forms": list(map(say, drawing.forms)),
         "cost": say(counts(drawn).told),
-        "stages": [_stage(stage, say) for stage, _ in drawn.stages],
-        "compounds": [say(sentence) for sentence, _ in drawing.compounds],
+        "stages": [_stage(stage, say) for stage in stages],
+        "compounds": [say(compound.sentence) for compound in drawing.compounds],
+        "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,
+                     "sentence": say(entry.sentence), "why": say(entry.why)}
+                    for passage in told.passages for entry in passage.entries],
         "steps": entries,
     }
 

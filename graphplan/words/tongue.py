@@ -52,9 +52,10 @@ class Tongue:
         return Forms({name: pattern.format(*put, **named) for name, pattern in forms.items()})
 
     def _forms(self, value: Said) -> dict[str, str]:
-        """The entry of a phrase, as a table of forms; what only joins others is the same everywhere."""
+        """The entry of a phrase, as a table of forms; what only joins others is the same everywhere, and what a
+        catalogue lacks is said in English."""
         assert self.catalogue is not None
-        entry = self.catalogue[value.section][value.key] if value.section else value.key
+        entry = self.catalogue[value.section].get(value.key, value.key) if value.section else value.key
         return entry if isinstance(entry, dict) else {"": entry}
 
     def _symbol(self, found: re.Match[str]) -> str:

@@ -54,17 +54,24 @@ def test_a_form_is_named_in_the_title() -> None:
 
 
 def test_compounds_are_told_as_one_step() -> None:
-    """What takes several movements is told in one sentence, in the letters and numbers of its movements."""
+    """What takes several movements is told in one sentence, in the letters and numbers of its movements; of what is
+    drawn on two plans the part on the first has words of its own."""
     drawing = drawing_of("slider-crank")
-    told = {str(words): [drawing.drawn.number(step.index) for step in steps] for words, steps in drawing.compounds}
-    assert told["Construct the relative normal acceleration of B about A by the relative velocity from point 12 to "
-                "v_b; from a lay it off: mark b."] == [13, 14, 15, 16, 17, 18, 19, 23]
+    told = {str(one.sentence): one for one in drawing.compounds}
+    normal = told["Construct the relative normal acceleration of B about A by the relative velocity from point 12 to "
+                  "v_b; from a lay it off: mark b."]
+    assert [drawing.drawn.number(step.index) for step in normal.movements] == [13, 14, 15, 16, 17, 18, 19, 23]
+    assert normal.before == ("On AB draw the semicircle; about B strike the arc through it with the opening from point "
+                             "12 to v_b: point 18. From point 18 drop the perpendicular on AB: foot point 19.")
+    auxiliary = [str(one.sentence) for one in drawing_of("alt-eight-link").compounds if one.form == "auxiliary point"]
+    assert auxiliary[0] == ("Auxiliary point Q, where FB meets AN: mark v_q where line 6 meets line 4 and through it "
+                            "draw line 12, parallel to QC.")
 
 
 @pytest.mark.parametrize("name", packaged())
 def test_a_compound_stands_in_one_stage(name: str) -> None:
     """The movements of a compound are of one stage, and none is a part of two compounds."""
-    compounds = [steps for _, steps in drawing_of(name).compounds]
+    compounds = [compound.movements for compound in drawing_of(name).compounds]
     assert compounds
     assert all(len({step.stage for step in steps}) == 1 for steps in compounds)
     assert len({step.index for steps in compounds for step in steps}) == sum(map(len, compounds))

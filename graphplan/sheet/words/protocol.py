@@ -1,0 +1,158 @@
+"""The protocol of a construction: its stages, in each the entries that a textbook has, in these the single movements.
+
+The one model of what is told of the drawing: text, sheet, handout, strip, stepper and data read it. Values in drawing
+order, in English that knows its words in other languages:
+
+    protocol = Protocol(plans, scales)
+    for passage in protocol.passages:       # what is drawn in one go on one plan in one stage
+        passage.plan, passage.title, passage.stage, passage.law, passage.again
+        for entry in passage.entries:       # one movement, or a compound as one step in the source's words
+            entry.number                    # "12", or of a compound "34–41": numbers of steps, as marks bear them
+            entry.sentence, entry.why
+            for movement in entry.movements:
+                movement.number, movement.sentence, movement.step
+
+There is one numbering, that of the steps. What takes several movements bears the numbers of the first and the last:
+folded, a reader still finds every number that stands on the sheet, and unfolded the same sentences stand below it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import groupby
+
+from graphplan.kernel.program import Panel, Program, Step
+from graphplan.kernel.stages import Stage
+from graphplan.methods.construction import Compound
+from graphplan.phrases import Said, arranged, said
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.plates.plans import Plans
+
+
+@dataclass(frozen=True)
+class SpokenStep:
+    """A drawn step in words: its number, what the hand does, and why."""
+
+    step: Step
+    number: int
+    sentence: Said
+    why: str
+
+    @property
+    def index(self) -> int:
+        return self.step.index
+
+
+@dataclass(frozen=True)
+class Entry:
+    """What is told as one step: one movement, or several of a compound that follow each other."""
+
+    sentence: Said
+    why: str
+    movements: tuple[SpokenStep, ...]
+
+    @property
+    def folded(self) -> bool:
+        """Whether it is several movements."""
+        return len(self.movements) > 1
+
+    @property
+    def number(self) -> str:
+        """The number of its step, or those of its first and last."""
+        first, last = self.movements[0].number, self.movements[-1].number
+        return f"{first}–{last}" if self.folded else str(first)
+
+    @property
+    def told(self) -> Said:
+        """Its sentence, with its reason where it has one."""
+        return arranged("{0} ({1:capital}.)", self.sentence, self.why) if self.why else self.sentence
+
+
+@dataclass(frozen=True)
+class Passage:
+    """Entries of one stage, one after the other on one plan; `again` where others of that stage came before.
+
+    `number` is the place of the stage among those of the program, and of one that is told again that of the first;
+    `law` is empty where it was told on this plan before.
+    """
+
+    plan: Panel
+    stage: Stage | None
+    number: int | None
+    again: bool
+    law: str
+    entries: tuple[Entry, ...]
+
+    @property
+    def title(self) -> Said | None:
+        """What stands over it."""
+        if self.stage is None:
+            return None
+        return said("{0}, continued", self.stage.title) if self.again else self.stage.title
+
+
+@dataclass(frozen=True)
+class Protocol:
+    """A construction told step by step, as it is drawn at these scales."""
+
+    plans: Plans
+    scales: Scales
+
+    @property
+    def _drawn(self) -> Program:
+        return self.plans.drawing.drawn
+
+    @cached_property
+    def steps(self) -> tuple[SpokenStep, ...]:
+        """Every step, in drawing order."""
+        drawn = self._drawn
+        return tuple(SpokenStep(step, drawn.number(step.index), drawn.sentence(step.index), step.why)
+                     for step in drawn.steps[drawn.givens :])
+
+    @cached_property
+    def stages(self) -> tuple[tuple[Stage, ...], Mapping[int, int]]:
+        """The stages, each once, and by step which of them it is a part of."""
+        told: dict[Stage, int] = {}
+        of = {step.index: told.setdefault(stage, len(told)) for stage, steps in self._drawn.stages for step in steps}
+        return tuple(told), of
+
+    @cached_property
+    def passages(self) -> tuple[Passage, ...]:
+        """All that is drawn, in drawing order."""
+        (stages, of), found = self.stages, list[Passage]()
+        seen, laws, plan = set[int](), set[str](), None
+        for (home, number), steps in groupby(self.steps, lambda one: (one.step.panel, of.get(one.index))):
+            laws, plan = (laws if home == plan else set()), home
+            stage = None if number is None else stages[number]
+            law = stage.law if stage and stage.law not in laws else ""
+            entries = tuple(self._entries([*steps], stage))
+            found.append(Passage(home, stage, number, number in seen, law, entries))
+            laws.add(law)
+            seen.update([] if number is None else [number])
+        return tuple(found)
+
+    @cached_property
+    def _compounds(self) -> dict[int, Compound]:
+        """By step the compound that it is a part of."""
+        return {step.index: compound for compound in self.plans.drawing.compounds for step in compound.movements}
+
+    def _entries(self, steps: Sequence[SpokenStep], stage: Stage | None) -> Iterator[Entry]:
+        """Steps of one stage, those of a compound as one entry where it has words for them."""
+        for compound, run in groupby(steps, lambda one: self._compounds.get(one.index)):
+            movements = tuple(run)
+            sentence = self._folded(compound, movements) if compound and len(movements) > 1 else None
+            if sentence:
+                yield Entry(sentence, _why(movements[-1], stage), movements)
+            else:
+                yield from (Entry(one.sentence, _why(one, stage), (one,)) for one in movements)
+
+    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> Said | None:
+        """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
+        return compound.sentence if movements[-1].index == compound.step.index else compound.before
+
+
+def _why(step: SpokenStep, stage: Stage | None) -> str:
+    """Why a step is drawn, where its stage does not say it."""
+    return "" if stage and str(step.why) in str(stage.law) else step.why

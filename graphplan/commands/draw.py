@@ -10,6 +10,8 @@ examples:
   graphplan draw scene.toml --frame gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
+  graphplan draw four-bar --by stages -o stages.pdf    after the sheet, stage by stage on pages of their own
+  graphplan draw four-bar --strict -o strict.pdf       the same with compasses and straightedge alone
   graphplan draw scene.toml --prefer accurate --pencil point=0.2 -o sheet.pdf
 """
 
@@ -41,6 +43,9 @@ def options(command: argparse.ArgumentParser) -> None:
     shown.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
     shown.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
+    shown.add_argument("--by", choices=("sheet", "stages"),
+                       help="the sheet alone, or after it in a .pdf its stages on pages of their own, enlarged, with "
+                            "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True)
@@ -50,19 +55,21 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     from graphplan.sheet.layout.layout import layout
     from graphplan.sheet.plates.selection import with_numbers
-    from graphplan.sheet.strip import strip
+    from graphplan.sheet.strip import by_stages, strip
 
     name = asked(options)
     found = reported(options, presented(options))
     if options.strip:
-        sheets = strip(found.drawing, single=options.strip == "step")
+        sheets = strip(found.drawing, cut=options.strip)
     else:
         composition = on_paper(options, found).composition
         composition = with_numbers(composition) if options.numbers else composition
         sheet = layout(found.drawing, composition=composition)
         sheets = [_shown(sheet, found.drawing.drawn, options)]
+        staged = options.by == "stages" or (options.strict and not (options.by or options.until or options.steps))
+        sheets += by_stages(composition) if staged and name == "pdf" else []
     if name != "pdf" and len(sheets) > 1:
-        raise Refused("--strip", f"it has {len(sheets)} pages", "-o STRIP.pdf, or a larger --paper")
+        raise Refused(name, f"the drawing has {len(sheets)} pages", "-o NAME.pdf, or a larger --paper")
     write_out, more = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
     write(write_out(sheets if name == "pdf" else sheets[0], **more), options.output)
     return 0

@@ -1,181 +1,200 @@
-"""The film strip: picture by picture how the construction grows, each with the steps that were just drawn.
+"""The construction in pictures on pages: the film strip, and the pages by stages.
 
-A picture shows one plan. What was drawn before is grey, what is new is in ink, and its steps stand below in words. A
-picture takes the steps up to the next mark that gets a letter, a dozen at most, or one step alone. Every mark bears the
-number of its step.
+What is new in a picture is in ink, what it uses of before is in grey, and its steps stand below in words. Pictures run
+down the columns of a page. Pages by stages have larger ones, each with the equation and the law of its stage.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import combinations
 
 from graphplan.errors import Refused
-from graphplan.kernel.program import Panel, Step
 from graphplan.methods.construction import Construction
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
-from graphplan.sheet.frames.title import STRIP, Page
-from graphplan.sheet.layout.layout import stacked
-from graphplan.sheet.layout.paper import COLUMN, inside, lower_right, sheet_size
+from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, sentence_runs
-from graphplan.sheet.lettering.letters import picture
+from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
+from graphplan.sheet.pictures import MARK, STAGE, STEP, Picture, pictures
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Polygon, Rect, Sheet, Spot, Text, moved
+from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, moved
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.plates.plate import Plates
-from graphplan.sheet.plates.selection import inked
-from graphplan.sheet.plates.view import View, least, plan_box, plan_scale, view
-from graphplan.sheet.words.rows import LEADING, TextRow, lettered
+from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
-WIDTHS = 92.0, 125.0, 170.0  # mm: of a picture; the wider where the letters of a plan need more room
-ASPECT, GAP, INDENT, CAPTION = 0.72, 4.0, 7.0, 5.0
-MOST = 12  # steps in a picture
+WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
+BESIDE = 0.58  # of a column has a picture that has its words beside it
+HIGH = 0.7  # of its width: no picture is higher
+GAP, INDENT, UNDER, BELOW = 4.0, 7.0, 1.2, 5.0  # mm: beside pictures, of words, above them and below them
+USUAL = "A3"  # paper
 NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 
 
-def strip(drawing: Construction, paper: str | None = None, *, single: bool = False,
+def strip(drawing: Construction, paper: str | None = None, *, cut: str = MARK,
           tongue: Tongue | None = None) -> list[Sheet]:
-    """The film strip of a construction, page by page; `single` has a picture for every step.
+    """The film strip of a construction, page by page, with a picture for every lettered `mark`, or for every `step`.
 
     Paper and tongue are those of the scene's sheet if none are named, and else A3 and English. Fails with `Refused`
     where a picture with its words is larger than the paper.
     """
     wished = drawing.scene.sheet
     say = tongue or tongue_of(wished.language or "en")
-    return Strip(Plans(drawing, say, numbered=True), single).sheets(paper or wished.paper or "A3")
+    return Strip(Plans(drawing, say), cut, paper or wished.paper or USUAL).sheets
+
+
+def by_stages(composition: Composition, paper: str | None = None) -> list[Sheet]:
+    """A composed construction once more, stage by stage, on the paper named, or that of the scene's sheet, else A3.
+
+    Every stage has its equation, its law, and its steps beside an enlarged picture. It is for what is drawn on one
+    sheet, but cannot be read there. Fails as :func:`strip` does.
+    """
+    plans = composition.plans
+    return Strip(plans, STAGE, paper or plans.drawing.scene.sheet.paper or USUAL).sheets
 
 
 @dataclass(frozen=True)
 class Strip:
-    """The pictures of one construction."""
+    """The pictures of one construction on sheets of one paper."""
 
     plans: Plans
-    single: bool
-
-    @cached_property
-    def groups(self) -> list[list[Step]]:
-        """The steps of each picture: on one plan, up to the next lettered mark, if it is not too far."""
-        drawn, groups = self.plans.drawing.drawn, list[list[Step]]()
-        for step in drawn.steps[drawn.givens :]:
-            last = groups[-1] if groups else []
-            full = not last or last[-1].name or self.single or len(last) == MOST
-            if full or self._home(step) != self._home(last[-1]):
-                groups.append([])
-            groups[-1].append(step)
-        return groups
-
-    def _home(self, step: Step) -> Panel:
-        return self.plans.plan_of_step[step.index]
-
-    @cached_property
-    def pictured(self) -> tuple[Rect, dict[str, list[Item]]]:
-        """The frame of all pictures, and each plan in it: the narrowest in which no letters stand on each other."""
-        for wide in WIDTHS:
-            frame = Rect(0.0, 0.0, wide, ASPECT * wide)
-            plates = Plates(self.plans, {panel: self._window(panel, frame) for panel in self.plans.panels})
-            found: dict[str, list[Item]] = {plate.panel: stacked(picture(plate)) for plate in plates}
-            if not any(map(crowded, found.values())):
-                break
-        return frame, found
-
-    def _window(self, panel: str, frame: Rect) -> View:
-        extent, room = self.plans.extent(panel), inside(frame)
-        box = plan_box(extent, room, plan_scale(extent, room))
-        return view(box, frame, least(box, room) or 1.0)
-
-    def sheets(self, paper: str) -> list[Sheet]:
-        """The strip on sheets of this paper."""
-        scene, say = self.plans.drawing.scene, self.plans.tongue
-        style = frame_of(scene)
-        paper = style.paper(paper)
-        wide, high = sheet_size(paper)
-        frame, title = style.space(wide, high), style.block(scene, say)
-        block = lower_right(frame, COLUMN, title)
-        pages = list(self._pages(frame, block))
-        sheets = []
-        for number, cells in enumerate(pages, 1):
-            page = Page(STRIP, paper, NO_SCALE, number, len(pages))
-            items = [*style.items(paper, frame, say), *title.items(block, page)]
-            items += [item for place, spot in cells for item in self._cell(place, spot)]
-            sheets.append(self._sheet(wide, high, frame, tuple(items)))
-        return sheets
-
-    def _sheet(self, wide: float, high: float, frame: Rect, items: tuple[Item, ...]) -> Sheet:
-        drawing, say = self.plans.drawing, self.plans.tongue
-        steps, scene = len(drawing.drawn) - drawing.drawn.givens, drawing.scene
-        told = said("Film strip of a graphical construction: {0} steps in {1} pictures.", steps, len(self.groups))
-        return Sheet(wide, high, frame, {}, items, scene.title, say(told), tuple(map(say, drawing.sentences())),
-                     Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text,
-                     drawing.drawn.givens)  # fmt: skip
+    cut: str
+    paper: str = USUAL
 
     @property
     def size(self) -> tuple[float, float]:
-        """Width and height of all pictures."""
-        return self.pictured[0].width, self.pictured[0].height
+        """Width and height of a sheet."""
+        return sheet_size(frame_of(self.plans.drawing.scene).paper(self.paper))
 
-    def _pages(self, frame: Rect, block: Rect) -> Iterator[list[tuple[int, Spot]]]:
-        """For each page its pictures by number, and where each has its upper left corner; clear of the title block."""
-        wide, _ = self.size
-        lefts = [frame.left + GAP + i * (wide + GAP) for i in range(int((frame.width - GAP) // (wide + GAP)))]
-        page, place, y = list[tuple[int, Spot]](), 0, frame.top - GAP
-        while place < len(self.groups):
-            row = list(zip(range(place, len(self.groups)), lefts, strict=False))
-            low = y - max((self._depth(k) for k, _ in row), default=0.0)
-            feet = [block.top if left + wide > block.left else frame.bottom for _, left in row]
-            clear = [(k, (left, y)) for (k, left), foot in zip(row, feet, strict=True) if low >= foot]
-            if not clear and not page:
+    @cached_property
+    def frame(self) -> Rect:
+        return frame_of(self.plans.drawing.scene).space(*self.size)
+
+    @cached_property
+    def block(self) -> Rect:
+        """Where the title block is."""
+        scene = self.plans.drawing.scene
+        return lower_right(self.frame, COLUMN, frame_of(scene).block(scene, self.plans.tongue))
+
+    @cached_property
+    def columns(self) -> list[Rect]:
+        """The columns of a page, those over the title block ending above it."""
+        count = max(1, round((self.frame.width - GAP) / (WANTED[self.cut] + GAP)))
+        pitch = (self.frame.width - GAP) / count
+        lefts = [self.frame.left + GAP + i * pitch for i in range(count)]
+        feet = [self.block.top if left + pitch - GAP > self.block.left else self.frame.bottom for left in lefts]
+        return [Rect(left, foot + 2.0, left + pitch - GAP, self.frame.top - 2.0)
+                for left, foot in zip(lefts, feet, strict=True)]
+
+    @cached_property
+    def pictures(self) -> list[Picture]:
+        return pictures(self.plans, self.cut, (self.wide, HIGH * self.wide))
+
+    @property
+    def wide(self) -> float:
+        """How wide a picture is: a column, or what of it is left by the words beside it."""
+        return self.columns[0].width * (BESIDE if self.cut == STAGE else 1.0)
+
+    @property
+    def words_wide(self) -> float:
+        """How wide the words are."""
+        return self.columns[0].width - self.wide - GAP if self.cut == STAGE else self.wide
+
+    @cached_property
+    def sheets(self) -> list[Sheet]:
+        """All pages."""
+        pages = list(self._pages())
+        return [self._sheet(page, number, len(pages)) for number, page in enumerate(pages, 1)]
+
+    def _pages(self) -> Iterator[list[tuple[int, Spot]]]:
+        """For each page its pictures by number, and where each has its upper left corner."""
+        page, places = list[tuple[int, Spot]](), list[Rect]()
+        place, y = Rect(0.0, 0.0, 0.0, 0.0), 0.0
+        for number in range(len(self.pictures)):
+            high = self._height(number)
+            if high > max(column.height for column in self.columns):
                 raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
-            if not clear:
-                yield page
-            page, y = (page + clear, low - GAP) if clear else ([], frame.top - GAP)
-            place += len(clear)
+            while y - high < place.bottom:
+                if not places and page:
+                    yield page
+                    page = []
+                places = places or [*self.columns]
+                place = places.pop(0)
+                y = place.top
+            page.append((number, (place.left, y)))
+            y -= high + BELOW
         yield page
 
-    def _depth(self, place: int) -> float:
-        """How far down a picture reaches with its words."""
-        return self.size[1] + CAPTION + len(self._lines(self.groups[place])) * SIZE * LEADING + GAP
+    def _sheet(self, page: list[tuple[int, Spot]], number: int, of: int) -> Sheet:
+        drawing, say = self.plans.drawing, self.plans.tongue
+        scene, style = drawing.scene, frame_of(drawing.scene)
+        paper, document = style.paper(self.paper), CONSTRUCTION if self.cut == STAGE else STRIP
+        title = style.block(scene, say).items(self.block, Page(document, paper, NO_SCALE, number, of))
+        items = [*style.items(paper, self.frame, say), *title]
+        items += [item for place, corner in page for item in self._cell(place, corner)]
+        told = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
+                    len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
+        return Sheet(*self.size, self.frame, {}, tuple(items), scene.title, say(told), tuple(self.plans.sentences),
+                     Scales(1.0, drawing.kappa, scene.units.length, {}), say.code, scene.text, drawing.drawn.givens)
 
-    def _cell(self, place: int, corner: Spot) -> Iterator[Item]:
-        """One picture with its heading above and its steps below."""
-        (wide, high), group = self.size, self.groups[place]
-        first, last = group[0].index, group[-1].index
-        x, y = corner[0], corner[1] - CAPTION
-        head = arranged("{0}. {1:capital}", place + 1, self._home(group[-1]).words)
-        yield Text(pens.LETTERS, "text", None, (x, y + 1.5), sentence_runs(self.plans.tongue(head)), SIZE, bold=True)
-        yield Polygon(pens.BORDER, "paper", None, Rect(x, y - high, x + wide, y).corners)
-        for item in self.pictured[1][self._home(group[-1])]:
-            if item.step is None or item.step <= last:
-                yield moved(inked(item, first), x, y - high)
-        level = y - high - 1.2
-        for row in self._lines(group):
-            level -= row.height
-            yield from lettered([(row, x, level + row.size * (LEADING - 1))])
+    def _cell(self, number: int, corner: Spot) -> Iterator[Item]:
+        """A picture with its heading above and its words below."""
+        one, (x, y) = self.pictures[number], corner
+        rect = one.excerpt.view.rect
+        heads, told = self._rows(number)
+        y -= sum(row.height for row in heads)
+        yield from _down(heads, x, corner[1])
+        yield Outline(pens.BORDER, "paper", None, tuple((u + x, v + y - rect.height) for u, v in rect.corners),
+                      one.excerpt.panel)
+        for item in one.items:
+            yield moved(item, x, y - rect.height)
+        below = (0.0, rect.height + UNDER) if self.cut != STAGE else (rect.width + GAP, 0.0)
+        yield from _down(told, x + below[0], y - below[1])
+
+    def _height(self, number: int) -> float:
+        """How far down a picture reaches with its words."""
+        (heads, told), high = self._rows(number), self.pictures[number].excerpt.view.rect.height
+        words = sum(row.height + row.gap for row in told)
+        return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + UNDER + words)
+
+    def _rows(self, number: int) -> tuple[list[TextRow], list[TextRow]]:
+        """What stands above a picture and below it: by stages also what these are."""
+        one, drawn, found = self.pictures[number], self.plans.drawing.drawn, list[TextRow]()
+        heads = [*self._paragraph(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width, bold=True)]
+        for stage, steps in one.parts:
+            if len(one.parts) > 1:
+                found += self._paragraph(stage.title, self.words_wide, bold=True)
+            if self.cut == STAGE and not one.later:
+                told = stage.equation, arranged("{0:capital}.", stage.law)
+                found += [row for text in told if text for row in self._paragraph(text, self.words_wide)]
+            found += [row for step in steps for row in self.words.paragraph(
+                drawn.sentence(step.index), self.words_wide, step.index, str(drawn.number(step.index)))]
+        return heads, found
+
+    def _paragraph(self, text: str, wide: float, bold: bool = False) -> Iterator[TextRow]:
+        """A text without a number."""
+        runs = sentence_runs(self.plans.tongue(text), self.words.names)
+        for line in wrap(runs, SIZE, wide, bold):
+            yield TextRow((Cell(0.0, line, bold=bold),))
 
     @cached_property
     def words(self) -> Words:
         return _StepWords(self.plans)
 
-    def _lines(self, group: list[Step]) -> list[TextRow]:
-        """The steps of a picture in words."""
-        drawn, wide = self.plans.drawing.drawn, self.size[0]
-        return [row for step in group for row in self.words.paragraph(
-            drawn.sentence(step.index), wide, step.index, str(drawn.number(step.index)))]
+
+def _down(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
+    """Rows one under the other."""
+    for row in rows:
+        y -= row.height + row.gap
+        yield from lettered([(row, x, y + row.size * (LEADING - 1))])
 
 
 class _StepWords(Words):
     """Paragraphs that hang nearer to their numbers."""
 
     indent = INDENT
-
-
-def crowded(items: Iterable[Item]) -> bool:
-    """Whether letters stand on each other."""
-    boxes = [item.box for item in items if isinstance(item, Text)]
-    return any(one.meets(other) for one, other in combinations(boxes, 2))

@@ -5,9 +5,14 @@ from __future__ import annotations
 import pytest
 from sheets import SCENES, drawing_of, outside, sheet_of
 
+import graphplan as gp
 from graphplan.errors import Refused
+from graphplan.kernel.kinds import POINT
 from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.pictures import MARK, STAGE, STEP, parted
+from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arrow, Text
+from graphplan.sheet.plates.excerpt import used
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import numbered, selected
 from graphplan.sheet.strip import Strip, strip
@@ -60,32 +65,73 @@ def test_steps_that_are_not_there_are_refused(text: str) -> None:
 def test_the_strip_shows_every_step_once(name: str) -> None:
     """The pictures' steps are all steps in order, each picture's on one plan, its words below it inside the frame."""
     drawing = drawing_of(name)
-    film, pages = Strip(Plans(drawing), single=False), strip(drawing)
-    drawn = drawing.drawn
-    assert [step.index for group in film.groups for step in group] == list(range(drawn.givens, len(drawn)))
-    assert all(len({film.plans.plan_of_step[step.index] for step in group}) == 1 for group in film.groups)
-    texts = [plain(item.runs) for page in pages for item in page.items if isinstance(item, Text)]
-    assert all(str(drawn.number(index)) in texts for index in range(drawn.givens, len(drawn)))
-    assert not [item for page in pages for item in outside(page)]
+    plans, drawn = Plans(drawing), drawing.drawn
+    for cut in (MARK, STAGE):
+        film = Strip(plans, cut)
+        assert [step.index for one in film.pictures for step in one.steps] == list(range(drawn.givens, len(drawn)))
+        assert all(len({plans.plan_of_step[step.index] for step in one.steps}) == 1 for one in film.pictures)
+        texts = [plain(item.runs) for page in film.sheets for item in page.items if isinstance(item, Text)]
+        assert all(str(drawn.number(index)) in texts for index in range(drawn.givens, len(drawn)))
+        assert not [item for page in film.sheets for item in outside(page)]
 
 
-@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
+@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10", "alt-eight-link"])
 def test_letters_of_a_strip_stand_apart(name: str) -> None:
     """No letter of a picture covers another, nor a word below it."""
-    for page in strip(drawing_of(name)):
+    for page in [*strip(drawing_of(name)), *Strip(Plans(drawing_of(name)), STAGE, "A4 portrait").sheets]:
         boxes = [item.box.inset(0.05, 0.05, 0.05, 0.05) for item in page.items if isinstance(item, Text)]
         assert not [(one, other) for i, one in enumerate(boxes) for other in boxes[:i] if one.meets(other)]
 
 
 def test_a_single_strip_has_a_picture_for_each_step() -> None:
-    """A picture for every step; they are more than those for every mark."""
+    """A picture for every step but the beginning of a plan, which is in that of the next; for every mark they are less.
+    """
     plans = Plans(drawing_of("four-bar"))
-    steps = len(plans.drawing.drawn) - plans.drawing.drawn.givens
-    assert len(Strip(plans, single=True).groups) == steps > len(Strip(plans, single=False).groups)
+    drawn = plans.drawing.drawn
+    steps = len(drawn) - drawn.givens
+    assert len(Strip(plans, STEP).pictures) == steps > len(Strip(plans, MARK).pictures)
+
+
+@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
+def test_a_picture_shows_what_its_steps_use(name: str) -> None:
+    """Every point that a step of a picture draws or reads on its plan is in it, with nothing else of before."""
+    plans = Plans(drawing_of(name))
+    for one in Strip(plans, STAGE).pictures:
+        shown, own = one.excerpt, {step.index for step in one.steps}
+        points = [drawn for drawn in shown.steps if drawn.kind == POINT and drawn.number]
+        assert all(shown.shown(mark) for mark in points)
+        assert own <= {drawn.index for drawn in shown.steps}
+        assert {drawn.index for drawn in shown.steps} - own <= used(plans.drawing.drawn, own)
+
+
+def test_new_strokes_are_in_ink_and_others_in_grey() -> None:
+    """In a picture what its steps draw is as dark as ink, what they use is paler, and so is the mechanism."""
+    one = Strip(Plans(drawing_of("four-bar")), MARK).pictures[1]
+    own = {step.index for step in one.steps}
+    dark = {item.step for item in one.items if not isinstance(item, Text) and item.pen.colour == pens.INK}
+    assert dark <= own
+    assert dark
+    assert any(item.step is None for item in one.items)
+
+
+def test_long_stages_are_cut_where_little_is_carried_over() -> None:
+    """A stage is parted where the fewest of its marks are used on both sides, in runs no longer than asked."""
+    drawn, cut = gp.construct(gp.load("four-bar"), strict=True).drawn, 0
+    for _, steps in drawn.stages:
+        runs = parted(drawn, steps, 12)
+        assert [step for run in runs for step in run] == steps
+        assert max(map(len, runs)) <= 12
+        if len(runs) == 2:
+            crossing = [len({arg for step in steps[at:] for arg in step.args} & {step.index for step in steps[:at]})
+                        for at in range(len(steps) - 12, 13)]
+            assert crossing[len(runs[0]) - len(steps) + 12] == min(crossing)
+            cut += 1
+    assert cut
 
 
 def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where one picture with its words is larger than the sheet, a larger one is advised."""
-    monkeypatch.setattr("graphplan.sheet.strip.WIDTHS", (300.0,))
+    monkeypatch.setattr("graphplan.sheet.strip.HIGH", 4.0)
+    monkeypatch.setattr("graphplan.sheet.plates.excerpt.FLAT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
         strip(drawing_of("four-bar"), "A4")

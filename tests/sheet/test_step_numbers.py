@@ -14,9 +14,7 @@ from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, plain
 from graphplan.sheet.plates.display import Arc, Circle, Polyline, Rect, Sheet, Text, within
-from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import with_numbers
-from graphplan.sheet.strip import Strip, crowded
 
 NUMBERED = ("point", "line", "arc", "step")
 
@@ -99,11 +97,3 @@ def test_a_number_without_room_has_a_leader() -> None:
     assert number.label == "line 7"
     assert [item for item in items if isinstance(item, Polyline) and item.step == 7]
     assert not any(number.box.meets(other.box) for other in others)
-
-
-@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10", "alt-eight-link"])
-def test_pictures_of_a_strip_bear_numbers_apart(name: str) -> None:
-    """The plans of a film strip are no larger for their numbers, and none is crowded."""
-    plain_strip, strip = (Strip(Plans(drawing_of(name), numbered=option), False) for option in (False, True))
-    assert strip.size == plain_strip.size
-    assert not [panel for panel, items in strip.pictured[1].items() if crowded(items)]

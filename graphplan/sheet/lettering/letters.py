@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -15,7 +15,7 @@ from graphplan.sheet.lettering.label_candidates import SMALL, Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
-from graphplan.sheet.plates.display import Item, Spot
+from graphplan.sheet.plates.display import Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import around, corner
@@ -41,7 +41,14 @@ def picture(plate: Plate) -> list[Item]:
         joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in letters]
         wishes = [*joints, *mechanism.wishes(), *wishes]
         marks += list(mechanism.spots.values())
-    return items + placed(wishes, items, marks, plate.view.rect)
+    return items + placed([*_inside(wishes, plate.view.rect)], items, marks, plate.view.rect)
+
+
+def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
+    """The letters of what is on the panel."""
+    for wish in wishes:
+        if spots := tuple(filter(rect.holds, wish.spots)):
+            yield replace(wish, spots=spots)
 
 
 @dataclass(frozen=True)
@@ -60,7 +67,7 @@ class Letters:
         for drawn in self.plate.steps:
             if drawn.index in self.plate.stretches:
                 yield from self._line_letters(drawn, self.plate.stretches[drawn.index])
-            elif drawn.kind == CIRCLE and self._numbered:
+            elif drawn.kind == CIRCLE and self.plate.numbers(drawn):
                 yield from self._arc_number(drawn)
         spans = self._spans()
         for (start, end), vectors in spans.items():
@@ -80,13 +87,9 @@ class Letters:
                 said = _numbers(*numbered)
                 yield Wish(sentence_runs(said), (spot,), clear, SMALL, pens.FAINT, numbered[0].index, f"point {said}")
 
-    @property
-    def _numbered(self) -> bool:
-        return self.plate.plans.numbered
-
     def _raised(self, *marks: DrawnStep) -> str:
         """The numbers that letters bear, where they do."""
-        return _numbers(*marks) if self._numbered else ""
+        return _numbers(*filter(self.plate.numbers, marks))
 
     def _places(self) -> dict[Spot, list[DrawnStep]]:
         """The marks that need a letter or number, by where they lie."""
@@ -102,7 +105,7 @@ class Letters:
 
     def _spoken(self, drawn: DrawnStep) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
-        return bool(drawn.name) or drawn.index in self._read or self._numbered
+        return bool(drawn.name) or self.plate.numbers(drawn) or drawn.index in self._read
 
     @cached_property
     def _read(self) -> set[int]:
@@ -127,7 +130,7 @@ class Letters:
 
     def _along(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
         """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""
-        if not self._numbered:
+        if not self.plate.numbers(line):
             return ALONG
         if self.plate.directs(line):
             return NUMBERED

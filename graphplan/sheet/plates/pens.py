@@ -79,6 +79,11 @@ def pale(pen: Pen) -> Pen:
     return replace(pen, colour=_lighter(pen.colour), fill=_lighter(pen.fill))
 
 
+def firm(pen: Pen, least: float) -> Pen:
+    """The pen for what is new: no line thinner than this, and in ink where it is grey."""
+    return replace(pen, colour=INK if pen.colour == GREY else pen.colour, width=max(pen.width, least))
+
+
 def rgb(colour: str) -> tuple[int, int, int]:
     """Red, green and blue of a colour, 0..255."""
     return int(colour[1:3], 16), int(colour[3:5], 16), int(colour[5:7], 16)

@@ -75,6 +75,11 @@ class Plans:
         return list(dict.fromkeys([MECHANISM, *self.plan_of_step]))
 
     @cached_property
+    def sentences(self) -> list[str]:
+        """Each drawn step in words, in the tongue of the sheet."""
+        return [*map(self.tongue, self.drawing.sentences())]
+
+    @cached_property
     def twins(self) -> dict[str, Panel]:
         """For each plan the one at whose scale it is drawn."""
         return {panel: panel.twin for panel in self.panels}

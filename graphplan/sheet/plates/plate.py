@@ -47,13 +47,13 @@ class Plates:
     @cached_property
     def steps(self) -> list[DrawnStep]:
         """The drawn program, by index: those that are given, and the steps."""
-        drawing, say = self.plans.drawing, self.plans.tongue
+        drawing = self.plans.drawing
         found: list[DrawnStep] = []
-        told = zip(drawing.drawn.steps, drawing.values, drawing.sentences(), self.plans.plan_of_step, strict=True)
+        told = zip(drawing.drawn.steps, drawing.values, self.plans.sentences, self.plans.plan_of_step, strict=True)
         for step, value, sentence, panel in told:
             args, number = tuple(found[arg] for arg in step.args), max(0, drawing.drawn.number(step.index))
             floats = tuple(map(float, value))
-            found.append(DrawnStep(step, number, panel, self.views[panel], args, floats, say(sentence)))
+            found.append(DrawnStep(step, number, panel, self.views[panel], args, floats, sentence))
         return found
 
     @cached_property
@@ -154,6 +154,10 @@ class Plate:
         if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self._asked):
             return None
         return pens.ORIGIN if drawn.free else pens.DOT
+
+    def numbers(self, drawn: DrawnStep) -> bool:
+        """Whether a mark bears the number of its step in any case."""
+        return self.plans.numbered
 
     def size(self, drawn: DrawnStep) -> float:
         """The radius of its dot."""

@@ -56,7 +56,9 @@ CONVERTED = [
     ("reaction", "kg·m/s^2", MILLIMETRES, 1), ("reaction", "N", INCHES, 1 / 4.4482216152605),
     ("balance moment", "N·m", MILLIMETRES, 1), ("balance moment", "N mm", MILLIMETRES, 0.001),
     ("balance moment", "kN*m", MILLIMETRES, 1000), ("balance moment", "lbf·ft", INCHES, 0.3048),
-    ("slide arm", "cm", MILLIMETRES, 10), ("velocity", "", INCHES, 1),
+    ("slide arm", "cm", MILLIMETRES, 10), ("velocity", "", INCHES, 1), ("velocity", "м/с", MILLIMETRES, 1000),
+    ("acceleration", "мм/с²", MILLIMETRES, 1), ("omega", "рад/с", MILLIMETRES, 1), ("balance moment", "Н·м", MILLIMETRES, 1),
+    ("reaction", "кН", MILLIMETRES, 1000),
 ]  # fmt: skip
 
 

@@ -1,6 +1,7 @@
 """Results as a student states them: vectors by components or by size and angle, single numbers.
 
-Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`; here they become the scene's own.
+Units are as students write them, `mm/s²`, `m s^-1`, `kN·m`, `rpm`, and in the letters of the languages that graphplan
+speaks, `мм/с`; here they become the scene's own.
 """
 
 from __future__ import annotations
@@ -8,11 +9,15 @@ from __future__ import annotations
 import math
 import re
 from collections.abc import Sequence
+from functools import cache
 
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
 from graphplan.mechanism.units import KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
 from graphplan.methods.kinds import KINDS
+from graphplan.phrases import UNITS
+from graphplan.words import LANGUAGES
+from graphplan.words.tongue import catalogue
 
 ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha", "ε": "alpha"}
 LARGEST = 1e60  # beyond it squares leave the range of a float
@@ -72,7 +77,7 @@ BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
     "°": (math.pi / 180, (0, 0, 0)), "rev": (2 * math.pi, (0, 0, 0)), "rpm": (math.pi / 30, (0, -1, 0)),
 }  # fmt: skip
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
-FACTOR = re.compile(r"(1|[A-Za-z°]+)(?:\^?\(?([+-]?[0-9])\)?)?")
+FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")
 LONGEST = 30  # characters
 
 
@@ -100,10 +105,18 @@ def _factors(written: str) -> list[tuple[str, int]]:
     for place, part in enumerate(written.translate(RAISED).split("/")):
         for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()")):
             fits = FACTOR.fullmatch(piece)
-            if fits is None or fits[1] not in BASES:
+            name = (fits[1] if fits[1] in BASES else _foreign().get(fits[1])) if fits else None
+            if not (fits and name):
                 raise ValueError(f"{written!r} is no unit that is known")
-            found.append((fits[1], int(fits[2] or 1) * (-1 if place else 1)))
+            found.append((name, int(fits[2] or 1) * (-1 if place else 1)))
     return found
+
+
+@cache
+def _foreign() -> dict[str, str]:
+    """The units by what the catalogues call them, such as mm by мм."""
+    tables = (catalogue(code)[UNITS] for code in LANGUAGES if code != "en")
+    return {str(own): unit for table in tables for unit, own in table.items()}
 
 
 def example(dimension: Dimension) -> str:

@@ -57,8 +57,8 @@ CONVERTED = [
     ("balance moment", "N·m", MILLIMETRES, 1), ("balance moment", "N mm", MILLIMETRES, 0.001),
     ("balance moment", "kN*m", MILLIMETRES, 1000), ("balance moment", "lbf·ft", INCHES, 0.3048),
     ("slide arm", "cm", MILLIMETRES, 10), ("velocity", "", INCHES, 1), ("velocity", "м/с", MILLIMETRES, 1000),
-    ("acceleration", "мм/с²", MILLIMETRES, 1), ("omega", "рад/с", MILLIMETRES, 1), ("balance moment", "Н·м", MILLIMETRES, 1),
-    ("reaction", "кН", MILLIMETRES, 1000),
+    ("acceleration", "мм/с²", MILLIMETRES, 1), ("omega", "рад/с", MILLIMETRES, 1),
+    ("balance moment", "Н·м", MILLIMETRES, 1), ("reaction", "кН", MILLIMETRES, 1000),
 ]  # fmt: skip
 
 

@@ -164,7 +164,7 @@ class Drafted(Errors):
         """Cost and errors in words, a line each."""
         off: dict[ResultKind, list[Said]] = {}
         for result in self.results:
-            off.setdefault(result.kind, []).append(joined((result.thing, f"±{result.deviation}"), " "))
+            off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.told)), " "))
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
 

@@ -73,7 +73,7 @@ def test_steps_tell_cost_and_errors(capsys: pytest.CaptureFixture[str]) -> None:
     assert sum(step["share"] for step in data["pencil"]["worst result"]["shares"]) == pytest.approx(1)
     assert main(["steps", "four-bar"]) == 0
     text = capsys.readouterr().out
-    assert f"M ±{deviation}" in text
+    assert f"M ±{deviation.told}" in text
     assert f"step {worst['number']}." in text
 
 
@@ -86,7 +86,7 @@ def test_the_sheet_tells_every_error(name: str) -> None:
     words = ["".join(run.text for run in item.runs) for item in sheet.items if isinstance(item, Text)]
     for kind, found in drafted.deviations.results.items():
         for deviation in found.values():
-            assert any(str(deviation) in word for word in words), kind
+            assert any(deviation.told in word for word in words), kind
 
 
 def test_instruments_are_changed_as_they_are_needed() -> None:

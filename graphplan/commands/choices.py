@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
 from graphplan.errors import Refused
-from graphplan.mechanism.presentation import FRAMES, SIZES
+from graphplan.mechanism.presentation import FRAMES, PROTOCOLS, SIZES
 from graphplan.methods.styles import INERTIA, METHODS
 from graphplan.words import LANGUAGES
 
@@ -53,7 +53,7 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
         "(default), shifted so that they need none, or at two points that replace the link")
     add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
         help="draw N rounds of the friction iteration; without it until the forces no longer change")
-    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="")
+    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto")
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 
@@ -74,6 +74,9 @@ def add_sheet(command: argparse.ArgumentParser) -> None:
     add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
     command.add_argument("--frame", choices=FRAMES, help="frame and title block after ISO 5457 and 7200, or GOST "
                          "2.301 and 2.104; without it the scene's, or iso")
+    command.add_argument("--protocol", choices=PROTOCOLS, default="auto", help="where the words stand: aside, in "
+                         "columns beside the plans; on pages of their own; nowhere; or aside where the plans keep "
+                         "most of the page, else on pages (auto, the default)")
     add_language(command)
 
 
@@ -148,7 +151,8 @@ def on_paper(options: argparse.Namespace, found: Report | None = None) -> Drafte
     from graphplan.words.tongue import tongue
 
     found = found or reported(options, presented(options))
-    return drafted(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language))
+    return drafted(found.drawing, pencil(options), check=found.check, tongue=tongue(found.scene.sheet.language),
+                   protocol=options.protocol)
 
 
 def pencil(options: argparse.Namespace) -> Pencil:

@@ -1,7 +1,8 @@
 """Draw the construction sheet, as SVG, PDF, PNG or DXF.
 
 The suffix of the output says which. A PDF has the sheet in true size, a DXF has each drawing step as a group; for DXF
-install graphplan[dxf].
+install graphplan[dxf]. The plans come first; words for which there is no room beside them stand on pages of their own:
+further pages of a PDF, else files such as SHEET-protocol.svg. Standard output has the first page alone.
 
 examples:
   graphplan draw alt-eight-link -o sheet.svg
@@ -9,6 +10,7 @@ examples:
   graphplan draw scene.toml --plan polar > sheet.svg
   graphplan draw scene.toml --frame gost --language ru -o sheet.pdf
   graphplan draw four-bar --steps 6-12 -o sheet.svg    the sheet after step 12, what was there before step 6 in grey
+  graphplan draw triad --paper A2 --protocol aside -o sheet.svg    all on one page
   graphplan draw four-bar --strip -o strip.pdf         picture by picture how the construction grows
   graphplan draw four-bar --by stages -o stages.pdf    after the sheet, stage by stage on pages of their own
   graphplan draw four-bar --strict -o strict.pdf       the same with compasses and straightedge alone
@@ -21,7 +23,7 @@ import argparse
 from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper, presented, reported
-from graphplan.commands.output import kind, write
+from graphplan.commands.output import kind, paged, write, write_all
 from graphplan.errors import Refused
 from graphplan.output import back_end
 
@@ -31,6 +33,7 @@ if TYPE_CHECKING:
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf")
 DOTS = 150  # per inch
+PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -53,7 +56,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 
 def run(options: argparse.Namespace) -> int:
-    from graphplan.sheet.layout.layout import layout
+    from graphplan.sheet.layout.layout import pages
     from graphplan.sheet.plates.selection import with_numbers
     from graphplan.sheet.strip import by_stages, strip
 
@@ -63,15 +66,16 @@ def run(options: argparse.Namespace) -> int:
         sheets = strip(found.drawing, cut=options.strip)
     else:
         composition = on_paper(options, found).composition
-        composition = with_numbers(composition) if options.numbers else composition
-        sheet = layout(found.drawing, composition=composition)
-        sheets = [_shown(sheet, found.drawing.drawn, options)]
+        sheets = pages(with_numbers(composition) if options.numbers else composition)
+        sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in sheets]
         staged = options.by == "stages" or (options.strict and not (options.by or options.until or options.steps))
         sheets += by_stages(composition) if staged and name == "pdf" else []
-    if name != "pdf" and len(sheets) > 1:
-        raise Refused(name, f"the drawing has {len(sheets)} pages", "-o NAME.pdf, or a larger --paper")
     write_out, more = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
-    write(write_out(sheets if name == "pdf" else sheets[0], **more), options.output)
+    if name == "pdf":
+        write(write_out(sheets), options.output)
+    else:
+        names = paged(options.output, len(sheets), "" if options.strip else PROTOCOL)
+        write_all([(path, write_out(sheet, **more)) for path, sheet in zip(names, sheets, strict=False)])
     return 0
 
 

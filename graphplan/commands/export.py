@@ -83,10 +83,16 @@ def _sheet(on_sheet: Drafted) -> Any:
     return layout(on_sheet.drawing, composition=on_sheet.composition)
 
 
+def _sheets(on_sheet: Drafted) -> Any:
+    from graphplan.sheet.layout.layout import pages
+
+    return pages(on_sheet.composition)
+
+
 READ: dict[str, Callable[[Drafted], Any]] = {  # what back ends read
     "plates": lambda on_sheet: on_sheet.composition.plates,
     "construction": lambda on_sheet: on_sheet.drawing,
     "sheet": _sheet,
-    "sheets": lambda on_sheet: [_sheet(on_sheet)],
+    "sheets": _sheets,
     "steps": lambda on_sheet: as_json(data(on_sheet)),
 }

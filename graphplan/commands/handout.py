@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper
 from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
+from graphplan.mechanism.presentation import ASIDE, PROTOCOLS
 from graphplan.output import back_end
 
 if TYPE_CHECKING:
@@ -51,6 +52,8 @@ def run(options: argparse.Namespace) -> int:
 
     positions = POSITIONS if options.positions is None else options.positions
     afford("--positions", positions, "drawn positions", SHOWN)
+    if options.protocol == PROTOCOLS[0]:
+        options.protocol = ASIDE  # what changes from pose to pose stands on one page
     on_sheet = on_paper(options)
     write(stepper(_round(on_sheet.drawing, on_sheet.composition, positions)), options.output)
     return 0
@@ -71,8 +74,8 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     from graphplan.sheet.handout import guided, solution, task
 
     solved = solution(composition)
-    pages = {"task": lambda: task(solved, composition), "guided": lambda: guided(solved, composition),
-             "solution": lambda: [solved]}
+    pages = {"task": lambda: task(solved[0], composition), "guided": lambda: guided(solved[0], composition),
+             "solution": lambda: solved}
     return [sheet for part in PARTS if only in (None, part) for sheet in pages[part]()]
 
 

@@ -71,6 +71,35 @@ def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = Fals
         raise _unwritable(path, error) from None
 
 
+def paged(path: str | None, count: int, more: str = "") -> list[str | None]:
+    """The names of so many pages: SHEET.svg, then SHEET-2.svg or, where their names add `more`, SHEET-more.svg and
+    SHEET-more-2.svg. What is no file has the first page alone.
+
+    Fails with `Refused` where one of them cannot be written.
+    """
+    if path is None or path == STANDARD or count == 1 or not _is_file(path):
+        return [path]
+    stem, ending = os.path.splitext(path)
+    first = 1 if more else 2
+    numbered = [f"{stem}{more}{f'-{k}' if k > 1 else ''}{ending}" for k in range(first, first + count - 1)]
+    for name in numbered:
+        kind(name, (ending.lower(),), "page")
+    return [path, *numbered]
+
+
+def write_all(contents: Sequence[tuple[str | None, str | bytes]]) -> None:
+    """Write several outputs: each file in one step, and no file where one of them cannot be written."""
+    if len(contents) == 1:
+        path, content = contents[0]
+        return write(content, path)
+    try:
+        files = [(content.encode() if isinstance(content, str) else content, *_place(str(path)))
+                 for path, content in contents]
+        _replace(files)
+    except (OSError, ValueError) as error:
+        raise _unwritable(contents[0][0], error) from None
+
+
 def as_json(data: Any, indent: int = 1) -> str:
     """Data as a text file."""
     return json.dumps(data, indent=indent, ensure_ascii=False) + "\n"
@@ -110,7 +139,7 @@ def _write(data: bytes, path: str, new: bool) -> None:
     elif new:
         _create(data, target)
     else:
-        _replace(data, target, status)
+        _replace([(data, target, status)])
 
 
 def _place(path: str) -> tuple[str, os.stat_result | None]:
@@ -129,6 +158,12 @@ def _place(path: str) -> tuple[str, os.stat_result | None]:
     return target, status
 
 
+def _is_file(path: str) -> bool:
+    """Whether a name is, or is going to be, that of a regular file, and not of standard output."""
+    _, status = _place(path)
+    return status is None or (stat.S_ISREG(status.st_mode) and not _is_standard(status))
+
+
 def _is_standard(status: os.stat_result) -> bool:
     """Whether a file is standard output by another name, such as /dev/stdout: it goes on where that stands."""
     with suppress(OSError):
@@ -136,18 +171,22 @@ def _is_standard(status: os.stat_result) -> bool:
     return False
 
 
-def _replace(data: bytes, target: str, status: os.stat_result | None) -> None:
-    """Write in the same folder, then put it in its place: two that write at once do not mix."""
-    temporary = os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}")
+def _replace(files: Sequence[tuple[bytes, str, os.stat_result | None]]) -> None:
+    """Write each file in its folder, then put all in their places: two that write at once do not mix."""
+    places = [(os.path.join(os.path.dirname(target), f".graphplan-{os.urandom(8).hex()}"), target)
+              for _, target, _ in files]
     try:
-        with open(temporary, "xb") as file:
-            file.write(data)
-        if status:
-            os.chmod(temporary, stat.S_IMODE(status.st_mode))
-        os.replace(temporary, target)
+        for (data, _, status), (temporary, _) in zip(files, places, strict=True):
+            with open(temporary, "xb") as file:
+                file.write(data)
+            if status:
+                os.chmod(temporary, stat.S_IMODE(status.st_mode))
+        for temporary, target in places:
+            os.replace(temporary, target)
     finally:  # not there any more where all went well; there also where the user interrupts
-        with suppress(OSError):
-            os.unlink(temporary)
+        for temporary, _ in places:
+            with suppress(OSError):
+                os.unlink(temporary)
 
 
 def _create(data: bytes, target: str) -> None:

@@ -24,13 +24,13 @@ from __future__ import annotations
 
 import argparse
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.commands.choices import add_choices, add_pencil, add_sheet, on_paper
-from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, write
+from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, paged, write, write_all
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
 
@@ -65,19 +65,21 @@ def run(options: argparse.Namespace) -> int:
     desk = Desk(on_paper(options), weighed, options)
     found = (_class if os.path.isdir(path) else _one)(desk, path)
     if options.report:
-        write(as_json(found.data) if ending == ".json" else found.page(ending), options.report)
+        pages = [as_json(found.data)] if ending == ".json" else found.pages(ending)
+        write_all(list(zip(paged(options.report, len(pages)), pages, strict=False)))
     say = desk.on_sheet.composition.plans.tongue
     write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
     return 0 if found.judged else 2
 
 
 class Findings(NamedTuple):
-    """What is found of a drawing or of a class: as data, in words, as a report of some ending; whether any was judged.
+    """What is found of a drawing or of a class: as data, in words, as the pages of a report of some ending; whether any
+    was judged.
     """
 
     data: dict[str, Any]
     lines: Iterable[Said]
-    page: Callable[[str], str | bytes]
+    pages: Callable[[str], Sequence[str | bytes]]
     judged: bool = True
 
 
@@ -103,7 +105,7 @@ class Desk:
         frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
         size = composition.arrangement.width, composition.arrangement.height
         submission = read(path, list(composition.views), frames,  # task and guided version have the same plans
-                          lambda: task(solution(composition), composition)[0], code(composition), size)
+                          lambda: task(solution(composition)[0], composition)[0], code(composition), size)
         work = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
         found = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
@@ -148,16 +150,16 @@ def _one(desk: Desk, path: Path) -> Findings:
     one = desk.marked(path)
     messages.progress("")
 
-    def page(ending: str) -> str | bytes:
+    def pages(ending: str) -> Sequence[str | bytes]:
         sheets = overlay(one.judgement, one.score)
         if ending != ".html":
-            written: str | bytes = back_end(ending[1:])(sheets if ending == ".pdf" else sheets[0])
-            return written
+            write_out = back_end(ending[1:])
+            return [write_out(sheets)] if ending == ".pdf" else list(map(write_out, sheets))
         from graphplan.output.report_page import marked
 
-        return marked(one.judgement, one.score, sheets)
+        return [marked(one.judgement, one.score, sheets)]
 
-    return Findings(record(one.judgement, one.score), _lines(one), page)
+    return Findings(record(one.judgement, one.score), _lines(one), pages)
 
 
 def _lines(one: Marked) -> Iterator[Said]:
@@ -197,12 +199,12 @@ def _class(desk: Desk, folder: Path) -> Findings:
     messages.progress("")
     found = Classroom(desk.on_sheet.drawing.scene.title, tuple(marked), tuple(unread))
 
-    def page(ending: str) -> str:
+    def pages(ending: str) -> Sequence[str]:
         from graphplan.output.report_page import class_list
 
-        return class_list(found, desk.on_sheet.composition.plans.tongue)
+        return [class_list(found, desk.on_sheet.composition.plans.tongue)]
 
-    return Findings(found.data, lines(found), page, bool(marked))
+    return Findings(found.data, lines(found), pages, bool(marked))
 
 
 def _files(folder: Path, report: str | None) -> list[Path]:

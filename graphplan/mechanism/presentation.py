@@ -16,6 +16,8 @@ from graphplan.words import LANGUAGES
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
 PAPERS = tuple(f"{size}{way}" for size in SIZES for way in ("", " portrait"))
 FRAMES = ("iso", "gost")
+ASIDE = "aside"
+PROTOCOLS = ("auto", ASIDE, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"

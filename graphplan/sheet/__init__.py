@@ -26,10 +26,12 @@ def svg(drawing: Construction, paper: str | None = None, check: Mapping[str, Any
 
 def pdf(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
         composition: Composition | None = None, language: str | None = None) -> bytes:
-    """The construction sheet as a PDF document of one page, in true size; reads and fails as :func:`svg` does."""
+    """The construction sheet as a PDF document in true size, its words on further pages where they stand apart; reads
+    and fails as :func:`svg` does."""
     from graphplan.output.pdf_png import pdf as write
+    from graphplan.sheet.layout.layout import pages
 
-    return write([_laid_out(drawing, paper, check, composition, language)])
+    return write(pages(composition or _composed(drawing, paper, check, language)))
 
 
 def png(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -44,6 +46,14 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
               composition: Composition | None, language: str | None) -> Sheet:
     """The sheet as a display list, in a language by its code."""
     from graphplan.sheet.layout.layout import layout
+
+    return layout(drawing, composition=composition or _composed(drawing, paper, check, language))
+
+
+def _composed(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
+              language: str | None) -> Composition:
+    """Where all of it lies, in a language by its code."""
+    from graphplan.sheet.layout.composition import compose
     from graphplan.words.tongue import tongue
 
-    return layout(drawing, paper, check, composition, tongue(language) if language else None)
+    return compose(drawing, paper, check, tongue(language) if language else None)

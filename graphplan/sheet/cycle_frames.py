@@ -193,8 +193,9 @@ def _frame(travel: float, composition: Composition) -> CycleFrame:
 def _composed(base: Composition, words: Words, drawing: Posed) -> Composition:
     """The same composition of another pose; its words, else those of all poses, tell the results of that pose."""
     plans = Plans(drawing, base.plans.tongue)
-    rows = replace(words, plans=plans).rows(base.arrangement.columns[0].width, Deviations())
-    return replace(base, plans=plans, arrangement=replace(base.arrangement, rows=tuple(rows)))
+    arrangement = base.arrangement
+    rows = replace(words, plans=plans).rows(arrangement.text_width, Deviations()) if arrangement.columns else ()
+    return replace(base, plans=plans, arrangement=replace(arrangement, rows=tuple(rows)))
 
 
 def slid(view: View, box: Rect) -> View:

@@ -14,7 +14,7 @@ from graphplan.phrases import Said
 from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import layout, titled
+from graphplan.sheet.layout.layout import pages, titled
 from graphplan.sheet.layout.paper import packed
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
@@ -30,10 +30,9 @@ RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half s
 FREE = 4.0  # mm about a beginning without crosses
 
 
-def solution(composition: Composition) -> Sheet:
-    """The solved sheet of a handout: every mark with the number of its step."""
-    composition = with_numbers(composition)
-    return layout(composition.plans.drawing, composition=composition, document=SOLUTION)
+def solution(composition: Composition) -> list[Sheet]:
+    """The solved sheet of a handout, every mark with the number of its step, and pages of words if they stand apart."""
+    return pages(with_numbers(composition), SOLUTION)
 
 
 def code(composition: Composition) -> int:
@@ -56,15 +55,15 @@ def guided(solved: Sheet, composition: Composition) -> list[Sheet]:
 def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The sheet with its plans, and the pages of words that do not fit beside them."""
     arrangement = composition.arrangement
-    words = Task(composition.plans).lines(arrangement.columns[0].width, document == GUIDED)
+    words = Task(composition.plans).lines(arrangement.text_width, document == GUIDED)
     apart = (*arrangement.columns, arrangement.title)
     bare = [item for item in solved.items if item.step is None and not within(item, apart)]
     begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not within(item, arrangement.panels.values())]
-    pages = packed(words, arrangement)
+    filled = packed(words, arrangement)
     marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
-    for number, page in enumerate(pages, 1):
-        block = titled(composition, document, number, len(pages))
+    for number, page in enumerate(filled, 1):
+        block = titled(composition, document, number, len(filled))
         items = [*(bare + begun + marks if number == 1 else empty), *block, *lettered(page)]
         yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
 

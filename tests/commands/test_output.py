@@ -21,7 +21,7 @@ from graphplan.sheet.plates.display import Rect, Sheet
 
 ROOT = Path(__file__).parent.parent.parent
 WRITERS = {  # what writes a file, without its name: each ends with the option or the argument that takes it
-    "draw": ["draw", "four-bar", "-o"],
+    "draw": ["draw", "four-bar", "--protocol", "none", "-o"],
     "export": ["export", "four-bar", "--format", "svg", "-o"],
     "handout": ["handout", "four-bar", "--only", "task", "-o"],
     "table": ["cycle", "four-bar", "--positions", "4", "-o"],

@@ -95,7 +95,8 @@ def test_numbers_stand_beside_the_true_ones() -> None:
     """The table has what was handed in, what is true, and how far off it may be; what is wrong is told below."""
     number = Number("velocity", "A", (3.0, 4.5))
     verdict = NumberVerdict(number, WRONG, 0.5, 0.25, (3.0, 4.0), said("y has the wrong sign"))
-    told = words(items(replace(judgement("four-bar"), numbers=(verdict,))))
+    found = replace(judgement("four-bar"), numbers=(verdict,))
+    told = words([item for sheet in overlay(found, score(found)) for item in sheet.items])
     assert "velocity A (3, 4.5) (3, 4) 0.5 0.25" in told
     assert "Wrong result: velocity A, off 0.5, allowed 0.25, y has the wrong sign." in told
 

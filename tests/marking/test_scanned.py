@@ -31,7 +31,7 @@ def handout() -> tuple[Construction, Composition, Sheet, Printed]:
     """A task, and its page from the printer."""
     drawing = gp.construct(gp.load("four-bar"))
     sheet = compose(drawing)
-    page = task(solution(sheet), sheet)[0]
+    page = task(solution(sheet)[0], sheet)[0]
     return drawing, sheet, page, printed(page)
 
 

@@ -36,7 +36,8 @@ def round_of(name: str) -> CycleFrames:
     """A scene in twelve poses of its cycle."""
     drawing = gp.construct(gp.load(name))
     turn = follow(drawing.scene, POSES)
-    return turning(drawing, compose(drawing), [math.degrees(angle) for angle in turn.travel], turn.points, turn.guides)
+    travel = [math.degrees(angle) for angle in turn.travel]
+    return turning(drawing, compose(drawing, protocol="aside"), travel, turn.points, turn.guides)
 
 
 @cache
@@ -128,17 +129,17 @@ def test_the_scene_is_in_the_page_once() -> None:
     assert page.count(scene.text) == 1
     text = scene.text.replace('"Swinging', '"</script><!--', 1)
     drawing = gp.construct(gp.parse(text, "scene"))
-    reader = Reader(stepper(standing(drawing, compose(drawing))))
+    reader = Reader(stepper(standing(drawing, compose(drawing, protocol="aside"))))
     assert gp.parse(reader.scripts["scene"], "scene").title.startswith("</script><!--")
 
 
 def test_without_a_turn_the_page_says_why() -> None:
     """An open chain has no slider, and a line that says why; nothing is packed."""
     drawing = gp.construct(gp.load("open-chain"))
-    reader = Reader(stepper(standing(drawing, compose(drawing), "nothing drives it")))
+    reader = Reader(stepper(standing(drawing, compose(drawing, protocol="aside"), "nothing drives it")))
     assert ("div", {"class": "slider", "hidden": None}) in reader.elements
     assert reader.scripts.get("poses", "") == ""
-    assert "nothing drives it" in stepper(standing(drawing, compose(drawing), "nothing drives it"))
+    assert "nothing drives it" in stepper(standing(drawing, compose(drawing, protocol="aside"), "nothing drives it"))
 
 
 def test_it_is_the_same_every_time() -> None:
@@ -294,7 +295,7 @@ def test_the_bytes_are_the_same_whatever_the_hashes() -> None:
             "from graphplan.sheet.cycle_frames import standing; "
             "from graphplan.sheet.layout.composition import compose; "
             "drawing = gp.construct(gp.load('slider-crank')); "
-            "sys.stdout.write(stepper(standing(drawing, compose(drawing))))")
+            "sys.stdout.write(stepper(standing(drawing, compose(drawing, protocol='aside'))))")
     pages = {subprocess.run([sys.executable, "-c", code], capture_output=True, check=True,
                             env={"PYTHONHASHSEED": seed, "PYTHONPATH": ":".join(sys.path)}).stdout for seed in "12345"}
     assert len(pages) == 1

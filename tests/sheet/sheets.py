@@ -13,7 +13,7 @@ from graphplan.sheet.frames.corner_marks import MARKS
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.handout import solution
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.layout import layout, pages
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 
 P, T = ParamSpec("P"), TypeVar("T")
@@ -42,8 +42,9 @@ def drawing_of(name: str, plan: str = "orthogonal") -> Construction:
 
 
 @kept
-def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> Composition:
-    return compose(drawing_of(name, plan), paper)
+def composition_of(name: str, paper: str | None = None, plan: str = "orthogonal",
+                   protocol: str = "auto") -> Composition:
+    return compose(drawing_of(name, plan), paper, protocol=protocol)
 
 
 @kept
@@ -52,9 +53,15 @@ def sheet_of(name: str, paper: str | None = None, plan: str = "orthogonal") -> S
 
 
 @kept
+def pages_of(name: str) -> list[Sheet]:
+    """The sheet and the pages of its words."""
+    return pages(composition_of(name))
+
+
+@kept
 def solved_of(name: str) -> Sheet:
     """The sheet with every mark numbered."""
-    return solution(composition_of(name))
+    return solution(composition_of(name))[0]
 
 
 def spots(item: Item) -> list[Spot]:

@@ -19,7 +19,7 @@ from graphplan.mechanism.presentation import SIZES
 from graphplan.output.svg import svg
 from graphplan.sheet.frames.frame import BORDER, FRAMES, frame_of
 from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, Page
-from graphplan.sheet.handout import guided, task
+from graphplan.sheet.handout import guided, solution, task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
@@ -122,11 +122,10 @@ def test_the_border_is_that_of_the_standard() -> None:
 
 def test_the_block_of_the_standard_fills_an_upright_a4() -> None:
     """On an upright A4 the title block is 180 mm wide, as the frame; on larger sheets as the column over it."""
-    scene = wishing(gp.load("four-bar"), paper="A4 portrait")
-    drawing = gp.construct(replace(scene, find=replace(scene.find, velocity=("B",), acceleration=())))
-    title = compose(drawing).arrangement.title
+    drawing = drawing_of("four-bar")
+    title = composition_of("four-bar", "A4 portrait").arrangement.title
     assert (title.left, title.right, title.bottom) == (20.0, 200.0, 10.0)
-    arrangement = compose(drawing, "A2").arrangement
+    arrangement = compose(drawing, "A2", protocol="aside").arrangement
     assert arrangement.title.width == pytest.approx(arrangement.columns[-1].width + 5.0)
 
 
@@ -154,14 +153,14 @@ def test_form_1_has_the_measures_of_the_standard() -> None:
     columns = [round(b - a, 9) for a, b in pairwise((*upright, 415.0))]
     assert columns == [7, 10, 23, 15, 10, 70, 5, 5, 5, 5, 12, 18]  # the letter's cell in three, the pages' edge at 20
     assert [round(b - a, 9) for a, b in pairwise((5.0, *level))] == [5.0] * 10 + [5.0]
-    words = {"Rev.", "Doc. No.", "Approved", "Lit.", "Mass", "Scale", "Sheet 1", "Sheets 1", "Format A3"}
+    words = {"Rev.", "Doc. No.", "Approved", "Lit.", "Mass", "Scale", "Sheet 1", "Sheets 2", "Format A3"}
     assert words <= set(texts(sheet))
 
 
 def test_form_1_speaks_russian() -> None:
     """In Russian its words are those of the standard."""
     words = {"Изм.", "Лист", "№ докум.", "Подп.", "Дата", "Разраб.", "Пров.", "Т. контр.", "Н. контр.", "Утв.", "Лит.",
-             "Масса", "Масштаб", "Лист 1", "Листов 1"}  # fmt: skip
+             "Масса", "Масштаб", "Лист 1", "Листов 2"}  # fmt: skip
     assert words <= set(texts(sheet_with("four-bar", "A3", frame="gost", language="ru")))
 
 
@@ -232,11 +231,11 @@ def test_form_1_has_names_beside_their_roles() -> None:
 def pages() -> Iterator[tuple[list[Sheet], str]]:
     """Documents of several pages, with what they are called."""
     drawing = drawing_of("alt-eight-link")
-    composition = compose(drawing)
-    solution = layout(drawing, composition=composition, document=SOLUTION)
-    yield [solution], "Solution"
-    yield task(solution, composition), "Task"
-    yield guided(solution, composition), "Guided construction"
+    composition = composition_of("alt-eight-link")
+    solved = solution(composition)
+    yield solved, "Solution"
+    yield task(solved[0], composition), "Task"
+    yield guided(solved[0], composition), "Guided construction"
     yield strip(drawing, "A3"), "Film strip"
 
 

@@ -6,10 +6,11 @@ import math
 from dataclasses import replace
 
 import pytest
-from sheets import SCENES, drawing_of, outside, sheet_of, spots
+from sheets import SCENES, drawing_of, outside, pages_of, sheet_of, spots
 
 import graphplan as gp
 from graphplan.errors import Refused
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
 from graphplan.sheet.plates.display import Arrow, Text
@@ -67,9 +68,9 @@ def test_every_mark_of_the_mechanism_has_its_letter(name: str) -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_step_list_is_complete_and_legible(name: str) -> None:
-    """Every numbered step is on the sheet, in capitals of 1.8 mm or more."""
+    """Every numbered step is on the sheet or a page beside it, in capitals of 1.8 mm or more."""
     drawn = drawing_of(name).drawn
-    texts = [item for item in sheet_of(name).items if isinstance(item, Text) and item.layer == "text"]
+    texts = [item for page in pages_of(name) for item in page.items if isinstance(item, Text) and item.layer == "text"]
     steps, listed = range(drawn.givens, len(drawn)), [text for text in texts if text.step is not None]
     assert {text.step for text in listed} == set(steps)
     assert min(text.size for text in listed) * CAPS >= 1.8
@@ -113,7 +114,7 @@ def test_a_named_paper_is_used() -> None:
 def test_paper_that_cannot_serve_is_refused(paper: str, why: str) -> None:
     """A sheet that does not exist, or is too small for the words, is refused with the reason."""
     with pytest.raises(Refused, match=why):
-        layout(gp.construct(gp.load("ozols-5-4")), paper)
+        compose(gp.construct(gp.load("ozols-5-4")), paper, protocol="aside")
 
 
 def test_lettering_is_never_below_its_size() -> None:

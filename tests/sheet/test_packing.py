@@ -24,7 +24,7 @@ from graphplan.sheet.words.task import Task
 @pytest.mark.parametrize(("name", "saved"), [("stephenson", True), ("four-bar", False)])
 def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> None:
     """A guided handout whose last table would need a page of its own is set closer; any other is not."""
-    composition = composition_of(name)
+    composition = composition_of(name, protocol="aside")
     arrangement = composition.arrangement
     rows = Task(composition.plans).lines(arrangement.columns[0].width, guided=True)
     loose, found = list(paged(rows, arrangement)), packed(rows, arrangement)
@@ -35,7 +35,7 @@ def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> Non
 
 def test_a_page_ends_after_any_row_and_holds_no_row_that_is_higher() -> None:
     """In a column that holds one row the first stands alone; a row that is higher than any page is refused."""
-    arrangement = composition_of("four-bar").arrangement
+    arrangement = composition_of("four-bar", protocol="aside").arrangement
     narrow = replace(arrangement, columns=arrangement.columns[:1])
     high = TextRow((Cell(0.0, (Run("A"),)),), tall=0.6 * (narrow.columns[0].top - narrow.columns[0].bottom))
     first, *others = paged([high, high, high], narrow)

@@ -10,7 +10,7 @@ import xml.etree.ElementTree as ET
 from functools import cache
 
 import pytest
-from sheets import SCENES, drawing_of, sheet_of
+from sheets import SCENES, drawing_of, pages_of, sheet_of
 
 import graphplan as gp
 from graphplan.output.svg import svg
@@ -28,7 +28,7 @@ def test_it_is_valid_xml_in_millimetres() -> None:
     """The root has its size in mm and a viewBox of as many units, a title and a description."""
     root = ET.fromstring(svg_of("four-bar").encode())
     assert root.tag == f"{NS}svg"
-    assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("420mm", "297mm", "0 0 420 297")
+    assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("297mm", "210mm", "0 0 297 210")
     assert root.findtext(f"{NS}title") == gp.load("four-bar").title
     assert "k_s" in (root.findtext(f"{NS}desc") or "")
 
@@ -43,14 +43,18 @@ def test_it_is_the_same_every_time() -> None:
 
 @pytest.mark.parametrize("name", ["four-bar", "triad-loaded"])
 def test_every_drawn_step_has_its_group_by_its_number(name: str) -> None:
-    """There is one group for each step that is drawn, in order, titled with its sentence; the given points are 0."""
-    drawing = drawing_of(name)
-    groups = [g for g in ET.fromstring(svg_of(name).encode()) if g.get("class") == "step"]
-    numbers = [int(g.get("data-step", -1)) for g in groups]
-    steps = {drawing.drawn.number(step.index): step for step in drawing.drawn.steps[drawing.drawn.givens:]}
-    assert numbers in ([0, *steps], [*steps])
-    titles = [g.findtext(f"{NS}title") for g in groups]
-    assert titles[-len(steps):] == [drawing.sentences()[step.index] for step in steps.values()]
+    """There is one group for each step that leaves ink, in order, titled with its sentence; the given points are 0.
+
+    On all pages together there is one for every step.
+    """
+    drawing, first, *words = drawing_of(name), *map(svg, pages_of(name))
+    groups = [[g for g in ET.fromstring(page.encode()) if g.get("class") == "step"] for page in (first, *words)]
+    numbers = [[int(g.get("data-step", -1)) for g in page] for page in groups]
+    assert all(page == sorted(set(page)) for page in numbers)
+    sentences = drawing.sentences()[drawing.drawn.givens - 1:]
+    assert {number for page in numbers for number in page} | {0} == set(range(len(sentences)))
+    assert [g.findtext(f"{NS}title") for g in groups[0] if g.get("data-step") != "0"] == [
+        sentences[number] for number in numbers[0] if number]
 
 
 def test_a_velocity_can_be_measured() -> None:

@@ -71,7 +71,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     student = StudentStrokes(judgement)
     over += student.items()
     over += [item for panel in composition.views for item in _told(student, panel, over)]
-    words = Remarks(composition.plans).lines(arrangement.columns[0].width, judgement, score)
+    words = Remarks(composition.plans).lines(arrangement.text_width, judgement, score)
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
     sheets = []
     for number, page in enumerate(pages, 1):

@@ -11,12 +11,23 @@ from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
+from graphplan.mechanism.presentation import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM, ForcePlan
 from graphplan.phrases import digits
-from graphplan.sheet.frames.frame import frame_of
+from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
-from graphplan.sheet.layout.paper import Arrangement, Measure, arrangements, inside, room
+from graphplan.sheet.layout.paper import (
+    MOST_OF_PAGE,
+    Arrangement,
+    Measure,
+    arrangements,
+    inside,
+    packed,
+    room,
+    sheet_size,
+    words_page,
+)
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, multiple_below, ratio, round_up
 from graphplan.sheet.layout.scales import times as as_multiple
 from graphplan.sheet.plates.display import Rect
@@ -24,7 +35,7 @@ from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
-from graphplan.sheet.words.rows import TextRow
+from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
@@ -41,7 +52,8 @@ LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which
 
 @dataclass(frozen=True)
 class Composition:
-    """An arrangement with the scale and the window of each panel, and what they show."""
+    """An arrangement with the scale and the window of each panel, and what they show; `protocol` are the pages of the
+    words where they stand apart."""
 
     arrangement: Arrangement
     scales: Scales
@@ -49,6 +61,7 @@ class Composition:
     needs: Mapping[str, float]
     extents: Mapping[str, Extent]
     plans: Plans
+    protocol: tuple[Protocol, ...] = ()
 
     @cached_property
     def plates(self) -> Plates:
@@ -87,9 +100,14 @@ class Composition:
         return max(core.width, core.height) * self.views[panel].scale
 
 
-def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None) -> Composition:
+Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
+
+
+def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
+             protocol: str = PROTOCOLS[0]) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
+    Its `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as is asked.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
@@ -98,18 +116,37 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
     best: Composition | None = None
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
-        found = list(arrangements(name, needs, rows, frame, title))
-        good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
-        tried = [_windows(a, extents, needs, plans, given) for a in good] or tried
-        fitting = [composition for composition in tried if not composition.oversized]
-        if good and fitting:
-            best = max(fitting, key=lambda c: c.score)
-            if given[0] or _legible(plans, best.views, name):
-                return best
+        for words in _ways(protocol, rows):
+            found = list(arrangements(name, needs, words, frame, title))
+            if words and protocol != ASIDE:
+                found = [arrangement for arrangement in found if arrangement.share >= MOST_OF_PAGE]
+            good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
+            tried = [_windows(a, extents, needs, plans, given) for a in good] or tried
+            fitting = [composition for composition in tried if not composition.oversized]
+            if good and fitting:
+                best = max(fitting, key=lambda c: c.score)
+                if given[0] or _legible(plans, best.views, name):
+                    return best
     if best is None:
         raise _too_large(tried) if tried else Refused(
             f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
     return best
+
+
+def _ways(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
+    """The words that an arrangement is to hold: all or none, and which is tried first."""
+    return {PROTOCOLS[0]: (rows, None), ASIDE: (rows,)}.get(protocol, (None,))
+
+
+def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: Frame,
+                   title: TitleBlock) -> tuple[Protocol, ...]:
+    """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
+    for name in frame.papers:
+        page = words_page(name, frame, title)
+        found = packed(rows(page.text_width), page)
+        if len(found) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
+            break
+    return tuple((page, placed) for placed in found)
 
 
 def _too_large(tried: Sequence[Composition]) -> Refused:
@@ -239,14 +276,14 @@ def _check_force_plans(plans: Plans) -> None:
 
 
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-            tongue: Tongue | None = None) -> Composition:
+            tongue: Tongue | None = None, protocol: str = PROTOCOLS[0]) -> Composition:
     """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
 
-    Without a tongue it speaks that of the scene's sheet.
+    Without a tongue it speaks that of the scene's sheet; `protocol` says where the words stand.
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    return Composer(drawing, paper, check, tongue).compose()
+    return Composer(drawing, paper, check, tongue, protocol).compose()
 
 
 class Composer:
@@ -256,11 +293,12 @@ class Composer:
     """
 
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-                 tongue: Tongue | None = None):
+                 tongue: Tongue | None = None, protocol: str = PROTOCOLS[0]):
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
-        self.plans, self.paper = Plans(drawing, say), paper or scene.sheet.paper or None
-        self.words, self.title = Words(self.plans, check or {}), frame_of(scene).block(scene, say)
+        self.plans, self.paper, self.protocol = Plans(drawing, say), paper or scene.sheet.paper or None, protocol
+        self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
+        self.words = Words(self.plans, check or {})
         self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
 
     @property
@@ -280,14 +318,17 @@ class Composer:
                 found[wide] = self.words.rows(wide, pencil or Deviations())
             return found[wide]
 
-        if self._composed:
-            composition, before = self._composed
-            if all(_alike(was, rows(wide)) for wide, was in before.items()):
-                arrangement = composition.arrangement
-                worded = replace(arrangement, rows=tuple(rows(arrangement.columns[0].width)))
-                return replace(composition, arrangement=worded)
-        self._composed = composed(self.plans, rows, self.title, self.paper), found
-        return self._composed[0]
+        if not (self._composed and all(_alike(was, rows(wide)) for wide, was in self._composed[1].items())):
+            self._composed = composed(self.plans, rows, self.title, self.paper, self.protocol), dict(found)
+        return self._worded(self._composed[0], rows)
+
+    def _worded(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
+        """The composition with its words, beside the plans or on pages of their own."""
+        arrangement = composition.arrangement
+        if arrangement.columns:
+            return replace(composition, arrangement=replace(arrangement, rows=tuple(rows(arrangement.text_width))))
+        pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
+        return replace(composition, protocol=pages)
 
 
 def _alike(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -39,14 +40,28 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     for plate in composition.plates:
         items += captions(arrangement.panels[plate.panel], plate.panel, plans, scales)
         items += picture(plate)
-    rows = fill(arrangement.rows, arrangement.columns)
-    items += lettered(rows or [])
-    items += titled(composition, document)
+    items += lettered(fill(arrangement.rows, arrangement.columns) or [])
+    items += titled(composition, document, 1, 1 + len(composition.protocol))
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
         drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
         plans.tongue.code, drawing.scene.text, drawing.drawn.givens,
     )  # fmt: skip
+
+
+def pages(composition: Composition, document: Said = CONSTRUCTION) -> list[Sheet]:
+    """The sheet of a composed construction, and the pages of its words where they stand apart."""
+    first = layout(composition.plans.drawing, composition=composition, document=document)
+    return [first, *(_words_page(first, composition, number, document) for number in range(len(composition.protocol)))]
+
+
+def _words_page(first: Sheet, composition: Composition, number: int, document: Said) -> Sheet:
+    """A page of words, by its number from 0."""
+    page, placed = composition.protocol[number]
+    apart = replace(composition, arrangement=page)
+    words = lettered(placed), titled(apart, document, 2 + number, 1 + len(composition.protocol))
+    items = stacked([*_framed(apart), *words[0], *words[1]])
+    return replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
 
 
 def _framed(composition: Composition) -> Iterator[Item]:
@@ -78,20 +93,21 @@ def _description(composition: Composition, plans: Plans) -> str:
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
 
 
-HEAD = 3.0  # mm: the size of a plan's name
+HEADS = 3.0, 2.5  # mm: the sizes of a plan's name, the smaller where it is long
 LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base line, and from base line to base line
 
 
 def captions(rect: Rect, panel: Panel, plans: Plans, scales: Scales) -> Iterator[Text]:
     """Over a plan what it is, and its scales."""
-    kinds, multiple = plans.kinds(panel), scales.multiples.get(panel, Fraction(1))
+    kinds, multiple, room = plans.kinds(panel), scales.multiples.get(panel, Fraction(1)), rect.width - 5
     head = panel.caption(kinds)
     head = head if multiple == 1 else joined((head, times(multiple)))
-    heads = wrap(sentence_runs(plans.tongue(head)), HEAD, rect.width - 5, bold=True)
+    wrapped = ((size, wrap(sentence_runs(plans.tongue(head)), size, room, bold=True)) for size in HEADS)
+    size, heads = min(wrapped, key=lambda one: len(one[1]) > 2)
     told = plans.tongue(joined(scales.said(panel, kinds), ",  "))
-    lines: list[Runs] = [*heads, *wrap(sentence_runs(told), SIZE, rect.width - 5)]
+    lines: list[Runs] = [*heads[:2], *wrap(sentence_runs(told), SIZE, room)]
     first, pitch = LINES[min(max(len(lines), 2), 3)]
     for i, runs in enumerate(lines[:3]):
-        bold = i < len(heads)
+        bold = i < len(heads[:2])
         yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - first - pitch * i), runs,
-                   HEAD if bold else SIZE, bold=bold)  # fmt: skip
+                   size if bold else SIZE, bold=bold)  # fmt: skip

@@ -1,6 +1,6 @@
 """Paper: where the plans, the text columns and the title block lie on a sheet.
 
-The smallest sheet is taken on which the whole step list stands in legible lettering and the plans keep a good size.
+Words stand in columns beside or under the plans where plans keep most of the page, else on pages of their own.
 """
 
 from __future__ import annotations
@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from bisect import bisect_right
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TypeVar
 
 from graphplan.errors import Refused
@@ -29,7 +29,10 @@ Measure = Callable[[float], T]  # what something becomes for a width
 
 @dataclass(frozen=True)
 class Arrangement:
-    """One way to divide a sheet: its panels by name, its text columns with their filling, and its title block."""
+    """One way to divide a sheet: its panels by name, its text columns with their filling, and its title block.
+
+    Where the words are on pages of their own it has no columns.
+    """
 
     paper: str
     width: float
@@ -38,7 +41,24 @@ class Arrangement:
     panels: dict[str, Rect]
     columns: tuple[Rect, ...]
     title: Rect
-    rows: tuple[TextRow, ...]
+    rows: tuple[TextRow, ...] = ()
+
+    @property
+    def further(self) -> tuple[Rect, ...]:
+        """The columns of a page of words, those over the title block ending above it: as wide as on the first page."""
+        wide = self.columns[0].width if self.columns else COLUMN
+        count = max(1, int((self.frame.width + SLACK) // (wide + GUTTER)))
+        return _columns(self.frame, count, self.title, wide if self.columns else None)
+
+    @property
+    def text_width(self) -> float:
+        """How wide the text columns are."""
+        return self.further[0].width
+
+    @property
+    def share(self) -> float:
+        """The part of the page that plans take."""
+        return sum(panel.area for panel in self.panels.values()) / (self.width * self.height)
 
 
 def room(panel: Rect) -> Rect:
@@ -60,18 +80,42 @@ def sheet_size(paper: str) -> tuple[float, float]:
     return (high, wide) if way == "portrait" else (wide, high)
 
 
+MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
+
+
 def arrangements(
-    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[TextRow]], frame: Frame, title: TitleBlock
+    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[TextRow]] | None, frame: Frame, title: TitleBlock
 ) -> Iterator[Arrangement]:
-    """The ways to divide one sheet that hold all the text; `needs` says how much room plans want beside each other."""
+    """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
+
+    `needs` says how much room plans want beside each other.
+    """
     wide, high = sheet_size(paper)
     space = frame.space(wide, high)
-    for plans, columns, block in (*_beside(space, rows, title), *_below(space, rows, title)):
+    found = (*_beside(space, rows, title), *_below(space, rows, title)) if rows else _alone(space, title)
+    for plans, columns, block in found:
         for division in divisions(plans, needs):
-            yield Arrangement(paper, wide, high, space, division, columns, block, tuple(rows(columns[0].width)))
+            filled = tuple(rows(columns[0].width)) if rows else ()
+            yield Arrangement(paper, wide, high, space, division, columns, block, filled)
+
+
+def words_page(paper: str, frame: Frame, title: TitleBlock) -> Arrangement:
+    """A page of words alone."""
+    wide, high = sheet_size(paper)
+    space = frame.space(wide, high)
+    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, COLUMN + GUTTER, title))
+    return replace(page, columns=page.further)
 
 
 Division = tuple[Rect, tuple[Rect, ...], Rect]
+
+
+def _alone(space: Rect, title: TitleBlock) -> Iterator[Division]:
+    """Plans alone: above the title block, or to its left."""
+    block = lower_right(space, COLUMN + GUTTER, title)
+    yield Rect(space.left, block.top, space.right, space.top), (), block
+    if block.left > space.centre[0]:
+        yield Rect(space.left, space.bottom, block.left, space.top), (), block
 
 
 def _beside(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) -> Iterator[Division]:
@@ -112,13 +156,14 @@ def lower_right(space: Rect, pitch: float, title: TitleBlock) -> Rect:
     return Rect(space.right - wide, space.bottom, space.right, space.bottom + title.height(wide))
 
 
-def _columns(region: Rect, count: int, block: Rect) -> tuple[Rect, ...]:
-    """Equal columns; those over the title block end above it."""
+def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -> tuple[Rect, ...]:
+    """Columns that share a region equally, `wide` where that is told; those over the title block end above it."""
     pitch = region.width / count
     lefts = [region.left + i * pitch for i in range(count)]
     feet = [block.top if left + pitch > block.left + SLACK else region.bottom for left in lefts]
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
-    return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2, 2.0) for slot in slots)
+    spare = pitch - GUTTER - wide if wide else 0.0
+    return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2 + spare, 2.0) for slot in slots)
 
 
 SHARES = (0.5, 0.55, 0.6, 0.66)
@@ -159,9 +204,10 @@ def _grid(region: Rect, needs: Mapping[str, float], count: int, even: bool = Fal
     total, found, top = sum(needs.values()), dict[str, Rect](), region.top
     for row in _rows(needs, count):
         need, left = sum(needs[panel] for panel in row), region.left
-        bottom = top - region.height * (1 / count if even else need / total)
+        share = 1 / count if even else need / total
+        bottom = region.bottom if len(found) + len(row) == len(needs) else top - region.height * share
         for panel in row:
-            right = left + region.width * needs[panel] / need
+            right = region.right if panel == row[-1] else left + region.width * needs[panel] / need
             found[panel] = Rect(left, bottom, right, top)
             left = right
         top = bottom
@@ -190,11 +236,11 @@ def _turned(rect: Rect) -> Rect:
 
 
 def paged(rows: Sequence[TextRow], arrangement: Arrangement) -> Iterator[list[Placed]]:
-    """The rows page by page: the columns of the arrangement, then as many pages of columns as it takes.
+    """The rows page by page: the columns of the arrangement, if it has any, then as many pages of columns as it takes.
 
     Fails with `Refused` where what must stand together is higher than a page.
     """
-    columns, further = arrangement.columns, _whole_page(arrangement)
+    columns, further = arrangement.columns, arrangement.further
     while rows:
         count = _fitting(rows, columns)
         if not count and columns is further:
@@ -218,12 +264,3 @@ def _fitting(rows: Sequence[TextRow], columns: Sequence[Rect]) -> int:
             breaks.append(i + 1)
     full = bisect_right(breaks, False, key=lambda count: fill(rows[:count], columns) is None)
     return breaks[full - 1]
-
-
-def _whole_page(arrangement: Arrangement) -> tuple[Rect, ...]:
-    """Columns of the same width over a whole page, those over the title block ending above it."""
-    frame, title, wide = arrangement.frame, arrangement.title, arrangement.columns[0].width
-    count = max(1, int(frame.width // (wide + GUTTER)))
-    lefts = [frame.left + i * frame.width / count + GUTTER / 2 for i in range(count)]
-    feet = [title.top if left + wide > title.left else frame.bottom for left in lefts]
-    return tuple(Rect(left, foot + 2.0, left + wide, frame.top - 2.0) for left, foot in zip(lefts, feet, strict=True))

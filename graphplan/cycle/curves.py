@@ -214,4 +214,4 @@ def _rate_scale(least: float, slope: Fraction) -> Fraction:
 
 
 def _round_scale(least: float) -> Fraction:
-    return Fraction(str(round_up(least)))
+    return round_up(least)

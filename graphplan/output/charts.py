@@ -135,7 +135,7 @@ class _Scale:
         decades = self.axis.log and high - low >= 2
         if self.axis.log and not decades:
             low, high = 10**low, 10**high
-        step = math.ceil((high - low) / self.readings) if decades else round_up((high - low) / self.readings)
+        step = math.ceil((high - low) / self.readings) if decades else float(round_up((high - low) / self.readings))
         last = -math.inf
         for k in range(math.ceil(low / step), math.floor(high / step) + 1):
             plain = -2 <= k * step <= 3 or not decades

@@ -75,7 +75,7 @@ FAILURES: dict[str, tuple[float, tuple[str, ...], tuple[str, ...]]] = {
     "parallel bars": (1e-9, (AUXILIARY,), (TRIAL, SHEET)),
     "joints coincide": (1e-9, (TRIAL,), (AUXILIARY, SHEET)),
     "pole at infinity": (1e-9, (POLES,), (FALSE, SHEET)),
-    "short crank": (1e-10, (ORTHOGONAL, POLAR, SHEET), ()),
+    "short crank": (1e-10, (), (ORTHOGONAL, POLAR, SHEET)),
     "C on QR": (1e-10, (AUXILIARY, TRIAL, SHEET), ()),
     "triad": (1e-10, (AUXILIARY, TRIAL, SHEET), ()),
     "class IV": (1e-10, (POLES, FALSE, SHEET), ()),

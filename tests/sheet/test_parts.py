@@ -15,7 +15,7 @@ from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
 from graphplan.phrases import digits
 from graphplan.sheet.layout.paper import divisions
-from graphplan.sheet.layout.scales import Scales, multiple_below, ratio, round_up
+from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import Run, name_runs, plain, sentence_runs, width, wrap
@@ -36,12 +36,18 @@ def test_scales_are_round(least: float) -> None:
     assert min(abs(lead - step) for step in (1, 2, 2.5, 4, 5, 10)) < 1e-6
 
 
-@given(st.floats(1e-4, 1e4))
-def test_multiples_are_round(most: float) -> None:
-    """A multiple is 1, 2, 3, 5, 10, ... or one over it, and not above what fits."""
-    multiple = multiple_below(most)
-    assert multiple <= most * (1 + 1e-8)
-    assert 1 in (multiple.numerator, multiple.denominator)
+@given(st.floats(1e-4, 1e4), st.sampled_from((1, 2, 5)), st.sampled_from((1, 2, 5)), st.integers(-3, 3))
+def test_all_scales_of_a_plan_are_round(least: float, kappa: int, phi: int, power: int) -> None:
+    """Lengths, velocities, accelerations and forces on one plan all have round scales, as large as that lets them."""
+    lengths = [Fraction(1), kappa * Fraction(10) ** power, kappa**2 * Fraction(10) ** (2 * power), Fraction(phi)]
+    scale = round_up(least, lengths)
+    assert least * (1 - 1e-8) <= scale <= 10 * least
+    assert all(round_up(float(scale / length)) == scale / length for length in lengths)
+
+
+def test_given_lengths_leave_the_first_scale_round() -> None:
+    """Where a scene ties velocities to lengths so that both cannot be round, lengths are."""
+    assert round_up(3.0, [Fraction(1), Fraction(22, 7)]) == 4
 
 
 def test_scales_tie_velocity_and_acceleration_to_the_plan() -> None:

@@ -1,17 +1,23 @@
 """How long a drawn velocity is: the time that scales rates to lengths on the plan.
 
-A drawn velocity is kappa times the true one, a drawn acceleration kappa squared times. With one crank kappa is one over
-its angular velocity (the orthogonal velocities of the crank then reach its pivot, as with Rosenauer), so that every
-drawn ratio is a plain ratio of rates.
+A drawn velocity is kappa times the true one, a drawn acceleration kappa squared times. kappa is round, so that every
+plan has a round scale. With one over the crank's angular velocity the orthogonal velocities of the crank reach its
+pivot, as with Rosenauer, and every drawn ratio is a plain ratio of rates: it is taken where it is round, and the drawn
+velocities are neither lost in the mechanism nor larger than it.
 """
 
 from __future__ import annotations
 
+import math
+from collections.abc import Iterator
 from fractions import Fraction
 from typing import NamedTuple
 
-from graphplan.mechanism.model import Number, Scene
+from graphplan.mechanism.model import Drive, Number, Scene
 from graphplan.mechanism.order import turning_drives
+
+USUAL = 0.25  # of the mechanism's extent: how long the fastest velocity that the scene prescribes is drawn
+SHORTEST, LONGEST = 0.1, 0.5  # the same, where kappa is one over an angular velocity
 
 
 class Tempo(NamedTuple):
@@ -33,17 +39,32 @@ class Tempo(NamedTuple):
 
 
 def tempo(scene: Scene) -> Tempo:
-    """The scene's tempo: that of the scales its sheet names, or of its first turning drive; else the fastest speed is
-    drawn a fifth of the mechanism."""
+    """The scene's tempo: that of the scales its sheet names; else that of a turning drive, if velocities are then drawn
+    well; else the fastest velocity that is prescribed is drawn a quarter of the mechanism."""
     if scene.sheet.kappa:
         return Tempo(1 / scene.sheet.kappa)
+    fastest = max(_prescribed(scene), default=0.0)
     for drive in turning_drives(scene):
-        if drive.rate:
-            return Tempo(drive.rate if drive.rate > 0 else -drive.rate)
-    speeds = [drive.rate for drive in scene.drives if drive.slides]
-    speeds += [v for motion in scene.motions.values() for v in motion.velocity]
-    fastest = max((abs(float(speed)) for speed in speeds), default=0.0)
-    return Tempo(round_number(5 * fastest / scene.extent) if fastest else Fraction(1))
+        unit = drive.rate if drive.rate > 0 else -drive.rate
+        if unit and _is_round(1 / unit) and SHORTEST <= fastest / float(unit) / scene.extent <= LONGEST:
+            return Tempo(unit)
+    return Tempo(1 / round_number(USUAL * scene.extent / fastest) if fastest else Fraction(1))
+
+
+def _prescribed(scene: Scene) -> Iterator[float]:
+    """The speeds that the scene prescribes: of drives, and of points with a given motion."""
+    for drive in scene.drives:
+        yield abs(float(drive.rate)) * (1.0 if drive.slides else _reach(scene, drive))
+    for motion in scene.motions.values():
+        yield from (abs(float(speed)) for speed in motion.velocity)
+
+
+def _reach(scene: Scene, drive: Drive) -> float:
+    """How far the points of a turning link, and those of slides on it, are from the joint about which it turns."""
+    own = [*scene.links[drive.link], *(slide.at for slide in scene.slides if drive.link in slide.links)]
+    joints = [point for point in own if point in scene.links.get(drive.on, ())] or own
+    places = {point: tuple(map(float, scene.points[point])) for point in own}
+    return max((math.dist(places[P], places[R]) for P in joints for R in own), default=0.0)
 
 
 def apart(scene: Scene, P: str, R: str) -> float:
@@ -56,3 +77,8 @@ def round_number(number: float) -> Fraction:
     digits = f"{number:.0e}"
     lead, power = int(digits[0]), int(digits[2:])
     return Fraction(min((1, 2, 5, 10), key=lambda step: abs(step - lead))) * Fraction(10) ** power
+
+
+def _is_round(number: Number) -> bool:
+    """Whether a number is of that series."""
+    return number == round_number(float(number))

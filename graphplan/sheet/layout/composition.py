@@ -28,13 +28,12 @@ from graphplan.sheet.layout.paper import (
     sheet_size,
     words_page,
 )
-from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, multiple_below, ratio, round_up
-from graphplan.sheet.layout.scales import times as as_multiple
+from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, ratio, round_up
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
-from graphplan.sheet.plates.view import View, least, plan_box, plan_multiple, plan_scale, view, whole
+from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, whole
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import Words
@@ -154,14 +153,14 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
     nearest = min(tried, key=lambda composition: max(composition.oversized.values()))
     scales, paper, oversized = nearest.scales, nearest.arrangement.paper, nearest.oversized
     if MECHANISM in oversized:
-        k_s = round_up(scales.k_s * oversized[MECHANISM])
+        k_s = float(round_up(scales.k_s * oversized[MECHANISM]))
         most = f"{ratio(k_s, scales.length)} (k_s = {digits(k_s)}) or smaller"
         return Refused(f"sheet: the scale {ratio(scales.k_s, scales.length)}", f"the mechanism does not fit on {paper}",
                        f"{most}, or a larger sheet")  # fmt: skip
     panel, times = max(oversized.items(), key=lambda item: item[1])
     multiple = scales.multiples[panel]
-    most = f"{as_multiple(multiple_below(float(multiple) / times))} or less in [sheet.multiples]"
-    return Refused(f"sheet: the {panel} {as_multiple(multiple)}", f"it does not fit on {paper}",
+    most = f"×{1 / float(round_up(times / float(multiple))):g} or less in [sheet.multiples]"
+    return Refused(f"sheet: the {panel} ×{multiple}", f"it does not fit on {paper}",
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
@@ -187,16 +186,19 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
 
 
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
-    """The scales, round if they are not given, for so much room for the marks of each plan; twins have one multiple."""
-    k_s, told = given
-    k_s = k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM])
-    least: dict[str, Fraction] = {}
+    """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
+    drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
+    kappa, phi = drawing.tempo.kappa, drawing.phi
+    kinds = 1, *lengths_of(plans.kinds(MECHANISM), kappa, phi)
+    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, kinds))
+    most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
-        multiple, twin = plan_multiple(extents[panel], rooms[panel], k_s), plans.twins[panel]
-        least[twin] = min(multiple, least.get(twin, multiple))
-    multiples: dict[str, Fraction] = {panel: least[plans.twins[panel]] for panel in plans.panels[1:]}
-    drawing, names = plans.drawing, plans.drawing.scene.units
-    return Scales(k_s, drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
+        twin = plans.twins[panel]
+        lengths = lengths_of(plans.kinds(panel) | plans.kinds(twin), kappa, phi) or (1,)
+        scale = plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths)
+        most[twin] = max(scale, most.get(twin, scale))
+    multiples: dict[str, Fraction] = {panel: own / most[plans.twins[panel]] for panel in plans.panels[1:]}
+    return Scales(float(own), drawing.kappa, names.length, multiples | told, float(phi), names.force,
                   drawing.scene.sheet.convention)
 
 

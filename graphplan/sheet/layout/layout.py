@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
-from fractions import Fraction
 from typing import Any
 
 from graphplan.kernel.program import Panel
@@ -13,7 +12,7 @@ from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.scales import Scales, times
+from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
@@ -99,11 +98,9 @@ LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base li
 
 def captions(rect: Rect, panel: Panel, plans: Plans, scales: Scales) -> Iterator[Text]:
     """Over a plan what it is, and its scales."""
-    kinds, multiple, room = plans.kinds(panel), scales.multiples.get(panel, Fraction(1)), rect.width - 5
-    head = panel.caption(kinds)
-    head = head if multiple == 1 else joined((head, times(multiple)))
-    wrapped = ((size, wrap(sentence_runs(plans.tongue(head)), size, room, bold=True)) for size in HEADS)
-    size, heads = min(wrapped, key=lambda one: len(one[1]) > 2)
+    kinds, room = plans.kinds(panel), rect.width - 5
+    head = sentence_runs(plans.tongue(panel.caption(kinds)))
+    size, heads = min(((size, wrap(head, size, room, bold=True)) for size in HEADS), key=lambda one: len(one[1]) > 2)
     told = plans.tongue(joined(scales.said(panel, kinds), ",  "))
     lines: list[Runs] = [*heads[:2], *wrap(sentence_runs(told), SIZE, room)]
     first, pitch = LINES[min(max(len(lines), 2), 3)]

@@ -1,20 +1,20 @@
 """Scales: how much of the scene one millimetre of paper stands for, in round values.
 
-The mechanism plan is drawn at k_s; the construction's kappa then ties the velocities to it, k_v = k_s/kappa, and the
-accelerations, k_a = k_s/kappa^2, as every plan is constructed in lengths of the mechanism plan; forces are phi lengths
-long for each unit, k_F = k_s/phi. A plan that would be too small or too large is drawn at a round multiple of the
-scale, and says so.
+Every plan is constructed in lengths of the mechanism: a velocity is kappa lengths long for each unit, an acceleration
+kappa squared, a force phi. On paper each plan has so many lengths per mm that the scales of all that is drawn on it are
+round; what it is larger than the mechanism plan is its multiple.
 
-Round are the steps 1, 2, 2.5, 4 and 5 of GOST 2.302 in each power of ten; ISO 5455 has 1, 2 and 5 of them. Multiples
-are 1, 2, 3, 5 and powers of ten, as the sources draw vectors two or three times as large.
+Round are the steps 1, 2, 2.5, 4 and 5 of GOST 2.302 in each power of ten; ISO 5455 has 1, 2 and 5 of them.
 """
 
 from __future__ import annotations
 
 import math
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
+from graphplan.mechanism.model import Number
 from graphplan.mechanism.units import METRES
 from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, unit
 from graphplan.sheet.plates.pens import FORCES
@@ -22,32 +22,30 @@ from graphplan.sheet.plates.pens import FORCES
 VELOCITIES, ACCELERATIONS = frozenset({"velocity", "relative"}), frozenset({"acceleration", "normal"})
 SPEED = phrase("k_v = {0} {1} per mm"), phrase("mu_v = {0} mm per {1}")
 SHARPNESS = phrase("k_a = {0} {1} per mm"), phrase("mu_a = {0} mm per {1}")
-SERIES = (1.0, 2.0, 2.5, 4.0, 5.0)
-SIMPLE = (1, 2, 3, 5)
+SERIES = Fraction(1), Fraction(2), Fraction(5, 2), Fraction(4), Fraction(5)
 
 
-def round_up(least: float) -> float:
-    """The smallest scale of the series 1, 2, 2.5, 4, 5 x 10^n that is not below `least`."""
+def round_up(least: float, lengths: Sequence[Number] = (1,)) -> Fraction:
+    """The smallest lengths per mm, not below `least`, at which all kinds of quantity that are so many lengths long for
+    each unit have scales of the series; or the first alone, where the lengths that are given let not all have such."""
+    first = Fraction(lengths[0])
     if not least > 0 or math.isinf(least):
-        return 1.0
-    power = math.floor(math.log10(least))
-    candidates = (float(f"{step}e{n}") for n in (power - 1, power, power + 1) for step in SERIES)
-    return min(scale for scale in candidates if scale >= least * (1 - 1e-9))
+        return first
+    power = math.floor(math.log10(least / first))
+    found = [first * step * Fraction(10) ** n for n in range(power - 1, power + 3) for step in SERIES]
+    found = [scale for scale in found if scale >= least * (1 - 1e-9)]
+    return min([scale for scale in found if all(_is_round(scale / Fraction(length)) for length in lengths)] or found)
 
 
-def multiple_below(most: float) -> Fraction:
-    """The largest of ..., 1/5, 1/3, 1/2, 1, 2, 3, 5, 10, 20, ... that is not above `most`."""
-    most *= 1 + 1e-9
-    if most >= 1:
-        whole = 10 ** math.floor(math.log10(most))
-        return Fraction(max(m * whole for m in SIMPLE if m * whole <= most))
-    whole = 10 ** math.floor(math.log10(1 / most))
-    return Fraction(1, min(m * whole for m in (*SIMPLE, 10) if m * whole * most >= 1))
+def _is_round(scale: Fraction) -> bool:
+    """Whether a scale is of the series."""
+    return scale / Fraction(10) ** math.floor(math.log10(scale) + 1e-9) in SERIES
 
 
-def times(multiple: Fraction) -> str:
-    """A multiple as it is said: x2, x1/2."""
-    return f"×{multiple}"
+def lengths_of(kinds: Collection[str], kappa: Number, phi: Number) -> list[Number]:
+    """How many lengths long a unit is drawn of each quantity of which there are these kinds of vector."""
+    drawn = (VELOCITIES, kappa), (ACCELERATIONS, kappa * kappa), (FORCES, phi)
+    return [length for vectors, length in drawn if not vectors.isdisjoint(kinds)]
 
 
 @dataclass(frozen=True)

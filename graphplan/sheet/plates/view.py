@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 
-from graphplan.sheet.layout.scales import multiple_below, round_up
+from graphplan.mechanism.model import Number
+from graphplan.sheet.layout.scales import round_up
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Extent, grown
 
@@ -49,20 +51,12 @@ def whole(extent: Extent, room: Rect) -> float:
     return 1 / (least(_box(extent, room, math.inf), room) or 1e-9)
 
 
-def plan_scale(extent: Extent, room: Rect) -> float:
-    """The round k_s of the mechanism plan in this room."""
-    core = round_up(least(extent.core, room))
-    box = _box(extent, room, core * COARSER if extent.core.width or extent.core.height else math.inf)
-    return round_up(least(box, room))
-
-
-def plan_multiple(extent: Extent, room: Rect, k_s: float) -> Fraction:
-    """The round multiple of the mechanism plan's scale for another plan."""
-    fits = least(extent.core, room)
-    core = multiple_below(k_s / fits) if fits else Fraction(1)
-    box = _box(extent, room, float(k_s / core) * MUCH_COARSER)
-    wide = least(box, room)
-    return multiple_below(k_s / wide) if wide else Fraction(1)
+def plan_scale(extent: Extent, room: Rect, coarser: float, lengths: Sequence[Number] = (1,)) -> Fraction:
+    """The lengths per mm of a plan in this room, `coarser` for its auxiliary marks at most; round are the scales of the
+    quantities that are so many `lengths` long."""
+    core = round_up(least(extent.core, room), lengths)
+    box = _box(extent, room, float(core) * coarser if extent.core.width or extent.core.height else math.inf)
+    return round_up(least(box, room), lengths)
 
 
 def plan_box(extent: Extent, room: Rect, units_per_mm: float) -> Rect:

@@ -3,7 +3,7 @@
 charts:
   machine        time for a pose against error, of every form in every arithmetic
   draughtsman    drawing operations against pencil error, of every form
-  stability      where methods fail: errors on the way to special poses, and what serves there
+  stability      where methods fail: errors near special poses, and which method works there
   growth         time and steps against the number of links
 
 examples:

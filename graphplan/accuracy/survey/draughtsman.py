@@ -67,16 +67,17 @@ TIMES_OPERATIONS = Axis("drawing operations; 1 is the pose's own form, set squar
 TIMES_ERROR = Axis("pencil error of the worst result; 1 is that of the pose's own form", shows=(0.5,))
 FRONT = Look(INK, width=0.25)
 MODEL = (
-    "The pencil error is that of the worst result beside the largest of its kind, to first order, all on sheets of "
-    "size {paper} with {pencil}."
+    "The pencil error is that of the worst result relative to the largest of its kind, to first order, all on sheets "
+    "of size {paper} with {pencil}."
 )
 REMARKS = (
-    "Left is quicker, lower is more accurate; left of and below the line is nothing. Each mark is a way to draw, by "
-    "its medians over the {scenes} packaged scenes with the quartiles, beside the form that the pose chooses. " + MODEL
+    "Further left is quicker, lower is more accurate; no way of drawing lies left of and below the line. Each mark is "
+    "a way of drawing: medians and quartiles over the {scenes} packaged scenes, relative to the form chosen for the "
+    "pose. " + MODEL
 )
 DETAILS = (
     "Each mark is one form of a scene's construction. The line is the front: no form takes fewer operations without a "
-    "larger error. In brackets how many forms are not drawn; the table beside the chart says why. " + MODEL
+    "larger error. In brackets: how many forms cannot be drawn; the chart's table says why. " + MODEL
 )
 Place = tuple[float, float]  # in operations and error
 

@@ -132,9 +132,9 @@ LOOKS = {stage: Look(colour, marker, size=2.2, width=0.3, dash=dash)
 SIZE = Axis("links", shows=(LINKS[0], 20 * LINKS[-1]))  # words stand behind the lines
 TIME = Axis("time; 1 is one pose of four links solved")
 REMARKS = (
-    "A crank and a chain of dyads; a program has {steps} steps. Times are medians within one run, beside the time that "
-    f"the analytic solver takes for one pose of four links, with the quartiles; the powers of "
-    f"the number n of links are fitted from {LONG} links."
+    "A crank and a chain of dyads; a program has {steps} steps. Times are medians and quartiles within one run, "
+    "relative to the time that the analytic solver takes for one pose of four links; the powers of the number n of "
+    f"links are fitted from {LONG} links."
 )
 
 

@@ -121,10 +121,11 @@ OWN, SOLVERS_OWN = Look(INK, "circle", size=2.6), Look(GREY, "square", size=2.6)
 RIVAL, FRONT = Look(RED, "diamond", hollow=True, size=3.0), Look(GREY, width=0.35)
 BY_RULES = ("rules, one pose", "rules, many poses")  # which the replay has replaced: in the details alone
 REMARKS = (
-    "Left is faster, lower is more accurate; left of and below the line is nothing. Each mark is a median over scenes "
-    "with its quartiles: of ours over all packaged scenes, of other programs over as many of the bench as stand in "
-    "brackets. Times are beside LAPACK, which solves the equations of the same scene for many poses at once in the "
-    "same run; errors are the largest of any number in five poses beside the largest of its kind, against fractions."
+    "Further left is faster, lower is more accurate; nothing lies left of and below the line. Each mark is a median "
+    "over scenes with its quartiles: over all packaged scenes, and for other programs over as many scenes of the bench "
+    "as stand in brackets. Times are relative to LAPACK, which solves the equations of the same scene for many poses "
+    "at once in the same run; errors are the largest of any number in five poses, relative to the largest of its kind, "
+    "against fractions."
 )
 DETAILS = (
     "Each mark is one form in one arithmetic; the solver's are grey. Times are medians within one run, 1 being the "

@@ -226,13 +226,13 @@ ERROR = Axis("", before=((SOLVE, SOLVE), (SHEET, "sheet")), after=(("0", "not dr
              shows=(LEAST, 1.0), beside=((1.0, "100 mm"), (1e-2, "1 mm"), (1e-4, "10 µm"), (1e-8, "1 nm")))
 DISTANCE = Axis("distance d from the special pose", falling=True, after=((">", ""), (BEYOND, BEYOND), ("<", "")))
 REMARKS = (
-    "Each picture goes one way to a special pose, at d = 0 to the right. Up: the largest error of any number, relative "
-    "to the largest of its kind; on the right the same in mm on paper, of a vector 100 mm long. Marked are two ways of "
-    "drawing, every mark made in floats from the marks before it; dotted is each of them, and the pose's own, by "
-    "{pencil}, expected to first order on plans 250 mm across, as far as it is less than all. Below each picture: the "
-    "form that the pose's own sheet is drawn in, and the arithmetic of the answer of solve, floats, proven digits or "
-    "fractions (p/q); white: no, the pose is singular. Condition: the mechanism's, times 2.2e-16, as far as floats "
-    "may be off."
+    "Each picture approaches a special pose, d = 0 at the right. Upwards: the largest error of any number, relative to "
+    "the largest of its kind; the scale on the right is the same in mm of paper, for a vector 100 mm long. Lines with "
+    "markers: two ways of drawing, every mark computed in floats from the marks before it. Dotted: both of them, and "
+    "the form chosen for the pose, drawn with {pencil}, to first order on plans 250 mm across, where the error is "
+    "below 1. Below each picture: the form in which the sheet of the pose is drawn, and the arithmetic in which solve "
+    "answers: floats, proven digits or fractions (p/q); white: the pose is singular. Condition: that of the mechanism, "
+    "times 2.2e-16, the error that floats may have."
 )
 
 
@@ -241,8 +241,8 @@ def picture(rows: Sequence[Sample], pencil: str = "") -> Chart:
     sweeps = {way.name: way for way in DEGENERACIES}
     panels = tuple(_panel(sweeps[name], of) for name, of in grouped(rows, "degeneracy").items())
     key = (*((f"{way}, in floats" if way != SOLVE else "answer of solve", look) for way, look in LOOKS.items()),
-           ("the pose's own form by pencil", OWN), ("condition", CONDITION))
-    return Chart("Where methods fail, and what serves there", REMARKS.format(pencil=pencil or Pencil().told), panels, 4,
+           ("form chosen for the pose, by pencil", OWN), ("condition", CONDITION))
+    return Chart("Where methods fail, and which works there", REMARKS.format(pencil=pencil or Pencil().told), panels, 4,
                  (76.0, 62.0), key)
 
 

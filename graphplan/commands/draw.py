@@ -62,10 +62,10 @@ def run(options: argparse.Namespace) -> int:
 
     name = asked(options)
     found = reported(options, presented(options))
+    composition = on_paper(options, found).composition
     if options.strip:
-        sheets = strip(found.drawing, cut=options.strip)
+        sheets = strip(composition, cut=options.strip)
     else:
-        composition = on_paper(options, found).composition
         sheets = pages(with_numbers(composition) if options.numbers else composition)
         sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in sheets]
         staged = options.by == "stages" or (options.strict and not (options.by or options.until or options.steps))

@@ -1,7 +1,7 @@
 """A construction in pictures: which steps each of them shows, and under it their words.
 
 Pictures follow the stages. One of the `stage` cut shows a stage, or short ones that follow each other on one plan; one
-of the `mark` cut goes up to the next mark that gets a letter; one of the `step` cut shows a step. What is too much for
+of the `mark` cut goes up to the next point that gets a letter; one of the `step` cut shows a step. What is too much for
 a picture, by its movements or by letters that would stand on each other, is parted where the fewest helping marks are
 used on both sides.
 """
@@ -9,18 +9,18 @@ used on both sides.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import combinations, pairwise
+from itertools import combinations, groupby, pairwise
 
+from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step
-from graphplan.kernel.stages import Stage
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import Said, arranged
 from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates.display import Item, Text
 from graphplan.sheet.plates.excerpt import Excerpt, excerpt
-from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol
 
 MARK, STEP, STAGE = CUTS = "mark", "step", "stage"
 MOST = {MARK: 12, STEP: 1, STAGE: 14}  # movements in a picture
@@ -28,23 +28,53 @@ SHORT = 6  # movements of stages that stand together
 PARTED = 2.0  # the price of a further picture, in helping marks that are used in both
 
 
+@dataclass(frozen=True)
+class Part:
+    """Steps of one passage of the protocol that follow each other on one plan."""
+
+    passage: Passage
+    steps: tuple[Step, ...]
+
+    @property
+    def begins(self) -> bool:
+        """Whether the passage begins here."""
+        return self.steps[0].index == self.passage.entries[0].movements[0].index
+
+    @property
+    def title(self) -> Said:
+        """What stands over it."""
+        return replace(self.passage, again=self.passage.again or not self.begins).title or self.passage.plan.words
+
+    @property
+    def entries(self) -> Iterator[Entry]:
+        """The entries of its steps, as far as these go."""
+        own = {step.index for step in self.steps}
+        for entry in self.passage.entries:
+            if movements := tuple(one for one in entry.movements if one.index in own):
+                yield replace(entry, movements=movements)
+
+    def cut(self, runs: Iterable[Sequence[Step]]) -> Iterator[Part]:
+        """The same in parts."""
+        for run in runs:
+            yield Part(self.passage, tuple(run))
+
+
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """Some steps of one plan, stage by stage, and whether the first of the stages went on before."""
+    """Some steps of one plan, part by part, in a window no larger than its `room`, width and height in mm."""
 
-    plans: Plans
-    parts: tuple[tuple[Stage, tuple[Step, ...]], ...]
-    later: bool
+    protocol: Protocol
+    parts: tuple[Part, ...]
     room: tuple[float, float]
 
     @cached_property
     def steps(self) -> list[Step]:
-        return [step for _, steps in self.parts for step in steps]
+        return [step for part in self.parts for step in part.steps]
 
     @cached_property
     def excerpt(self) -> Excerpt:
         """What it shows, from its lower left corner."""
-        return excerpt(self.plans, [step.index for step in self.steps], *self.room)
+        return excerpt(self.protocol.plans, [step.index for step in self.steps], *self.room)
 
     @cached_property
     def items(self) -> list[Item]:
@@ -53,11 +83,9 @@ class Picture:
 
     @property
     def heading(self) -> Said:
-        """What stands over it."""
-        (stage, _), *more = self.parts
-        if more:
-            return arranged("{0:capital}", self.excerpt.panel.words)
-        return said("{0}, continued", stage.title) if self.later else stage.title
+        """What stands over it: its stage, or of several the plan."""
+        one, *more = self.parts
+        return arranged("{0:capital}", self.excerpt.panel.words) if more else one.title
 
     @property
     def crowded(self) -> bool:
@@ -65,22 +93,22 @@ class Picture:
         return crowded(self.items)
 
     def halves(self) -> Iterator[Picture]:
-        """The same in two pictures."""
-        (stage, steps), *more = self.parts
-        if more:
+        """The same in two pictures, or some more."""
+        if len(self.parts) > 1:
             at = len(self.parts) // 2
-            yield Picture(self.plans, self.parts[:at], self.later, self.room)
-            yield Picture(self.plans, self.parts[at:], False, self.room)
-            return
-        most = (len(steps) + 1) // 2 + len(steps) // 6
-        for i, run in enumerate(parted(self.plans.drawing.drawn, steps, most)):
-            yield Picture(self.plans, ((stage, tuple(run)),), self.later or i > 0, self.room)
+            halves: Iterable[tuple[Part, ...]] = self.parts[:at], self.parts[at:]
+        else:
+            (part,) = self.parts
+            most = (len(part.steps) + 1) // 2 + len(part.steps) // 6
+            halves = ((one,) for one in part.cut(parted(self.protocol.plans.drawing.drawn, part.steps, most)))
+        for parts in halves:
+            yield replace(self, parts=parts)
 
 
-def pictures(plans: Plans, cut: str, room: tuple[float, float]) -> list[Picture]:
-    """The pictures of a construction, so many mm wide and no higher than that."""
-    found = (_by_stages if cut == STAGE else _by_runs)(plans, cut, room)
-    return [part for one in found for part in _uncrowded(one)]
+def pictures(protocol: Protocol, cut: str, room: tuple[float, float]) -> list[Picture]:
+    """The pictures of a construction, each no larger than its room, width and height in mm."""
+    ways = {MARK: _by_marks, STEP: _by_steps, STAGE: _by_stages}
+    return [one for parts in ways[cut](protocol) for one in _uncrowded(Picture(protocol, tuple(parts), room))]
 
 
 def _uncrowded(one: Picture) -> Iterator[Picture]:
@@ -92,51 +120,56 @@ def _uncrowded(one: Picture) -> Iterator[Picture]:
         yield one
 
 
-def _runs(plans: Plans) -> Iterator[tuple[Stage, list[Step]]]:
-    """The stages, each with its steps of one plan."""
-    for stage, steps in plans.drawing.drawn.stages:
-        run: list[Step] = []
-        for step in steps:
-            if run and plans.plan_of_step[step.index] != plans.plan_of_step[run[-1].index]:
-                yield stage, run
-                run = []
-            run.append(step)
-        yield stage, run
+def _parts(protocol: Protocol) -> Iterator[Part]:
+    """The passages plan by plan."""
+    plan_of_step = protocol.plans.plan_of_step
+    for passage in protocol.passages:
+        steps = [one.step for entry in passage.entries for one in entry.movements]
+        for _, run in groupby(steps, lambda step: plan_of_step[step.index]):
+            yield Part(passage, tuple(run))
 
 
-def _by_runs(plans: Plans, cut: str, room: tuple[float, float]) -> Iterator[Picture]:
-    """A picture for each step, or up to each mark with a letter; with the beginning of a plan what is drawn next."""
-    begun = list[tuple[Stage, tuple[Step, ...]]]()
-    for stage, steps in _runs(plans):
-        group, later = list[Step](), False
-        for step in steps:
-            group.append(step)
-            if cut == MARK and len(steps) == 1 and step.op.free:
-                begun.append((stage, (step,)))
-            elif cut == STEP or step.name or len(group) == MOST[cut] or step is steps[-1]:
-                yield Picture(plans, (*begun, (stage, tuple(group))), later, room)
-                begun, group, later = [], [], True
+def _by_steps(protocol: Protocol) -> Iterator[list[Part]]:
+    """A picture for each step."""
+    for part in _parts(protocol):
+        yield from ([one] for one in part.cut([step] for step in part.steps))
 
 
-def _by_stages(plans: Plans, cut: str, room: tuple[float, float]) -> Iterator[Picture]:
-    """A picture for each stage, or for short ones that follow each other."""
-    short: list[tuple[Stage, tuple[Step, ...]]] = []
+def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
+    """A picture up to each entry that gives a point with a letter; with the beginning of a plan what is drawn next."""
+    begun = list[Part]()
+    for part in _parts(protocol):
+        if len(part.steps) == 1 and part.steps[0].op.free:
+            begun.append(part)
+            continue
+        group, runs = list[Step](), list[list[Step]]()
+        for entry in part.entries:
+            steps = [one.step for one in entry.movements]
+            group += steps
+            if (steps[-1].name and steps[-1].op.gives == POINT) or len(group) >= MOST[MARK]:
+                runs, group = [*runs, group], []
+        for one in part.cut([*runs, *([group] if group else [])]):
+            yield [*begun, one]
+            begun = []
+    if begun:
+        yield begun
 
-    def together() -> Iterator[Picture]:
-        if short:
-            yield Picture(plans, tuple(short), False, room)
-            short.clear()
 
-    for stage, steps in _runs(plans):
-        count, home = sum(len(run) for _, run in short), plans.plan_of_step[steps[0].index]
-        if count + len(steps) > SHORT or (short and plans.plan_of_step[short[-1][1][0].index] != home):
-            yield from together()
-        if len(steps) > SHORT:
-            for i, run in enumerate(parted(plans.drawing.drawn, steps, MOST[cut])):
-                yield Picture(plans, ((stage, tuple(run)),), i > 0, room)
+def _by_stages(protocol: Protocol) -> Iterator[list[Part]]:
+    """A picture for each stage, or for short ones that follow each other on a plan; long ones have several."""
+    plans, short = protocol.plans, list[Part]()
+    for part in _parts(protocol):
+        home = plans.plan_of_step[part.steps[0].index]
+        count = sum(len(one.steps) for one in short)
+        if short and (count + len(part.steps) > SHORT or plans.plan_of_step[short[-1].steps[0].index] != home):
+            yield short
+            short = []
+        if len(part.steps) > SHORT:
+            yield from ([one] for one in part.cut(parted(plans.drawing.drawn, part.steps, MOST[STAGE])))
         else:
-            short.append((stage, tuple(steps)))
-    yield from together()
+            short.append(part)
+    if short:
+        yield short
 
 
 def parted(program: Program, steps: Sequence[Step], most: int) -> list[Sequence[Step]]:

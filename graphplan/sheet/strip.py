@@ -11,41 +11,35 @@ from dataclasses import dataclass
 from functools import cached_property
 
 from graphplan.errors import Refused
-from graphplan.methods.construction import Construction
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, wrap
-from graphplan.sheet.pictures import MARK, STAGE, STEP, Picture, pictures
+from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, width, wrap
+from graphplan.sheet.pictures import MARK, STAGE, STEP, Part, Picture, pictures
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, moved
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
-from graphplan.sheet.words.texts import Words
-from graphplan.words.tongue import Tongue
-from graphplan.words.tongue import tongue as tongue_of
 
 WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
 BESIDE = 0.58  # of a column has a picture that has its words beside it
 HIGH = 0.7  # of its width: no picture is higher
-GAP, INDENT, UNDER, BELOW = 4.0, 7.0, 1.2, 5.0  # mm: beside pictures, of words, above them and below them
+GAP, UNDER, BELOW = 4.0, 1.2, 5.0  # mm: beside pictures, above words and below them
 USUAL = "A3"  # paper
 NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 
 
-def strip(drawing: Construction, paper: str | None = None, *, cut: str = MARK,
-          tongue: Tongue | None = None) -> list[Sheet]:
-    """The film strip of a construction, page by page, with a picture for every lettered `mark`, or for every `step`.
+def strip(composition: Composition, paper: str | None = None, *, cut: str = MARK) -> list[Sheet]:
+    """The film strip of a composed construction, page by page, with a picture for every lettered `mark`, or `step`.
 
-    Paper and tongue are those of the scene's sheet if none are named, and else A3 and English. Fails with `Refused`
-    where a picture with its words is larger than the paper.
+    It is on the paper named, or that of the scene's sheet, else A3; lengths are those of the composition. Fails with
+    `Refused` where a picture with its words is larger than the paper.
     """
-    wished = drawing.scene.sheet
-    say = tongue or tongue_of(wished.language or "en")
-    return Strip(Plans(drawing, say), cut, paper or wished.paper or USUAL).sheets
+    return Strip.of(composition, cut, paper).sheets
 
 
 def by_stages(composition: Composition, paper: str | None = None) -> list[Sheet]:
@@ -54,22 +48,32 @@ def by_stages(composition: Composition, paper: str | None = None) -> list[Sheet]
     Every stage has its equation, its law, and its steps beside an enlarged picture. It is for what is drawn on one
     sheet, but cannot be read there. Fails as :func:`strip` does.
     """
-    plans = composition.plans
-    return Strip(plans, STAGE, paper or plans.drawing.scene.sheet.paper or USUAL).sheets
+    return Strip.of(composition, STAGE, paper).sheets
 
 
 @dataclass(frozen=True)
 class Strip:
     """The pictures of one construction on sheets of one paper."""
 
-    plans: Plans
+    protocol: Protocol
     cut: str
-    paper: str = USUAL
+    paper: str
+
+    @classmethod
+    def of(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
+        """The strip of a composed construction."""
+        plans = composition.plans
+        named = paper or plans.drawing.scene.sheet.paper or USUAL
+        return cls(Protocol(plans, composition.scales), cut, frame_of(plans.drawing.scene).paper(named))
+
+    @property
+    def plans(self) -> Plans:
+        return self.protocol.plans
 
     @property
     def size(self) -> tuple[float, float]:
         """Width and height of a sheet."""
-        return sheet_size(frame_of(self.plans.drawing.scene).paper(self.paper))
+        return sheet_size(self.paper)
 
     @cached_property
     def frame(self) -> Rect:
@@ -93,7 +97,7 @@ class Strip:
 
     @cached_property
     def pictures(self) -> list[Picture]:
-        return pictures(self.plans, self.cut, (self.wide, HIGH * self.wide))
+        return pictures(self.protocol, self.cut, (self.wide, HIGH * self.wide))
 
     @property
     def wide(self) -> float:
@@ -133,9 +137,9 @@ class Strip:
     def _sheet(self, page: list[tuple[int, Spot]], number: int, of: int) -> Sheet:
         drawing, say = self.plans.drawing, self.plans.tongue
         scene, style = drawing.scene, frame_of(drawing.scene)
-        paper, document = style.paper(self.paper), CONSTRUCTION if self.cut == STAGE else STRIP
-        title = style.block(scene, say).items(self.block, Page(document, paper, NO_SCALE, number, of))
-        items = [*style.items(paper, self.frame, say), *title]
+        document = CONSTRUCTION if self.cut == STAGE else STRIP
+        title = style.block(scene, say).items(self.block, Page(document, self.paper, NO_SCALE, number, of))
+        items = [*style.items(self.paper, self.frame, say), *title]
         items += [item for place, corner in page for item in self._cell(place, corner)]
         told = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
                     len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
@@ -164,27 +168,46 @@ class Strip:
 
     def _rows(self, number: int) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""
-        one, drawn, found = self.pictures[number], self.plans.drawing.drawn, list[TextRow]()
-        heads = [*self._paragraph(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width, bold=True)]
-        for stage, steps in one.parts:
-            if len(one.parts) > 1:
-                found += self._paragraph(stage.title, self.words_wide, bold=True)
-            if self.cut == STAGE and not one.later:
-                told = stage.equation, arranged("{0:capital}.", stage.law)
-                found += [row for text in told if text for row in self._paragraph(text, self.words_wide)]
-            found += [row for step in steps for row in self.words.paragraph(
-                drawn.sentence(step.index), self.words_wide, step.index, str(drawn.number(step.index)))]
-        return heads, found
+        one = self.pictures[number]
+        heading = self._paragraph(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width, bold=True)
+        return [*heading], [row for part in one.parts for row in self._told(part, len(one.parts) > 1)]
 
-    def _paragraph(self, text: str, wide: float, bold: bool = False) -> Iterator[TextRow]:
-        """A text without a number."""
-        runs = sentence_runs(self.plans.tongue(text), self.words.names)
-        for line in wrap(runs, SIZE, wide, bold):
-            yield TextRow((Cell(0.0, line, bold=bold),))
+    def _told(self, part: Part, titled: bool) -> Iterator[TextRow]:
+        """A part in words."""
+        stage = part.passage.stage
+        if titled:
+            yield from self._paragraph(part.title, self.words_wide, bold=True)
+        if stage and self.cut == STAGE and part.begins and not part.passage.again:
+            for text in (stage.equation, arranged("{0:capital}.", stage.law)):
+                yield from self._paragraph(text, self.words_wide)
+        for entry in part.entries:
+            single = not entry.folded or self.cut == STEP
+            if not single:
+                yield from self._paragraph(entry.told, self.words_wide, step=entry.movements[-1].index,
+                                           number="" if self.cut == STAGE else entry.number)
+            for one in entry.movements if single or self.cut == STAGE else ():
+                yield from self._paragraph(one.sentence, self.words_wide, number=str(one.number), step=one.index)
+
+    def _paragraph(self, text: str, wide: float, *, bold: bool = False, number: str = "",
+                   step: int | None = None) -> Iterator[TextRow]:
+        """A text, hanging from its number where it has one."""
+        indent = self.indent if number else 0.0
+        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent, bold)
+        for i, line in enumerate(lines):
+            label = (Cell(indent - SIZE / 2, sentence_runs(number), "end"),) if number and not i else ()
+            yield TextRow((*label, Cell(indent, line, bold=bold)), step=step)
 
     @cached_property
-    def words(self) -> Words:
-        return _StepWords(self.plans)
+    def indent(self) -> float:
+        """How far words hang from the longest number."""
+        entries = [entry for passage in self.protocol.passages for entry in passage.entries]
+        numbers = [entry.number if self.cut == MARK else str(entry.movements[-1].number) for entry in entries]
+        return SIZE / 2 + max((width(sentence_runs(number), SIZE) for number in numbers), default=0.0)
+
+    @cached_property
+    def names(self) -> tuple[str, ...]:
+        """The letters that may stand in a sentence."""
+        return tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
 
 
 def _down(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
@@ -192,9 +215,3 @@ def _down(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:
     for row in rows:
         y -= row.height + row.gap
         yield from lettered([(row, x, y + row.size * (LEADING - 1))])
-
-
-class _StepWords(Words):
-    """Paragraphs that hang nearer to their numbers."""
-
-    indent = INDENT

@@ -236,7 +236,7 @@ def pages() -> Iterator[tuple[list[Sheet], str]]:
     yield solved, "Solution"
     yield task(solved[0], composition), "Task"
     yield guided(solved[0], composition), "Guided construction"
-    yield strip(drawing, "A3"), "Film strip"
+    yield strip(composition, "A3"), "Film strip"
 
 
 def test_every_page_says_which_document_and_page_it_is() -> None:

@@ -8,6 +8,7 @@ from sheets import SCENES, drawing_of, outside, sheet_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
+from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.pictures import MARK, STAGE, STEP, parted
 from graphplan.sheet.plates import pens
@@ -15,7 +16,7 @@ from graphplan.sheet.plates.display import Arrow, Text
 from graphplan.sheet.plates.excerpt import used
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import numbered, selected
-from graphplan.sheet.strip import Strip, strip
+from graphplan.sheet.strip import Strip, by_stages, strip
 from graphplan.sheet.words.texts import RESULTS
 
 
@@ -65,9 +66,10 @@ def test_steps_that_are_not_there_are_refused(text: str) -> None:
 def test_the_strip_shows_every_step_once(name: str) -> None:
     """The pictures' steps are all steps in order, each picture's on one plan, its words below it inside the frame."""
     drawing = drawing_of(name)
-    plans, drawn = Plans(drawing), drawing.drawn
+    composition, drawn = compose(drawing), drawing.drawn
+    plans = composition.plans
     for cut in (MARK, STAGE):
-        film = Strip(plans, cut)
+        film = Strip.of(composition, cut)
         assert [step.index for one in film.pictures for step in one.steps] == list(range(drawn.givens, len(drawn)))
         assert all(len({plans.plan_of_step[step.index] for step in one.steps}) == 1 for one in film.pictures)
         texts = [plain(item.runs) for page in film.sheets for item in page.items if isinstance(item, Text)]
@@ -78,35 +80,35 @@ def test_the_strip_shows_every_step_once(name: str) -> None:
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10", "alt-eight-link"])
 def test_letters_of_a_strip_stand_apart(name: str) -> None:
     """No letter of a picture covers another, nor a word below it."""
-    for page in [*strip(drawing_of(name)), *Strip(Plans(drawing_of(name)), STAGE, "A4 portrait").sheets]:
+    composition = compose(drawing_of(name))
+    for page in [*strip(composition), *by_stages(composition, "A4 portrait")]:
         boxes = [item.box.inset(0.05, 0.05, 0.05, 0.05) for item in page.items if isinstance(item, Text)]
         assert not [(one, other) for i, one in enumerate(boxes) for other in boxes[:i] if one.meets(other)]
 
 
 def test_a_single_strip_has_a_picture_for_each_step() -> None:
-    """A picture for every step but the beginning of a plan, which is in that of the next; for every mark they are less.
-    """
-    plans = Plans(drawing_of("four-bar"))
-    drawn = plans.drawing.drawn
+    """There is a picture for every step; for every mark they are fewer."""
+    composition = compose(drawing_of("four-bar"))
+    drawn = composition.plans.drawing.drawn
     steps = len(drawn) - drawn.givens
-    assert len(Strip(plans, STEP).pictures) == steps > len(Strip(plans, MARK).pictures)
+    assert len(Strip.of(composition, STEP).pictures) == steps > len(Strip.of(composition, MARK).pictures)
 
 
 @pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
 def test_a_picture_shows_what_its_steps_use(name: str) -> None:
     """Every point that a step of a picture draws or reads on its plan is in it, with nothing else of before."""
-    plans = Plans(drawing_of(name))
-    for one in Strip(plans, STAGE).pictures:
+    composition = compose(drawing_of(name))
+    for one in Strip.of(composition, STAGE).pictures:
         shown, own = one.excerpt, {step.index for step in one.steps}
         points = [drawn for drawn in shown.steps if drawn.kind == POINT and drawn.number]
         assert all(shown.shown(mark) for mark in points)
         assert own <= {drawn.index for drawn in shown.steps}
-        assert {drawn.index for drawn in shown.steps} - own <= used(plans.drawing.drawn, own)
+        assert {drawn.index for drawn in shown.steps} - own <= used(composition.plans.drawing.drawn, own)
 
 
 def test_new_strokes_are_in_ink_and_others_in_grey() -> None:
     """In a picture what its steps draw is as dark as ink, what they use is paler, and so is the mechanism."""
-    one = Strip(Plans(drawing_of("four-bar")), MARK).pictures[1]
+    one = Strip.of(compose(drawing_of("four-bar")), MARK).pictures[1]
     own = {step.index for step in one.steps}
     dark = {item.step for item in one.items if not isinstance(item, Text) and item.pen.colour == pens.INK}
     assert dark <= own
@@ -134,4 +136,4 @@ def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr("graphplan.sheet.strip.HIGH", 4.0)
     monkeypatch.setattr("graphplan.sheet.plates.excerpt.FLAT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
-        strip(drawing_of("four-bar"), "A4")
+        strip(compose(drawing_of("four-bar")), "A4")

@@ -54,9 +54,10 @@ class Excerpt(Plate):
 
     @cached_property
     def mechanism(self) -> list[Item]:
-        """The links and pairs that are in the window."""
+        """The links that are in the window, as far as they are, and the pairs that are wholly in it."""
         rect = self.view.rect
-        return [item for item in super().mechanism if not isinstance(item, Circle) or rect.holds(item.centre)]
+        return [item for item in super().mechanism
+                if not isinstance(item, Circle) or rect.holds(item.centre, -item.radius)]
 
     def marks(self, curve: DrawnStep) -> list[DrawnStep]:
         """The marks on a line or an arc: of what is used, those that are drawn by now; of an arc, those shown."""

@@ -33,7 +33,8 @@ if TYPE_CHECKING:
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf")
 DOTS = 150  # per inch
-PROTOCOL = "-protocol"  # what the name of a page of words adds to that of the sheet
+PROTOCOL, STAGES = "-protocol", "-stages"  # what the names of pages of words, and of stages, add to that of the sheet
+STAGED = "stages"
 
 
 def options(command: argparse.ArgumentParser) -> None:
@@ -46,8 +47,8 @@ def options(command: argparse.ArgumentParser) -> None:
     shown.add_argument("--steps", metavar="A-B", help="steps A to B in ink over what was drawn before them, in grey")
     shown.add_argument("--strip", nargs="?", const="mark", choices=("mark", "step"),
                        help="a film strip: a picture for every lettered mark, or for every step")
-    shown.add_argument("--by", choices=("sheet", "stages"),
-                       help="the sheet alone, or after it in a .pdf its stages on pages of their own, enlarged, with "
+    shown.add_argument("--by", choices=("sheet", STAGED),
+                       help="the sheet alone, or after it its stages on pages of their own, enlarged, with "
                             "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
@@ -63,20 +64,28 @@ def run(options: argparse.Namespace) -> int:
     name = asked(options)
     found = reported(options, presented(options))
     composition = on_paper(options, found).composition
+    composition = with_numbers(composition) if options.numbers else composition
+    names = paged(options.output, 2)
+    more: list[Sheet] = []
     if options.strip:
         sheets = strip(composition, cut=options.strip)
+    elif _staged(options) and (name == "pdf" or len(names) > 1):
+        sheets, more = by_stages(composition)
     else:
-        sheets = pages(with_numbers(composition) if options.numbers else composition)
-        sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in sheets]
-        staged = options.by == "stages" or (options.strict and not (options.by or options.until or options.steps))
-        sheets += by_stages(composition) if staged and name == "pdf" else []
-    write_out, more = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
+        sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in pages(composition)]
+    write_out, look = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
     if name == "pdf":
-        write(write_out(sheets), options.output)
+        write(write_out(sheets + more), options.output)
     else:
         names = paged(options.output, len(sheets), "" if options.strip else PROTOCOL)
-        write_all([(path, write_out(sheet, **more)) for path, sheet in zip(names, sheets, strict=False)])
+        names += paged(options.output, 1 + len(more), STAGES)[1:]
+        write_all([(path, write_out(sheet, **look)) for path, sheet in zip(names, sheets + more, strict=False)])
     return 0
+
+
+def _staged(options: argparse.Namespace) -> bool:
+    """Whether the stages are asked for, as they are where nothing else is and set squares are not used."""
+    return options.by == STAGED or (options.strict and not (options.by or options.until or options.steps))
 
 
 def _shown(sheet: Sheet, drawn: Program, options: argparse.Namespace) -> Sheet:

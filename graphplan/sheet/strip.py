@@ -7,14 +7,15 @@ down the columns of a page. Pages by stages have larger ones, each with the equa
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import Refused
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.composition import Composition, with_results_alone
+from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, width, wrap
@@ -42,13 +43,16 @@ def strip(composition: Composition, paper: str | None = None, *, cut: str = MARK
     return Strip.of(composition, cut, paper).sheets
 
 
-def by_stages(composition: Composition, paper: str | None = None) -> list[Sheet]:
-    """A composed construction once more, stage by stage, on the paper named, or that of the scene's sheet, else A3.
+def by_stages(composition: Composition, paper: str | None = None) -> tuple[list[Sheet], list[Sheet]]:
+    """The pages of a composed construction that is told by stages: sheet and results, then the stages.
 
-    Every stage has its equation, its law, and its steps beside an enlarged picture. It is for what is drawn on one
-    sheet, but cannot be read there. Fails as :func:`strip` does.
+    Every stage has its equation, its law, and its steps beside an enlarged picture, on the paper named, or that of the
+    scene's sheet, else A3. It is for what is drawn on one sheet, but cannot be read there. Fails as :func:`strip` does.
     """
-    return Strip.of(composition, STAGE, paper).sheets
+    film = Strip.of(composition, STAGE, paper)
+    whole = with_results_alone(composition)
+    before = pages(replace(whole, further=len(film.pages)))
+    return before, film.sheets_after(len(before))
 
 
 @dataclass(frozen=True)
@@ -110,13 +114,21 @@ class Strip:
         return self.columns[0].width - self.wide - GAP if self.cut == STAGE else self.wide
 
     @cached_property
+    def pages(self) -> list[list[tuple[int, Spot]]]:
+        """For each page its pictures by number, and where each has its upper left corner."""
+        return list(self._pages())
+
+    @property
     def sheets(self) -> list[Sheet]:
         """All pages."""
-        pages = list(self._pages())
-        return [self._sheet(page, number, len(pages)) for number, page in enumerate(pages, 1)]
+        return self.sheets_after(0)
+
+    def sheets_after(self, others: int) -> list[Sheet]:
+        """The pages, where so many others come before them."""
+        of = others + len(self.pages)
+        return [self._sheet(page, number, of) for number, page in enumerate(self.pages, others + 1)]
 
     def _pages(self) -> Iterator[list[tuple[int, Spot]]]:
-        """For each page its pictures by number, and where each has its upper left corner."""
         page, places = list[tuple[int, Spot]](), list[Rect]()
         place, y = Rect(0.0, 0.0, 0.0, 0.0), 0.0
         for number in range(len(self.pictures)):

@@ -230,7 +230,6 @@ def test_form_1_has_names_beside_their_roles() -> None:
 
 def pages() -> Iterator[tuple[list[Sheet], str]]:
     """Documents of several pages, with what they are called."""
-    drawing = drawing_of("alt-eight-link")
     composition = composition_of("alt-eight-link")
     solved = solution(composition)
     yield solved, "Solution"

@@ -24,6 +24,7 @@ from graphplan.sheet.layout.paper import (
     arrangements,
     inside,
     packed,
+    paged,
     room,
     sheet_size,
     words_page,
@@ -36,7 +37,7 @@ from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, whole
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
-from graphplan.sheet.words.texts import Words
+from graphplan.sheet.words.texts import RESULTS, Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
@@ -61,6 +62,12 @@ class Composition:
     extents: Mapping[str, Extent]
     plans: Plans
     protocol: tuple[Protocol, ...] = ()
+    further: int = 0  # pages that follow
+
+    @property
+    def page_count(self) -> int:
+        """How many pages there are."""
+        return 1 + len(self.protocol) + self.further
 
     @cached_property
     def plates(self) -> Plates:
@@ -331,6 +338,13 @@ class Composer:
             return replace(composition, arrangement=replace(arrangement, rows=tuple(rows(arrangement.text_width))))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
         return replace(composition, protocol=pages)
+
+
+def with_results_alone(composition: Composition) -> Composition:
+    """The composition whose pages of words have no steps, which are told elsewhere."""
+    rows = [row for _, placed in composition.protocol for row, _, _ in placed if row.layer == RESULTS]
+    pages = ((page, placed) for page, _ in composition.protocol[:1] for placed in paged(rows, page))
+    return replace(composition, protocol=tuple(pages))
 
 
 def _alike(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:

@@ -40,7 +40,7 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
         items += captions(arrangement.panels[plate.panel], plate.panel, plans, scales)
         items += picture(plate)
     items += lettered(fill(arrangement.rows, arrangement.columns) or [])
-    items += titled(composition, document, 1, 1 + len(composition.protocol))
+    items += titled(composition, document, 1, composition.page_count)
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
         drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
@@ -58,7 +58,7 @@ def _words_page(first: Sheet, composition: Composition, number: int, document: S
     """A page of words, by its number from 0."""
     page, placed = composition.protocol[number]
     apart = replace(composition, arrangement=page)
-    words = lettered(placed), titled(apart, document, 2 + number, 1 + len(composition.protocol))
+    words = lettered(placed), titled(apart, document, 2 + number, composition.page_count)
     items = stacked([*_framed(apart), *words[0], *words[1]])
     return replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
 

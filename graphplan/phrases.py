@@ -33,10 +33,13 @@ class Said(str):
 
 
 class Shaped(str):
-    """Words that can be put into others in one of their forms: a grammatical case, or with a `capital`."""
+    """Words that can be put into others in one of their forms: a grammatical case, or with a `capital`.
+
+    A mark's letter, such as v_b, keeps its size.
+    """
 
     def __format__(self, form: str) -> str:
-        if form == "capital":
+        if form == "capital" and self[1:2] != "_":
             return self[:1].upper() + self[1:]
         return str(self)
 

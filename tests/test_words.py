@@ -23,7 +23,8 @@ from graphplan.commands import main
 from graphplan.cycle import follow
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.kinds import TABLE
-from graphplan.kernel.program import Board, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS

@@ -25,7 +25,8 @@ import numpy as np
 
 from graphplan.cycle.curves import QUANTITIES, ROUNDING, Curve, DiagramScales, Places, Reals
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
 
 PANELS = {quantity: Panel(f"{quantity} diagram") for quantity in QUANTITIES}
 CHORDS, TANGENTS, INTEGRATED = "by chords", "by tangents", "integrated"
@@ -59,7 +60,7 @@ class Axes:
 def axes(board: Board, panel: Panel, letter: str, distance: Fraction) -> Axes:
     """The axes of the diagram of `letter`, its pole at the given distance left of the origin."""
     with board.on(panel=panel):
-        O = board.begin(plan=panel, number=1, name=f"O_{letter}")
+        O = board.begin(plan=panel, name=f"O_{letter}")
     t = board.guide(O, dx=1, dy=0, why="the axis of time")
     y = board.perpendicular(t, O, why=f"the axis of {letter}")
     H = board.lay_off(O, dx=-distance, dy=0, name=f"H_{letter}", why="the pole: its distance sets the scale")

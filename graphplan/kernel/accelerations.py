@@ -26,7 +26,7 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, COMPASSES,
-           "Construct the relative normal acceleration of {1} about {0} by the relative velocity from {2} to {3}; "
+           "Construct the relative normal acceleration of {0} about {1} by the relative velocity from {2} to {3}; "
            "from {4} lay it off: mark {out}.",
            claims=(("along", (4, -1), (0, 1)), ("away", (4, -1), (0, 1)), ("mean", 0, 1, 2, 3, 4)),
            fails=("points-coincide",), source="Rosenauer 1939, No. 14; Ozols 1974, 5-3, fig. 5-22", forms={
@@ -44,7 +44,7 @@ def _companion(s: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
 def normal(d: Any, K: Any, A: Any, m: Any, w: Any, k: Any) -> Any:
     """The end a of the vector ka = v^2/KA, parallel to KA and away from k, v being the length mw.
 
-    The relative normal acceleration of A about K is then the vector from a to k.
+    So the vector from k to a is the relative normal acceleration of K about A; that of A about K runs back.
     """
     u, v = apart(d, K, A, "the two joints coincide"), vector(m, w)
     s = dot(v, v) / dot(u, u)

@@ -181,9 +181,9 @@ CHOICES: dict[str, Said] = {str(word): word for word in (
 
 
 def worded(value: Any) -> str:
-    """A parameter as a reader wants it: a short decimal, a plain fraction such as 2/3, else six digits."""
+    """A parameter as a reader wants it: a plan in words, a short decimal, a plain fraction such as 2/3, six digits."""
     if isinstance(value, str):
-        return CHOICES.get(value, value)
+        return CHOICES.get(value, getattr(value, "words", value))
     if isinstance(value, Fraction) and value.denominator <= 16 and 1000 % value.denominator:
         return str(value)
     return digits(float(value), 6) if isinstance(value, Fraction | float) else str(value)

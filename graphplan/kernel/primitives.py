@@ -55,11 +55,18 @@ def given(d: Any, /, *, x: Any, y: Any) -> Any:
     return d.lift(x), d.lift(y)
 
 
-@primitive((), POINT, PENCIL, "Mark {out} where there is room: beginning {number} of the {plan}.",
-           claims=(("stands",),), params=("plan", "number"), movement=Movement.BEGUN)
-def begin(d: Any, /, *, plan: str, number: int) -> Any:
-    """The place where a plan begins, its origin; `number` tells several beginnings on one plan apart."""
+@primitive((), POINT, PENCIL, "Choose the origin {out} of the {plan}.",
+           claims=(("stands",),), params=("plan",), movement=Movement.BEGUN)
+def begin(d: Any, /, *, plan: Any) -> Any:
+    """The place where a plan, or a part of one, begins: its origin."""
     return d.lift(0), d.lift(0)
+
+
+@primitive((), POINT, PENCIL, "Choose the pole {out} of the {plan}.",
+           claims=(("stands",),), params=("plan",), movement=Movement.BEGUN)
+def pole(d: Any, /, *, plan: Any) -> Any:
+    """The place from which all vectors of a plan are laid off."""
+    return begin(d, plan=plan)
 
 
 @primitive((POINT,), LINE, SCALE, "Through {0} draw the guide {out} in the given direction ({dx}, {dy}).",

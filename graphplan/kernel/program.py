@@ -6,14 +6,14 @@ A mark is a name for a step's result and nothing more: it has no coordinates, so
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from functools import cached_property
-from heapq import heapify, heappop, heapreplace
 from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel.incidence import Heading, bearing, incident
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.stages import Stage, Teller, staged
@@ -80,6 +80,12 @@ class Step:
     choice: Choice | None = None
 
     @property
+    def begins(self) -> Panel:
+        """The plan, or the part of one, on which a mark stands that is made from none."""
+        begun: Panel = self.params.get("plan", self.panel)
+        return begun
+
+    @property
     def root(self) -> int | None:
         """The step of the mark that a point is laid off from, if it is."""
         return None if self.op.root is None else self.args[self.op.root]
@@ -102,12 +108,16 @@ def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[
 
 
 class Mark:
-    """A mark on the board while the construction is recorded."""
+    """A mark on the board while the construction is recorded.
 
-    __slots__ = ("board", "key", "step")
+    `heading` is that of a line; `keys` are those under which the board finds it, and lines on which it lies.
+    """
 
-    def __init__(self, board: Board, step: Step, key: tuple[Any, ...]):
-        self.board, self.step, self.key = board, step, key
+    __slots__ = ("board", "heading", "keys", "step")
+
+    def __init__(self, board: Board, step: Step, heading: Heading):
+        self.board, self.step, self.heading = board, step, heading
+        self.keys: dict[tuple[Any, ...], Mark] = {}
 
     @property
     def kind(self) -> str:
@@ -142,8 +152,9 @@ class Verbs:
 class Board(Verbs):
     """Records drawing steps; its methods are the primitives of the table.
 
-    The same operation on the same marks is drawn once. A step is drawn on the plan of the mark that it is drawn at;
-    :meth:`on` says on which plan points are given, of which links the steps speak, and which stage they are a part of.
+    The same operation on the same marks is drawn once, and so is the line that runs one way through one point. A step
+    is drawn on the plan of the mark that it is drawn at; :meth:`on` says on which plan points are given, of which links
+    the steps speak, and which stage they are a part of.
     """
 
     def __init__(self) -> None:
@@ -176,17 +187,26 @@ class Board(Verbs):
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
         places = tuple([step.index for step in read])
-        key = _key(op, places, params)
+        heading = bearing(op, [arg.heading for arg in args], len(self.steps))
+        set_square = op.movement is Movement.PARALLEL or op.movement is Movement.PERPENDICULAR
+        key = (*heading, places[1]) if set_square else _key(op, places, params)
         same = self._drawn.get(key)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             return self.named(same, name)
         panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {})
-        mark = Mark(self, step, key)
+        mark = Mark(self, step, heading)
         self.steps.append(step)
         self.marks.append(mark)
-        self._drawn[key] = mark
+        self._enter(mark, key, args)
         return self.named(mark, name)
+
+    def _enter(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
+        """Find a mark under its key, and a line by its heading and each point that lies on it by construction."""
+        pairs = [(mark, args[place]) if mark.kind == LINE else (args[place], mark) for place in incident(mark.step.op)]
+        found = {key: mark} | {(*line.heading, point.step.index): line for line, point in pairs}
+        mark.keys = {key: line for key, line in found.items() if key not in self._drawn}
+        self._drawn |= mark.keys
 
     def named(self, mark: Mark, name: str) -> Mark:
         """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""
@@ -204,7 +224,8 @@ class Board(Verbs):
     def rewind(self, length: int) -> None:
         """Take back all steps after the first `length`: a form was tried and is not used."""
         for mark in self.marks[length:]:
-            self._drawn.pop(mark.key, None)
+            for key in mark.keys:
+                del self._drawn[key]
             self._names.discard(mark.step.name)
         del self.steps[length:], self.marks[length:]
 
@@ -212,7 +233,8 @@ class Board(Verbs):
         """Put marks without letters back that were taken back, on what they stood on."""
         self.marks += marks
         self.steps += [mark.step for mark in marks]
-        self._drawn |= {mark.key: mark for mark in marks}
+        for mark in marks:
+            self._drawn |= mark.keys
 
 
 @dataclass(frozen=True)
@@ -295,62 +317,6 @@ def _joins(name: str) -> bool:
     """Whether a point's name can stand beside another's, as in KA: words such as pi would run together."""
     letters = name.partition("_")[0]
     return bool(name) and not (len(letters) > 1 and letters.isalpha())
-
-
-# ---- passes: each gives a new program, numbered afresh ---------------------------------------------------------------
-
-
-def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
-    """The steps that the wanted marks need, renumbered in drawing order: what nothing needs is not drawn."""
-    places = [mark.step.index for mark in wanted]
-    return _renumbered(board.steps, places, sorted(needed(board.steps, places)))
-
-
-def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = ()) -> set[int]:
-    """The steps, by index, that the wanted marks need, but for known ones and what those need."""
-    return needed(board.steps, (mark.step.index for mark in wanted), known)
-
-
-def needed(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
-    """The same for steps, by index."""
-    found, waiting = set[int](), [*wanted]
-    while waiting:
-        index = waiting.pop()
-        if index not in found and index not in known:
-            found.add(index)
-            waiting.extend(steps[index].args)
-    return found
-
-
-def pruned(program: Program) -> Program:
-    """The same program without the steps that no wanted mark needs."""
-    return _renumbered(program.steps, program.wanted, sorted(needed(program.steps, program.wanted)))
-
-
-def _renumbered(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]) -> Program:
-    """The program of these steps in this order."""
-    place = {index: position for position, index in enumerate(order)}
-    kept = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
-            for step in map(steps.__getitem__, order)]
-    return Program(tuple(kept), tuple(place[index] for index in wanted))
-
-
-def gathered(program: Program) -> tuple[Program, list[int]]:
-    """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
-    drawn: dict[int, None] = {}
-    left: dict[str, list[Step]] = {}
-    for step in program.steps:
-        left.setdefault(step.panel, []).append(step)
-    queue = [(steps[0].index, steps) for steps in left.values()]  # the plan whose next step comes first is next
-    heapify(queue)
-    while queue:
-        _, steps = queue[0]
-        for step in steps:
-            if all(arg in drawn for arg in step.args):
-                drawn[step.index] = None
-        waiting = [step for step in steps if step.index not in drawn]
-        heapreplace(queue, (waiting[0].index, waiting)) if waiting else heappop(queue)
-    return _renumbered(program.steps, program.wanted, list(drawn)), list(drawn)
 
 
 # ---- numbers: one walk over the steps, whatever the number domain ----------------------------------------------------

@@ -14,7 +14,8 @@ from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Panel, Program, Step, evaluate, gathered
+from graphplan.kernel.passes import gathered
+from graphplan.kernel.program import Panel, Program, Step, evaluate
 from graphplan.methods import kinds
 from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, LeverPlan
 from graphplan.methods.recorded import Recorded

@@ -12,7 +12,8 @@ from itertools import combinations
 from typing import NamedTuple
 
 from graphplan.errors import Refused
-from graphplan.kernel.program import Board, Mark, freeze, needed_steps
+from graphplan.kernel.passes import freeze, needed_steps
+from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.methods import kinds

@@ -42,8 +42,8 @@ class Pose:
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)
-            along, at = (self.board.line if run else self.board.side)(one, two), self.points[slide.at]
-            return along if at is one or at is two else self.board.parallel(along, at)
+            along = (self.board.line if run else self.board.side)(one, two)
+            return self.board.parallel(along, self.points[slide.at])
 
     def spoken(self, point: str) -> str:
         """The letter of a point, auxiliary points and poles among them."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 from graphlib import TopologicalSorter
 from typing import Any
 
-from graphplan.kernel.program import Board, Mark, Program, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Program
 from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import Placement, Scene
 from graphplan.mechanism.numerals import exactly

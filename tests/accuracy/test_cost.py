@@ -20,7 +20,7 @@ from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.kernel import Board
 from graphplan.kernel.lemoine import counts
-from graphplan.kernel.program import freeze
+from graphplan.kernel.passes import freeze
 from graphplan.sheet.layout import composition
 from graphplan.sheet.layout.composition import Composition, composed
 from graphplan.sheet.layout.layout import layout

@@ -11,7 +11,8 @@ from graphplan.accuracy.hand import Hand, Slips
 from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.numbers.gradients import Gradients
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 
 Points = Sequence[Mark]
 Draw = Callable[[Board, Points], Mark]

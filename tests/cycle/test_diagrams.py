@@ -22,7 +22,8 @@ from graphplan.kernel import Board, Mark
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 from graphplan.output import plots
 
 HO = Fraction(25)

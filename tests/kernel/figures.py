@@ -15,7 +15,8 @@ from typing import Any
 from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 
 Place = Callable[[Random], tuple[Any, Any]]
 Points = list[Mark]

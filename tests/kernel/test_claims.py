@@ -13,7 +13,7 @@ from graphplan.kernel import Board
 from graphplan.kernel.claims import broken, unmet
 from graphplan.kernel.numbers import Fractions
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import freeze
+from graphplan.kernel.passes import freeze
 
 RANDOMS = st.randoms(use_true_random=False)
 

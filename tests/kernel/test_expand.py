@@ -13,7 +13,8 @@ from graphplan.kernel import Board, Mark, Program
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, Window
 from graphplan.kernel.kinds import TABLE, Choice, Form
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 
 
 def points(board: Board, **places: tuple[float, float]) -> list[Mark]:

@@ -16,7 +16,7 @@ from graphplan.kernel import FAILURES, LINE, TABLE, Mark, Program
 from graphplan.kernel.claims import broken
 from graphplan.kernel.expand import BY_SET_SQUARE, STRICT, Expander, FormBoard
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import pruned
+from graphplan.kernel.passes import pruned
 
 FORMS = [(name, form) for name in COMPOUNDS for form in TABLE[name].forms]
 KEEPS = {"all but itself": frozenset(TABLE), "set squares": BY_SET_SQUARE, "strict": STRICT}

@@ -11,7 +11,8 @@ from graphplan.kernel.expand import STRICT, Expander
 from graphplan.kernel.kinds import SCALE, TABLE
 from graphplan.kernel.lemoine import Counts, counts
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 
 Draw = Callable[[Board, Mark, Mark, Mark], Mark]
 

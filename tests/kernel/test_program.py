@@ -14,7 +14,8 @@ from hypothesis import strategies as st
 
 from graphplan.kernel import TABLE, Board, Mark, Program
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import evaluate, freeze, gathered, pruned
+from graphplan.kernel.passes import freeze, gathered, pruned
+from graphplan.kernel.program import Panel, evaluate
 
 
 def triangle() -> tuple[Board, list[Mark]]:
@@ -116,7 +117,7 @@ def test_steps_are_drawn_where_their_operand_is() -> None:
     """A step stands on the plan of the mark that it is drawn at, and speaks of the links in question."""
     board, (A, B, C) = triangle()
     with board.on("N-plan", ("3",)):
-        o = board.begin(plan="N-plan", number=1)
+        o = board.begin(plan=Panel("N-plan"))
         assert board.transfer(A, B, o).step.panel == "N-plan"
         assert board.midpoint(A, B).step.panel == ""
         assert board.midpoint(A, C).step.links == ("3",)

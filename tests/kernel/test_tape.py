@@ -11,7 +11,8 @@ from figures import LENGTHS, NAMES, Place, corners, drawn, extremes, figure, qua
 
 from graphplan.kernel import TABLE, Board, Program
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import evaluate, freeze
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import evaluate
 from graphplan.kernel.tape import blocks
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import Machine

@@ -89,7 +89,8 @@ def test_parallel_bars_need_a_trial_figure() -> None:
 def _meet_of_bars() -> None:
     """Q by force: the meeting of two parallel bars."""
     from graphplan.kernel.numbers.floats import Floats
-    from graphplan.kernel.program import Board, evaluate, freeze
+    from graphplan.kernel.passes import freeze
+    from graphplan.kernel.program import Board, evaluate
 
     points, board = gp.load("parallel-links").points, Board()
     K, A, L, B = (board.given(x=points[name][0], y=points[name][1], name=name) for name in "KALB")

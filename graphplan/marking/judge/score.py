@@ -8,7 +8,7 @@ from dataclasses import dataclass, fields
 
 from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
-from graphplan.kernel.program import needed
+from graphplan.kernel.passes import needed
 from graphplan.marking.judge.verdict import UNSEEN, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY

@@ -132,7 +132,7 @@ class FreeBodies:
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
         with board.on(self.panel, group.links, begun(str(forces.corners + 1), self.panel.words)):
-            self.origin = self.numbered(board.begin(plan=self.panel.words, number=1))
+            self.origin = self.numbered(board.begin(plan=self.panel))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
             assert site.direction is not None

@@ -124,8 +124,8 @@ class Lever:
         self.shown: list[Shown] = []
         self.loads: list[str] = []
         self.stage = partial(stages.lever, panel, letter, self.loads)
-        with self.board.on(panel, stage=begun("o", panel.words)):
-            self.pole = self.board.begin(plan=panel.words, number=1, name="o")
+        with self.board.on(panel, stage=begun("o", panel.words, pole=True)):
+            self.pole = self.board.pole(plan=panel, name="o")
 
     # ---- velocities --------------------------------------------------------------------------------------------
 

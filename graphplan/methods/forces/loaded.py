@@ -13,7 +13,8 @@ from typing import Any
 
 from graphplan.errors import ConstructionError, Refused
 from graphplan.kernel.numbers.floats import Floats
-from graphplan.kernel.program import Mark, evaluate, freeze, needed_steps
+from graphplan.kernel.passes import freeze, needed_steps
+from graphplan.kernel.program import Mark, evaluate
 from graphplan.mechanism.model import Find, Loads, Scene
 from graphplan.mechanism.units import metre
 from graphplan.methods.construction import Construction, ForceArrow

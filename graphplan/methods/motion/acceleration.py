@@ -1,7 +1,7 @@
 """Accelerations: the plan of relative normal accelerations (Rosenauer), or the polar plan (Jaanimets).
 
-On the N-plan every link has its figure, the link's own shrunk or blown up by omega squared, so that the relative normal
-acceleration of A about K is the vector from a to k. Lay the acceleration of a point off from its mark there: what is
+On the N-plan every link has its figure, the link's own shrunk or blown up by omega squared, so that the vector from a
+to b is the relative normal acceleration of A about B. Lay the acceleration of a point off from its mark there: what is
 left between the ends of two points of a link is tangential, square to their line. So the ends are the image of the
 link a quarter turned, and the moves that found the velocities find the accelerations.
 """
@@ -9,7 +9,7 @@ link a quarter turned, and the moves that found the velocities find the accelera
 from __future__ import annotations
 
 from collections import deque
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from functools import partial
 from typing import NamedTuple
 
@@ -21,7 +21,7 @@ from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import ACCELERATIONS, begun
 from graphplan.methods.motion.velocity import Velocity
-from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, slide_named
+from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
@@ -32,7 +32,7 @@ GREEK = {
 }
 
 NORMAL = phrase("the relative normal acceleration of {0} about {1}")
-CORIOLIS = phrase("the Coriolis acceleration of the pair {0}, twice the half-vector")
+CORIOLIS = phrase("the Coriolis acceleration of {0} relative to {1}, twice the half-vector")
 LAWS: dict[type, Said] = {
     Swing: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     Slip: said("the link's angular acceleration is known, so its points' ends differ by a known vector"),
@@ -160,8 +160,13 @@ class Normal(MotionPlan):
             return base
         if omega * omega == 1 and base is A:
             return X
-        with self.board.on(stage=partial(self.stages.normal, joint, point)):
-            return self.board.step_off(A, X, base, ratio=omega * omega)
+        return self._normal(link, joint, point, partial(self.board.step_off, A, X, base, ratio=omega * omega))
+
+    def _normal(self, link: str, K: str, X: str, draw: Callable[..., Mark]) -> Mark:
+        """The mark of X, drawn from that of K in the figure of their link: the vector is the acceleration of K."""
+        places = [self.net.place(point, link) for point in (K, X)]
+        with self.board.on(stage=partial(self.stages.normal, *places)):
+            return draw(why=NORMAL(*(self.stages.name(*place) for place in places)))
 
     def _driven_seat(self, weld: DrivenPair, joint: str) -> Mark:
         if weld.slide is None:
@@ -181,10 +186,10 @@ class Normal(MotionPlan):
     def _anchored(self, link: str, anchor: Anchor) -> Mark:
         if not anchor.link:
             name = self.figure_name(link, anchor.point)
-            with self.board.on(self.panel, stage=begun(name, self.panel.words)):
-                begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
-                before = sum(step.panel == self.panel for step in begins)
-                return self.board.begin(plan=self.panel.words, number=before + 1, name=name)
+            begins = [step for step in self.board.steps if step.op.movement is Movement.BEGUN]
+            plan = self.panel.part(1 + sum(step.panel == self.panel for step in begins))
+            with self.board.on(self.panel, stage=begun(name, plan.words)):
+                return self.board.begin(plan=plan, name=name)
         if anchor.slide is None:
             return self.figure(anchor.link, anchor.point)
         return self._less_coriolis(anchor.slide, anchor.link, link, anchor.point)
@@ -194,10 +199,8 @@ class Normal(MotionPlan):
         side = self._side(link, K) or X
         points = self.pose.points
         if side == X:
-            with self.board.on(stage=partial(self.stages.normal, K, X)):
-                m, w = self.velocity.relative(link, K, X)
-                why = NORMAL(X, K)
-                return self.board.normal(points[K], points[X], m, w, self.figure(link, K), why=why)
+            return self._normal(link, K, X, lambda why: self.board.normal(
+                points[K], points[X], *self.velocity.relative(link, K, X), self.figure(link, K), why=why))
         ends = self.figure(link, K), self.figure(link, side)
         with self.board.on(stage=partial(self.stages.figure, link)):
             return self.board.similar(points[K], points[side], points[X], *ends, turn="parallel")
@@ -242,11 +245,11 @@ class Normal(MotionPlan):
         if any(link == FRAME or self.net.still(link) for link in slide.guiding):
             return start
         link, P = self._pivot(slide.guiding, B)
-        one, two = (self.net.place(B, end) for end in (new, known))
-        with self.board.on(stage=partial(self.stages.coriolis, slide, link, one, two)):
+        one, two = (self.net.place(B, end) for end in (known, new))
+        with self.board.on(stage=partial(self.stages.coriolis, link, one, two)):
             turning = self.velocity.about(link, P, B)
             slip = self.velocity.slip(known, new, B)
-            why = CORIOLIS(slide_named(slide))
+            why = CORIOLIS(self.stages.name(*one), self.stages.name(*two))
             return self.board.coriolis(self.pose.points[P], self.pose.points[B], turning, slip, start, why=why)
 
     def _pivot(self, links: tuple[str, ...], B: str) -> tuple[str, str]:
@@ -301,8 +304,8 @@ class PolarAcceleration(Normal):
     panel, ending = ACCELERATION_PLAN, "{0}'"
 
     def __init__(self, board: Board, net: Network, pose: Pose, velocity: Velocity, moves: Iterable[Move]):
-        with board.on(self.panel, stage=begun("pi", self.panel.words)):
-            self.pole = board.begin(plan=self.panel.words, number=1, name="pi")
+        with board.on(self.panel, stage=begun("pi", self.panel.words, pole=True)):
+            self.pole = board.pole(plan=self.panel, name="pi")
         super().__init__(board, net, pose, velocity, moves)
 
     def home(self, place: BodyPoint) -> Mark:

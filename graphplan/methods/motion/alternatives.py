@@ -129,12 +129,12 @@ class _Alternative:
         return self.construction, self.planner
 
     @staticmethod
-    def rank(least: float) -> Callable[[_Alternative], tuple[float, float]]:
-        """The shortest of those whose errors grow about as little as the least."""
+    def rank(least: float) -> Callable[[_Alternative], tuple[float, ...]]:
+        """The shortest of those whose errors grow about as little as the least; of as short ones the steadiest."""
 
-        def key(way: _Alternative) -> tuple[float, float]:
+        def key(way: _Alternative) -> tuple[float, ...]:
             steps = len(way.construction.program) if way.construction else math.inf
-            return (0.0 if way.growth <= EQUAL * least else way.growth), steps
+            return (0.0 if way.growth <= EQUAL * least else way.growth), steps, way.growth
 
         return key
 

@@ -27,9 +27,10 @@ from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Networ
 from graphplan.methods.motion.stages import MotionStages, Words, auxiliary
 from graphplan.methods.motion.time_scale import Tempo
 from graphplan.methods.poses import Pose
-from graphplan.phrases import Said
+from graphplan.phrases import Said, phrase
 
 Vector = tuple[Mark, Mark]
+FIXED = phrase("{0} lies on {1} itself: {2} is fixed")
 STATE = "ends", "loci", "known", "_told", "pole_vectors"  # of a plan: what a trial figure may not pass on
 TRIAL_RATIOS = Fraction(3, 10), Fraction(-2, 5)  # where trial figures stand on their locus, in lengths of a link
 
@@ -142,7 +143,9 @@ class MotionPlan:
             case moves.Swing(body, K, X, source):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.board.side(self.point(K), self.point(X))
-                self._locus((X, source or body), getattr(self.board, self.turn)(side, through), move)
+                line = getattr(self.board, self.turn)(side, through)
+                law = FIXED(self.end_name(X), self._side_name(K, X), self.pose.spoken(K[0])) if line is side else None
+                self._locus((X, source or body), line, move, law)
             case moves.Slip(body, A, X, like, source):
                 self._locus((X, source or body), self._slipped(body, A, X, like), move)
             case moves.Carry(body, A, B, X, source):
@@ -180,7 +183,12 @@ class MotionPlan:
 
     def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
         self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
-        if move is not None and mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
+        if move is not None:
+            self._reason(mark, self.laws.get(type(move)))
+
+    def _reason(self, mark: Mark, law: Said | None) -> None:
+        """Tell the law of a mark that was drawn just now."""
+        if law and mark.step.index == len(self.board.steps) - 1:
             self.board.annotate(mark.step.index, why=law)
 
     def _know(self, place: BodyPoint, mark: Mark) -> None:
@@ -192,17 +200,21 @@ class MotionPlan:
                     self.known[body] += (place,)  # a figure needs points that lie apart
         self.ends[place] = mark
 
-    def _locus(self, locus: Locus, mark: Mark, move: Move) -> None:
+    def _locus(self, locus: Locus, mark: Mark, move: Move, law: Said | None = None) -> None:
         if name := self.locus_name(locus[0]):
             self.board.named(mark, name + self.prime)
-        if mark.step.index == len(self.board.steps) - 1 and (law := self.laws.get(type(move))):
-            self.board.annotate(mark.step.index, why=law)
+        self._reason(mark, law or self.laws.get(type(move)))
         self.loci[locus] = mark
         self._located.add(locus[0])
 
     def point(self, place: BodyPoint) -> Mark:
         """The place on the mechanism plan."""
         return self.pose.points[place[0]]
+
+    def _side_name(self, *places: BodyPoint) -> str:
+        """The line through two places, as the board names it."""
+        marks = sorted(map(self.point, places), key=lambda mark: mark.step.index)
+        return "".join(mark.step.name for mark in marks)
 
     # ---- between home and figure ----------------------------------------------------------------------------
 

@@ -45,10 +45,10 @@ BY_TRIALS = "trial figure", "two trial figures", "two trial figures further out"
 BY = {"semicircle": phrase("Normal acceleration of {0} about {1}, by the semicircle"),
       "companion": phrase("Normal acceleration of {0} about {1}, by the right triangle")}
 BEGUN = said("a plan may be begun wherever there is room")
-NORMAL = said("it is v²/r and directed to the other point: on the plan from the new mark back to the one that this is "
-              "laid off from")
+NORMAL = said("it is v²/r and directed to the other point: on the plan from the mark that it is laid off from to the "
+              "new one")
 FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
-CORIOLIS = said("it is 2 ω v and square to v: on the plan from the new mark back to the one that this is laid off from")
+CORIOLIS = said("it is 2 ω v and square to v: on the plan from the mark that it is laid off from to the new one")
 RATE = said("the difference of the vectors of two points of a link is in proportion to their distance")
 SLIDING = said("the vectors of two coincident points differ by that of one relative to the other")
 
@@ -251,23 +251,23 @@ class MotionStages:
 
     # ---- others -------------------------------------------------------------------------------------------------
 
-    def normal(self, K: str, X: str, forms: Collection[str] = ()) -> Stage:
-        """The normal acceleration of X about K, points of one link."""
-        part = self.vector("a^n", (X, ""), (K, ""))
-        square = f"{self.vector('v', (X, ''), (K, '')).name}²"
-        equation = Equation(f"{part.name} = {square}/{self.name(K)}{self.name(X)}", (part,))
+    def normal(self, K: BodyPoint, X: BodyPoint, forms: Collection[str] = ()) -> Stage:
+        """The normal acceleration of K about X, points of one link, and so that of X about K."""
+        part, square = self.vector("a^n", K, X), f"{self.vector('v', K, X).name}²"
+        equation = Equation(f"{part.name} = {square}/{self.name(*K)}{self.name(*X)}", (part,))
         how = BY.get(next((form for form in forms if form in BY), ""), phrase("Normal acceleration of {0} about {1}"))
-        return Stage(how(self.name(X), self.name(K)), NORMAL, (equation,))
+        return Stage(how(self.name(*K), self.name(*X)), NORMAL, (equation, _reversed(part, self.vector("a^n", X, K))))
 
     def figure(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The normal accelerations of a link's other points."""
         return Stage(said("Normal accelerations of {0}, by the similar figure", link_named(link)), FIGURE)
 
-    def coriolis(self, slide: Slide, guide: str, B: BodyPoint, on: BodyPoint, forms: Collection[str] = ()) -> Stage:
-        """The Coriolis acceleration of a slide whose guide turns as a link does."""
+    def coriolis(self, guide: str, B: BodyPoint, on: BodyPoint, forms: Collection[str] = ()) -> Stage:
+        """The Coriolis acceleration of a point relative to the one under it, where the guide turns as a link does."""
         part, slip = self.vector("a^C", B, on), self.vector("v", B, on)
         equation = Equation(f"{part.name} = 2 ω_{guide} {slip.name}", (part, slip))
-        return Stage(said("Coriolis acceleration of the slide {0}", slide_named(slide)), CORIOLIS, (equation,))
+        title = said("Coriolis acceleration of {0} relative to {1}", self.name(*B), self.name(*on))
+        return Stage(title, CORIOLIS, (equation, _reversed(part, self.vector("a^C", on, B))))
 
     def rate(self, link: str, forms: Collection[str] = ()) -> Stage:
         """The turning of a link."""
@@ -280,11 +280,17 @@ class MotionStages:
         return Stage(self.words.slide(slide_named(slide)), SLIDING, (equation,))
 
 
+def _reversed(known: Vector, other: Vector) -> Equation:
+    """A vector relative to a point is that of the point, reversed."""
+    return Equation(f"{other.name} = -{known.name}", (other, known))
+
+
 def auxiliary(body: str) -> str:
     """The place of a body's auxiliary point."""
     return f"auxiliary point of {body}"
 
 
-def begun(name: str, plan: Said) -> Stage:
+def begun(name: str, plan: Said, *, pole: bool = False) -> Stage:
     """Where a plan begins."""
-    return Stage(said("Origin {0} of the {1}", name, plan), BEGUN)
+    title = said("Pole {0} of the {1}", name, plan) if pole else said("Origin {0} of the {1}", name, plan)
+    return Stage(title, BEGUN)

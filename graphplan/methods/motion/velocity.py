@@ -57,7 +57,10 @@ class Velocity(MotionPlan):
 
     def relative(self, link: str, K: str, A: str) -> Vector:
         """Two marks whose distance is the velocity of A about K, points of one link."""
-        return self.moved(self.origin(A), self.origin(K), self.end_in(link, K)), self.end_in(link, A)
+        start, end = self.end_in(link, K), self.end_in(link, A)
+        if end is self.origin(A):  # A is fixed: what is left is the velocity of K
+            return start, self.origin(K)
+        return self.moved(self.origin(A), self.origin(K), start), end
 
     def about(self, link: str, P: str, B: str) -> Mark:
         """The orthogonal velocity of B about P, points of one link, laid off at B: its end."""
@@ -92,8 +95,8 @@ class Polar(Velocity):
 
     def __init__(self, board: Board, net: Network, pose: Pose, tempo: Tempo):
         super().__init__(board, net, pose, tempo)
-        with board.on(self.panel, stage=begun("p", self.panel.words)):
-            self.pole = board.begin(plan=self.panel.words, number=1, name="p")
+        with board.on(self.panel, stage=begun("p", self.panel.words, pole=True)):
+            self.pole = board.pole(plan=self.panel, name="p")
 
     def far_from(self, place: BodyPoint) -> Mark:
         """As far from the pole as the place is from another point of its link."""

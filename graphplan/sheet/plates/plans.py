@@ -64,7 +64,7 @@ class Plans:
 
     def _home(self, step: Step, found: Sequence[Panel]) -> Panel:
         if not step.args:
-            return step.panel.part(step.params.get("number", 1))
+            return step.begins
         steps = self.drawing.drawn.steps
         read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
         return next((home for home in reversed(read) if home.whole == step.panel), read[0])

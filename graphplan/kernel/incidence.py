@@ -1,0 +1,39 @@
+"""What lies where by construction, in every pose: lines that run alike through one point are one line.
+
+A line's heading is the line that its direction was taken from, by its place, and how many quarter turns it runs ahead
+of that one. A point lies on a line that was drawn through it, and on one by which it was marked.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import cache
+
+from graphplan.kernel.kinds import LINE, POINT, Primitive
+
+Heading = tuple[int, int]
+
+
+def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
+    """The heading of what an operation makes of marks with these headings: of a line at this place its own, but for
+    one that is drawn by another line."""
+    along, turns = _followed(op)
+    if along is None:
+        return place, 0
+    base, ahead = read[along]
+    return base, (ahead + turns) % 4
+
+
+@cache
+def _followed(op: Primitive) -> tuple[int | None, int]:
+    """The operand whose direction a line takes, if it does, and by how many quarter turns it is ahead."""
+    found = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular")) for place in op.claimed(claim)
+             if op.gives == LINE]
+    return found[0] if found else (None, 0)
+
+
+@cache
+def incident(op: Primitive) -> tuple[int, ...]:
+    """The points that a line is drawn through, or the lines that a point is marked by, among the operands."""
+    other = {LINE: POINT, POINT: LINE}.get(op.gives, "")
+    return tuple(place for place in op.claimed("on") if op.reads[place] == other)

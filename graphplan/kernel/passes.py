@@ -1,0 +1,61 @@
+"""Passes over a program: each gives a new one, numbered afresh."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable, Sequence
+from heapq import heapify, heappop, heapreplace
+
+from graphplan.kernel.program import Board, Mark, Program, Step
+
+
+def freeze(board: Board, wanted: Iterable[Mark]) -> Program:
+    """The steps that the wanted marks need, renumbered in drawing order: what nothing needs is not drawn."""
+    places = [mark.step.index for mark in wanted]
+    return _renumbered(board.steps, places, sorted(needed(board.steps, places)))
+
+
+def needed_steps(board: Board, wanted: Iterable[Mark], known: Collection[int] = ()) -> set[int]:
+    """The steps, by index, that the wanted marks need, but for known ones and what those need."""
+    return needed(board.steps, (mark.step.index for mark in wanted), known)
+
+
+def needed(steps: Sequence[Step], wanted: Iterable[int], known: Collection[int] = ()) -> set[int]:
+    """The same for steps, by index."""
+    found, waiting = set[int](), [*wanted]
+    while waiting:
+        index = waiting.pop()
+        if index not in found and index not in known:
+            found.add(index)
+            waiting.extend(steps[index].args)
+    return found
+
+
+def pruned(program: Program) -> Program:
+    """The same program without the steps that no wanted mark needs."""
+    return _renumbered(program.steps, program.wanted, sorted(needed(program.steps, program.wanted)))
+
+
+def _renumbered(steps: Sequence[Step], wanted: Sequence[int], order: Sequence[int]) -> Program:
+    """The program of these steps in this order."""
+    place = {index: position for position, index in enumerate(order)}
+    kept = [step.but(index=place[step.index], args=tuple([place[arg] for arg in step.args]))
+            for step in map(steps.__getitem__, order)]
+    return Program(tuple(kept), tuple(place[index] for index in wanted))
+
+
+def gathered(program: Program) -> tuple[Program, list[int]]:
+    """The same steps, plan by plan as far as they allow, and the old place of each: the pencil wanders less."""
+    drawn: dict[int, None] = {}
+    left: dict[str, list[Step]] = {}
+    for step in program.steps:
+        left.setdefault(step.panel, []).append(step)
+    queue = [(steps[0].index, steps) for steps in left.values()]  # the plan whose next step comes first is next
+    heapify(queue)
+    while queue:
+        _, steps = queue[0]
+        for step in steps:
+            if all(arg in drawn for arg in step.args):
+                drawn[step.index] = None
+        waiting = [step for step in steps if step.index not in drawn]
+        heapreplace(queue, (waiting[0].index, waiting)) if waiting else heappop(queue)
+    return _renumbered(program.steps, program.wanted, list(drawn)), list(drawn)

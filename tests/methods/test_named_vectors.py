@@ -1,0 +1,83 @@
+"""What a sentence says that a vector is, the vector is: normal and Coriolis accelerations, with sign and order."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+
+import pytest
+
+import graphplan as gp
+from graphplan.kernel.program import Step
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.scene import packaged
+from graphplan.methods.construction import Construction
+from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
+from graphplan.phrases import Phrase
+
+PLANS = "orthogonal", "polar"
+
+
+def told(drawing: Construction, phrase: Phrase) -> Iterator[tuple[Step, tuple[str, str]]]:
+    """The drawn steps that say so, each with the two points that it names."""
+    for step in drawing.drawn.steps:
+        if phrase.says(step.why):
+            one, two = step.why.put  # type: ignore[attr-defined]
+            yield step, (one, two)
+
+
+class Motion:
+    """The motion of a scene by the solver, read by the names that sentences use: B2 and B(2) are B of link 2."""
+
+    def __init__(self, scene: Scene):
+        self.scene, self.rates = scene, gp.analytic.solve(scene)
+
+    def place(self, name: str) -> tuple[complex, complex, set[str]]:
+        """Where a named point lies, its velocity, and its links."""
+        found = re.fullmatch(r"(\w+)\((\w+)\)", name) or re.fullmatch(r"(\D+)(\d+)", name)
+        if name in self.scene.points or not found:
+            links = set(self.scene.links_of[name])
+            return self._at(name), complex(*self.rates.velocity.get(name, (0.0, 0.0))), links
+        at, link = self._at(found[1]), FRAME if found[2] == "0" else found[2]
+        base = self.scene.links[link][0]
+        turned = 1j * float(self.rates.omega.get(link, 0.0)) * (at - self._at(base))
+        return at, complex(*self.rates.velocity.get(base, (0.0, 0.0))) + turned, {link}
+
+    def _at(self, name: str) -> complex:
+        return complex(*map(float, self.scene.points[name]))
+
+    def normal(self, K: str, X: str) -> complex:
+        """The normal acceleration of K about X, points of one link."""
+        (k, _, one), (x, _, two) = self.place(K), self.place(X)
+        (link,) = one & two
+        return float(self.rates.omega[link]) ** 2 * (x - k)
+
+    def coriolis(self, B: str, on: str) -> list[complex]:
+        """The Coriolis acceleration of B relative to the point under it, as either of their links turns."""
+        (_, v, one), (_, w, two) = self.place(B), self.place(on)
+        return [2j * float(self.rates.omega.get(link, 0.0)) * (v - w) for link in one ^ two]
+
+
+@pytest.mark.parametrize("plan", PLANS)
+def test_a_vector_is_the_acceleration_that_its_sentence_names(plan: str) -> None:
+    """From the mark that it is laid off from to the new one runs the normal acceleration of the first named point about
+    the second, or its Coriolis acceleration relative to it, as the solver has them."""
+    normals = slides = 0
+    for name in packaged():
+        drawing = gp.construct(gp.load(name), plan=plan)
+        motion, values = Motion(drawing.scene), drawing.values
+        least = 1e-9 * drawing.scene.extent
+        for step, points in told(drawing, NORMAL):
+            assert step.root is not None
+            drawn = complex(*values[step.index]) - complex(*values[step.root])
+            true = drawing.kappa**2 * motion.normal(*points)
+            assert abs(drawn - true) <= max(1e-6 * abs(true), least), (name, step.why)
+            normals += 1
+        for step, points in told(drawing, CORIOLIS):
+            assert step.root is not None
+            half = complex(*values[step.index]) - complex(*values[step.root])  # it is laid off twice
+            true = [drawing.kappa**2 * vector / 2 for vector in motion.coriolis(*points)]
+            assert any(abs(half - vector) <= max(1e-6 * abs(vector), least) for vector in true), (name, step.why)
+            slides += 1
+    assert normals > 100
+    assert slides >= 5

@@ -144,8 +144,9 @@ class MotionPlan:
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
                 side = self.board.side(self.point(K), self.point(X))
                 line = getattr(self.board, self.turn)(side, through)
-                law = FIXED(self.end_name(X), self._side_name(K, X), self.pose.spoken(K[0])) if line is side else None
-                self._locus((X, source or body), line, move, law)
+                named = "".join(self.board.steps[end].name for end in side.step.args)
+                fixed = FIXED(self.end_name(X), named, self.pose.spoken(K[0])) if line is side else None
+                self._locus((X, source or body), line, move, fixed)
             case moves.Slip(body, A, X, like, source):
                 self._locus((X, source or body), self._slipped(body, A, X, like), move)
             case moves.Carry(body, A, B, X, source):
@@ -183,8 +184,7 @@ class MotionPlan:
 
     def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
         self._know(place, self.board.named(mark, self.end_name(place) + self.prime))
-        if move is not None:
-            self._reason(mark, self.laws.get(type(move)))
+        self._reason(mark, self.laws.get(type(move)))
 
     def _reason(self, mark: Mark, law: Said | None) -> None:
         """Tell the law of a mark that was drawn just now."""
@@ -210,11 +210,6 @@ class MotionPlan:
     def point(self, place: BodyPoint) -> Mark:
         """The place on the mechanism plan."""
         return self.pose.points[place[0]]
-
-    def _side_name(self, *places: BodyPoint) -> str:
-        """The line through two places, as the board names it."""
-        marks = sorted(map(self.point, places), key=lambda mark: mark.step.index)
-        return "".join(mark.step.name for mark in marks)
 
     # ---- between home and figure ----------------------------------------------------------------------------
 

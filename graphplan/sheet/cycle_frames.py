@@ -194,8 +194,9 @@ def _composed(base: Composition, words: Words, drawing: Posed) -> Composition:
     """The same composition of another pose; its words, else those of all poses, tell the results of that pose."""
     plans = Plans(drawing, base.plans.tongue)
     arrangement = base.arrangement
-    rows = replace(words, plans=plans).rows(arrangement.text_width, Deviations()) if arrangement.columns else ()
-    return replace(base, plans=plans, arrangement=replace(arrangement, rows=tuple(rows)))
+    told = replace(words, plans=plans)
+    rows = arrangement.set(lambda wide: told.rows(wide, Deviations())) if arrangement.columns else ()
+    return replace(base, plans=plans, arrangement=replace(arrangement, rows=rows))
 
 
 def slid(view: View, box: Rect) -> View:

@@ -55,7 +55,7 @@ def guided(solved: Sheet, composition: Composition) -> list[Sheet]:
 def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
     """The sheet with its plans, and the pages of words that do not fit beside them."""
     arrangement = composition.arrangement
-    words = Task(composition.plans).lines(arrangement.text_width, document == GUIDED)
+    words = arrangement.set(lambda wide: Task(composition.plans).lines(wide, document == GUIDED))
     apart = (*arrangement.columns, arrangement.title)
     bare = [item for item in solved.items if item.step is None and not within(item, apart)]
     begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
@@ -81,7 +81,7 @@ def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterato
     if panel != MECHANISM:
         yield from _ruling(rect, spots)
     yield from dots
-    yield from placed(wishes, [*dots, *around], spots, rect)
+    yield from placed(wishes, [*dots, *around], spots, rect, composition.arrangement.letters)
 
 
 def _covered(item: Item) -> Item:

@@ -22,7 +22,7 @@ from graphplan.sheet.frames.title import DOCUMENTS, SOLUTION, Page
 from graphplan.sheet.handout import guided, solution, task
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, plain
 from graphplan.sheet.plates.display import Polyline, Rect, Sheet, Text
 from graphplan.sheet.strip import strip
 from graphplan.words import LANGUAGES
@@ -203,7 +203,7 @@ def test_long_titles_wrap_and_shrink(frame: str) -> None:
         wide = block.width(Rect(20.0, 10.0, 410.0, 287.0), 101.0)
         items = block.items(Rect(0.0, 0.0, wide, block.height(wide)), Page(SOLUTION, "A3", "1 : 1"))
         sizes.append({item.size for item in items if isinstance(item, Text) and "kinematic" in plain(item.runs)})
-    assert sizes == [{3.5}, {SIZE}]
+    assert sizes == [{HEADING}, {SIZE}]
     block = frame_of(scene).block(replace(scene, title="kinematic " * 99), ENGLISH)
     with pytest.raises(Refused, match=r"title: it is too long .*; fewer words"):
         list(block.items(Rect(0.0, 0.0, wide, block.height(wide)), Page(SOLUTION, "A3", "1 : 1")))

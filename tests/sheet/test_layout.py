@@ -6,13 +6,13 @@ import math
 from dataclasses import replace
 
 import pytest
-from sheets import SCENES, drawing_of, outside, pages_of, sheet_of, spots
+from sheets import SCENES, composition_of, drawing_of, outside, pages_of, sheet_of, spots
 
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, plain
+from graphplan.sheet.layout.layout import layout, pages
+from graphplan.sheet.lettering.lettering import CAPS, plain
 from graphplan.sheet.plates.display import Arrow, Text
 from graphplan.sheet.plates.pens import FORCES
 
@@ -117,8 +117,12 @@ def test_paper_that_cannot_serve_is_refused(paper: str, why: str) -> None:
         compose(gp.construct(gp.load("ozols-5-4")), paper, protocol="aside")
 
 
-def test_lettering_is_never_below_its_size() -> None:
-    """The words of the step list keep their size whatever the paper."""
-    for paper in ("A3", "A2"):
-        steps = [t for t in sheet_of("four-bar", paper).items if isinstance(t, Text) and t.layer == "text" and t.step]
-        assert {t.size for t in steps} == {SIZE}
+@pytest.mark.parametrize(("paper", "mark", "text"), [("A4", 2.5, 1.8), ("A3", 2.5, 1.8), ("A2", 3.5, 2.5)])
+def test_letters_grow_with_the_paper(paper: str, mark: float, text: float) -> None:
+    """Capitals of marks and of words are as high as is told for the paper, wherever they stand."""
+    first, *others = pages(composition_of("four-bar", paper, protocol="pages"))
+    steps = [t for page in others for t in page.items if isinstance(t, Text) and t.layer == "text" and t.step]
+    assert min(t.size for t in steps) * CAPS >= (text if paper in ("A4", "A3") else 1.8)
+    named = [t.size * CAPS for t in first.items if isinstance(t, Text) and t.layer == "letters" and t.label in "OABCM"]
+    assert named == pytest.approx([mark] * 5, abs=0.02)
+    assert min(t.size * CAPS for t in first.items if isinstance(t, Text)) >= text

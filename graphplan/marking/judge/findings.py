@@ -25,15 +25,15 @@ from graphplan.marking.judge.verdict import (
 from graphplan.marking.traces import Number
 from graphplan.methods.kinds import WORDS
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said
-from graphplan.sheet.lettering.lettering import Runs, sentence_runs
+from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import rows
-from graphplan.sheet.words.texts import HEADING, Words
+from graphplan.sheet.words.texts import Words
 
 FIGURES = 2  # of a distance on paper
 OFF, ALLOWED = phrase("off"), phrase("allowed")
 VERDICT = said("Verdict")
-TITLE, KEY = 3.5, 11.0  # mm: the heading's size, and where the words of the legend begin
+KEY = 11.0  # mm: where the words of the legend begin
 
 
 def counted(judgement: Judgement) -> Said:
@@ -207,7 +207,7 @@ class Remarks(Words):
 
     def lines(self, wide: float, judgement: Judgement, score: Score) -> list[TextRow]:
         """Everything, for a column of this width, what matters most first."""
-        return [self._heading(VERDICT, TITLE, 0.0), *self._verdict(wide, judgement), *self._legend(wide),
+        return [self._heading(VERDICT, gap=0.0), *self._verdict(wide, judgement), *self._legend(wide),
                 *self._score(score), *self._numbers(wide, judgement), *self._wrong(wide, judgement)]
 
     def _heading(self, text: str, size: float = HEADING, gap: float = 3.0, step: int | None = None) -> TextRow:

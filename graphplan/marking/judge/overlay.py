@@ -27,7 +27,7 @@ from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
 from graphplan.sheet.layout.paper import packed
-from graphplan.sheet.lettering.label_candidates import SMALL, Array, Wish
+from graphplan.sheet.lettering.label_candidates import Array, Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import CAPS, SIZE, Run, sentence_runs, width, wrap
 from graphplan.sheet.plates import clip
@@ -71,7 +71,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     student = StudentStrokes(judgement)
     over += student.items()
     over += [item for panel in composition.views for item in _told(student, panel, over)]
-    words = Remarks(composition.plans).lines(arrangement.text_width, judgement, score)
+    words = arrangement.set(lambda wide: Remarks(composition.plans).lines(wide, judgement, score))
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
     sheets = []
     for number, page in enumerate(pages, 1):
@@ -94,6 +94,7 @@ def _told(student: StudentStrokes, panel: str, items: Sequence[Item]) -> Iterato
     """On one plan: the first wrong step called out, the others by their numbers."""
     judgement, here, others = student.judgement, list(items), list[StudentMark]()
     drawn, rect = judgement.drawing.drawn, judgement.composition.views[panel].rect
+    letters = judgement.composition.arrangement.letters
     wrong = [mark for mark in student.marks if mark.verdict.state == WRONG and mark.wanted.panel == panel]
     for mark in wrong:
         if mark.verdict is not judgement.first:
@@ -101,11 +102,11 @@ def _told(student: StudentStrokes, panel: str, items: Sequence[Item]) -> Iterato
             continue
         names = tuple(step.name for step in drawn.steps if step.name)
         sentence = judgement.composition.plans.tongue(complaint(judgement, mark.verdict))
-        here += (boxed := [*callout(sentence, names, mark.at, here, rect, CALLED)])
+        here += (boxed := [*callout(sentence, names, mark.at, here, rect, CALLED, letters.text)])
         yield from boxed
-    wishes = [Wish((Run(called(drawn, mark.verdict.step).short),), (mark.at,), SIZES[WRONG], SMALL,
+    wishes = [Wish((Run(called(drawn, mark.verdict.step).short),), (mark.at,), SIZES[WRONG], True,
                    Pen(0.0, RED, fill=RED), bold=True) for mark in others]
-    yield from placed(wishes, here, [mark.at for mark in wrong], rect)
+    yield from placed(wishes, here, [mark.at for mark in wrong], rect, letters)
 
 
 def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
@@ -117,12 +118,12 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
 
 
 def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
-            pen: Pen) -> Iterator[Item]:
-    """The box with its leader; `items` are what it should not cover."""
+            pen: Pen, size: float = SIZE) -> Iterator[Item]:
+    """The box with its leader, in letters of a size; `items` are what it should not cover."""
     room = min(WIDEST, rect.width - 4 * PAD)
-    lines = wrap(sentence_runs(sentence, names), SIZE, room)
-    wide = max(width(line, SIZE) for line in lines) + 2 * PAD
-    high = SIZE * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
+    lines = wrap(sentence_runs(sentence, names), size, room)
+    wide = max(width(line, size) for line in lines) + 2 * PAD
+    high = size * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
     box = _box(wide, high, spot, items, rect)
     nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
     leader = off(spot, unit(spot, nearest), RING)
@@ -130,7 +131,7 @@ def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[I
     yield Polyline(pen, LAYER, None, (leader, nearest))
     yield Polygon(pen.filled(PAPER), LAYER, None, box.corners)
     for i, runs in enumerate(lines):
-        yield Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - SIZE * (CAPS + LEADING * i)), runs, SIZE)
+        yield Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - size * (CAPS + LEADING * i)), runs, size)
 
 
 def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect) -> Rect:

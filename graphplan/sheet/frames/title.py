@@ -9,22 +9,22 @@ material, so the source stands in that cell; what a construction has nothing to 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 from typing import NamedTuple
 
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
 from graphplan.phrases import Said, joined, said, unit
-from graphplan.sheet.lettering.lettering import CAPS, SIZE, Runs, sentence_runs, width, wrap
-from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, SIZE, Runs, letter_sizes, sentence_runs, width, wrap
+from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text, moved
 from graphplan.sheet.plates.pens import BORDER, FAINT, FRAME, LETTERS
 from graphplan.words.tongue import Tongue
 
 CONSTRUCTION, SOLUTION, STRIP = said("Construction sheet"), said("Solution"), said("Film strip")
 TASK, GUIDED = said("Task"), said("Guided construction")
 DOCUMENTS = (CONSTRUCTION, SOLUTION, TASK, GUIDED, STRIP)
-TITLE, HEADING, LEADING = 3.5, 1.8, 1.35
+TITLE, LEADING = 3.5, 1.35
 SIDE = 1.0  # mm that lettering keeps from the edges of its cell
 
 
@@ -92,7 +92,7 @@ def filled(rect: Rect, text: str, sizes: Sequence[float] = (SIZE,), *, what: str
 WIDEST, PITCH = 180.0, 1.45
 PAD, CELL = 2.0, 1.2  # mm beside the title, and beside the lettering of a cell
 CELL_HIGH = 9.0  # mm: of a cell with one line
-FOOT, HEAD = 1.9, 2.8  # mm: the lowest base line of a cell above its edge, that of its heading below
+FOOT, HEAD = 1.6, 3.2  # mm: the lowest base line of a cell above its edge, that of its heading below
 MOST = 3  # lines of a title in large letters; twice as many in small ones
 RATIO, PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
 ANY_PAGE = Page(CONSTRUCTION, "A0", RATIO)
@@ -117,7 +117,7 @@ class _Filled(NamedTuple):
     @property
     def natural(self) -> float:
         """The width in which all stands on one line."""
-        return max(_long(self.heading, HEADING), _long(self.longest or self.text)) + 2 * CELL
+        return max(_long(self.heading), _long(self.longest or self.text)) + 2 * CELL
 
     @property
     def size(self) -> float:
@@ -136,6 +136,11 @@ class IsoBlock:
 
     scene: Scene
     tongue: Tongue
+    times: float = 1.0
+
+    def on(self, paper: str) -> IsoBlock:
+        """The block in the letters of a sheet."""
+        return replace(self, times=letter_sizes(paper).times)
 
     def width(self, frame: Rect, pitch: float) -> float:
         """The whole frame where the block has room for no more, else the pitch of the columns."""
@@ -143,11 +148,20 @@ class IsoBlock:
 
     def height(self, wide: float) -> float:
         """The same for every page."""
-        rows = sum(_high(row, wide) for row in self._rows(wide))
-        return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide))
+        return self.times * self._height(wide / self.times)
 
     def items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in its rectangle."""
+        whole = Rect(0.0, 0.0, rect.width / self.times, rect.height / self.times)
+        return (moved(item, rect.left, rect.bottom, self.times) for item in self._items(whole, page))
+
+    def _height(self, wide: float) -> float:
+        """The height of a block so wide in the letters in which it is set."""
+        rows = sum(_high(row, wide) for row in self._rows(wide))
+        return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide))
+
+    def _items(self, rect: Rect, page: Page) -> Iterator[Item]:
+        """The block in the letters in which it is set."""
         yield stroke((rect.left, rect.bottom), (rect.left, rect.top), wide=True)
         yield stroke((rect.left, rect.top), (rect.right, rect.top), wide=True)
         y = rect.top - PAD
@@ -164,12 +178,15 @@ class IsoBlock:
     def _title(self, wide: float) -> list[tuple[Runs, float, bool]]:
         """The wrapped title and source with their sizes; a long title is smaller. Refused where it is much too long."""
         room = wide - 2 * PAD
-        large, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in (TITLE, SIZE))
+        sizes = HEADING / self.times, TITLE, SIZE
+        *found, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
         source = wrap(sentence_runs(self.scene.source), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
             if len(lines) > 2 * MOST:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")
-        lines, size = (large, TITLE) if len(large) <= MOST else (small, SIZE)
+        fitting = (pair for pair, most in zip(zip(found, sizes, strict=False), (1, MOST), strict=True)
+                   if len(pair[0]) <= most)
+        lines, size = next(fitting, (small, SIZE))
         return [*((runs, size, True) for runs in lines), *((runs, SIZE, False) for runs in source)]
 
     # ---- cells -----------------------------------------------------------------------------------------------------
@@ -214,7 +231,7 @@ def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
     for i, cell in enumerate(row):
         if i:
             yield stroke((x, rect.bottom), (x, rect.top))
-        yield Text(FAINT, "text", None, (x + CELL, rect.top - HEAD), sentence_runs(cell.heading), HEADING)
+        yield Text(FAINT, "text", None, (x + CELL, rect.top - HEAD), sentence_runs(cell.heading), SIZE)
         lines = cell.lines(rect.width)
         for k, runs in enumerate(reversed(lines)):
             at = x + CELL, rect.bottom + FOOT + k * PITCH * SIZE
@@ -226,7 +243,7 @@ def _cells(row: list[_Filled], rect: Rect) -> Iterator[Item]:
 
 WIDE, HIGH, ROW = 185.0, 55.0, 5.0
 CHANGES = (0.0, 7.0, 17.0, 40.0, 55.0, 65.0)  # the edges of the columns of changes; the first two make that of roles
-SMALL = (SIZE, 2.2, HEADING)  # of our own words, in narrow cells
+SMALL = (SIZE, 2.2, 1.8)  # of our own words, in narrow cells
 LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.0, 35.0, WIDE, 40.0)
 
 HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
@@ -268,6 +285,10 @@ class GostBlock:
 
     scene: Scene
     tongue: Tongue
+
+    def on(self, paper: str) -> GostBlock:
+        """The same on every sheet."""
+        return self
 
     def width(self, frame: Rect, pitch: float) -> float:
         """The same whatever the frame."""

@@ -72,7 +72,7 @@ class Composition:
     @cached_property
     def plates(self) -> Plates:
         """What is drawn, where it lies on the page."""
-        return Plates(self.plans, self.views)
+        return Plates(self.plans, self.views, self.arrangement.letters)
 
     @property
     def score(self) -> tuple[float, float]:
@@ -149,7 +149,7 @@ def protocol_pages(paper: str, rows: Measure[Sequence[TextRow]], frame: Frame,
     """The words on pages of their own: one of the smallest paper that holds them all, else several like the sheet's."""
     for name in frame.papers:
         page = words_page(name, frame, title)
-        found = packed(rows(page.text_width), page)
+        found = packed(page.set(rows), page)
         if len(found) == 1 or math.prod(sheet_size(name)) >= math.prod(sheet_size(paper)):
             break
     return tuple((page, placed) for placed in found)
@@ -335,7 +335,7 @@ class Composer:
         """The composition with its words, beside the plans or on pages of their own."""
         arrangement = composition.arrangement
         if arrangement.columns:
-            return replace(composition, arrangement=replace(arrangement, rows=tuple(rows(arrangement.text_width))))
+            return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(rows)))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
         return replace(composition, protocol=pages)
 

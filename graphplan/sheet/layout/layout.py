@@ -6,17 +6,15 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
-from graphplan.kernel.program import Panel
 from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
-from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.lettering.lettering import CAPS, HEADING, sentence_runs, width, wrap
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Text
+from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
@@ -36,8 +34,8 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     plans = composition.plans
     arrangement, scales = composition.arrangement, composition.scales
     items = list(_framed(composition))
+    items += captions(composition)
     for plate in composition.plates:
-        items += captions(arrangement.panels[plate.panel], plate.panel, plans, scales)
         items += picture(plate)
     items += lettered(fill(arrangement.rows, arrangement.columns) or [])
     items += titled(composition, document, 1, composition.page_count)
@@ -75,7 +73,7 @@ def titled(composition: Composition, document: Said, number: int = 1, of: int = 
     """The title block of a page."""
     arrangement, scene = composition.arrangement, composition.plans.drawing.scene
     page = Page(document, arrangement.paper, composition.scales.ratio, number, of)
-    return frame_of(scene).block(scene, composition.plans.tongue).items(arrangement.title, page)
+    return frame_of(scene).block(scene, composition.plans.tongue).on(arrangement.paper).items(arrangement.title, page)
 
 
 def stacked(items: Iterable[Item]) -> list[Item]:
@@ -92,19 +90,25 @@ def _description(composition: Composition, plans: Plans) -> str:
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
 
 
-HEADS = 3.0, 2.5  # mm: the sizes of a plan's name, the smaller where it is long
-LINES = {2: (4.6, 3.7), 3: (3.4, 3.6)}  # mm: of so many lines the first base line, and from base line to base line
+TOP, APART, SIDE = 1.3, 1.2, 2.5  # mm over a caption, between its lines, and beside them
 
 
-def captions(rect: Rect, panel: Panel, plans: Plans, scales: Scales) -> Iterator[Text]:
-    """Over a plan what it is, and its scales."""
-    kinds, room = plans.kinds(panel), rect.width - 5
-    head = sentence_runs(plans.tongue(panel.caption(kinds)))
-    size, heads = min(((size, wrap(head, size, room, bold=True)) for size in HEADS), key=lambda one: len(one[1]) > 2)
-    told = plans.tongue(joined(scales.said(panel, kinds), ",  "))
-    lines: list[Runs] = [*heads[:2], *wrap(sentence_runs(told), SIZE, room)]
-    first, pitch = LINES[min(max(len(lines), 2), 3)]
-    for i, runs in enumerate(lines[:3]):
-        bold = i < len(heads[:2])
-        yield Text(pens.LETTERS, "text", None, (rect.left + 2.5, rect.top - first - pitch * i), runs,
-                   size if bold else SIZE, bold=bold)  # fmt: skip
+def captions(composition: Composition) -> Iterator[Text]:
+    """Over each plan what it is, all as large as they have room, and its scales in letters of marks."""
+    plans, letters, panels = composition.plans, composition.arrangement.letters, composition.arrangement.panels
+    heads = {panel: sentence_runs(plans.tongue(panel.caption(plans.kinds(panel)))) for panel in plans.panels}
+    fitting = {size: [panel for panel, head in heads.items()
+                      if width(head, size, bold=True) <= panels[panel].width - 2 * SIDE]
+               for size in (HEADING, letters.mark)}
+    for panel, head in heads.items():
+        large = HEADING if len(fitting[HEADING]) == len(heads) else letters.mark
+        size, room = large if panel in fitting[large] else letters.text, panels[panel].width - 2 * SIDE
+        told = plans.tongue(joined(composition.scales.said(panel, plans.kinds(panel)), ",  "))
+        lines = [(line, size, True) for line in wrap(head, size, room, bold=True)[:2]]
+        fine = letters.mark if len(lines) == 1 else letters.text
+        lines += [(line, fine, False) for line in wrap(sentence_runs(told), fine, room)]
+        y = panels[panel].top - TOP
+        for runs, high, bold in lines[:3]:
+            y -= CAPS * high
+            yield Text(pens.LETTERS, "text", None, (panels[panel].left + SIDE, y), runs, high, bold=bold)
+            y -= APART

@@ -15,6 +15,7 @@ from graphplan.errors import Refused
 from graphplan.mechanism.presentation import SIZES
 from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.rows import Placed, TextRow, fill
 from graphplan.sheet.words.tables import tightened
@@ -46,19 +47,28 @@ class Arrangement:
     @property
     def further(self) -> tuple[Rect, ...]:
         """The columns of a page of words, those over the title block ending above it: as wide as on the first page."""
-        wide = self.columns[0].width if self.columns else COLUMN
+        wide = self.columns[0].width if self.columns else self.letters.times * COLUMN
         count = max(1, int((self.frame.width + SLACK) // (wide + GUTTER)))
         return _columns(self.frame, count, self.title, wide if self.columns else None)
 
     @property
-    def text_width(self) -> float:
-        """How wide the text columns are."""
-        return self.further[0].width
+    def letters(self) -> LetterSizes:
+        """How large its letters are."""
+        return letter_sizes(self.paper)
+
+    def set(self, words: Measure[Sequence[TextRow]]) -> tuple[TextRow, ...]:
+        """Words set for its columns, in its letters."""
+        return enlarged(words, self.letters.times)(self.further[0].width)
 
     @property
     def share(self) -> float:
         """The part of the page that plans take."""
         return sum(panel.area for panel in self.panels.values()) / (self.width * self.height)
+
+
+def enlarged(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[TextRow, ...]]:
+    """Words in letters so many times as large."""
+    return lambda wide: tuple(row.enlarged(times) for row in words(wide / times))
 
 
 def room(panel: Rect) -> Rect:
@@ -91,37 +101,39 @@ def arrangements(
     `needs` says how much room plans want beside each other.
     """
     wide, high = sheet_size(paper)
-    space = frame.space(wide, high)
-    found = (*_beside(space, rows, title), *_below(space, rows, title)) if rows else _alone(space, title)
+    space, title, times = frame.space(wide, high), title.on(paper), letter_sizes(paper).times
+    words = rows and enlarged(rows, times)
+    found = (*_beside(space, words, title, times * COLUMN), *_below(space, words, title, times * COLUMN)) if words \
+        else _alone(space, title, times * COLUMN)
     for plans, columns, block in found:
         for division in divisions(plans, needs):
-            filled = tuple(rows(columns[0].width)) if rows else ()
+            filled = words(columns[0].width) if words else ()
             yield Arrangement(paper, wide, high, space, division, columns, block, filled)
 
 
 def words_page(paper: str, frame: Frame, title: TitleBlock) -> Arrangement:
     """A page of words alone."""
     wide, high = sheet_size(paper)
-    space = frame.space(wide, high)
-    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, COLUMN + GUTTER, title))
+    space, column = frame.space(wide, high), letter_sizes(paper).times * COLUMN
+    page = Arrangement(paper, wide, high, space, {}, (), lower_right(space, column + GUTTER, title.on(paper)))
     return replace(page, columns=page.further)
 
 
 Division = tuple[Rect, tuple[Rect, ...], Rect]
 
 
-def _alone(space: Rect, title: TitleBlock) -> Iterator[Division]:
+def _alone(space: Rect, title: TitleBlock, column: float) -> Iterator[Division]:
     """Plans alone: above the title block, or to its left."""
-    block = lower_right(space, COLUMN + GUTTER, title)
+    block = lower_right(space, column + GUTTER, title)
     yield Rect(space.left, block.top, space.right, space.top), (), block
     if block.left > space.centre[0]:
         yield Rect(space.left, space.bottom, block.left, space.top), (), block
 
 
-def _beside(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) -> Iterator[Division]:
+def _beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, column: float) -> Iterator[Division]:
     """Text in as few columns as hold it, to the right of the plans, which end above a title block that is wider."""
-    text = rows(COLUMN)
-    pitch = COLUMN + GUTTER
+    text = rows(column)
+    pitch = column + GUTTER
     block = lower_right(space, pitch, title)
     for count in range(1, int(space.width // pitch) + 1):
         left = space.right - count * pitch
@@ -132,9 +144,9 @@ def _beside(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) ->
             return
 
 
-def _below(space: Rect, rows: Measure[Sequence[TextRow]], title: TitleBlock) -> Iterator[Division]:
+def _below(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, column: float) -> Iterator[Division]:
     """Text in a strip under the plans, as low as it can be."""
-    count = int((space.width + GUTTER) // (COLUMN + GUTTER))
+    count = int((space.width + GUTTER) // (column + GUTTER))
     pitch = space.width / count
     text, block = rows(pitch - GUTTER), lower_right(space, pitch, title)
     strip, needed = max(block.height, 20.0), sum(row.height for row in text)

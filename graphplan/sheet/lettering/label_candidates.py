@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SIZE, Run, Runs, width
+from graphplan.sheet.lettering.lettering import CAPS, DEPTH, DROP, SMALL_SHEET, LetterSizes, Run, Runs, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
@@ -20,8 +20,8 @@ RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (1
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 AIR = 0.3  # mm free around a letter
-BALLOON = 2.1
-SMALL, APART = 2.0, 0.3  # mm: the figures of steps, and how far raised ones are from their letter
+BALLOON = 0.84  # the radius of a circle about a number, beside the size of the number
+APART = 0.3  # mm between a letter and a raised number
 
 Array = np.ndarray[Any, Any]
 OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
@@ -31,14 +31,15 @@ OUTWARDS = np.array([-1.0, -1.0, 1.0, 1.0])  # each side of a box
 class Wish:
     """A letter that wants a place: near one of its spots, at least `clear` away from it.
 
-    `balloon` puts it in a circle, as link numbers are; `free` says that it may stand anywhere along a line; `raised`
-    are the numbers of steps that follow it as small raised figures.
+    `minor` ones are as large as words, others as letters of marks; `balloon` puts it in a circle, as link numbers are;
+    `free` says that it may stand anywhere along a line; `raised` are the numbers of steps that follow it as small
+    raised figures.
     """
 
     runs: Runs
     spots: tuple[Spot, ...]
     clear: float = 0.6
-    size: float = SIZE
+    minor: bool = False
     pen: Pen = pens.LETTERS
     step: int | None = None
     label: str = ""
@@ -46,12 +47,19 @@ class Wish:
     balloon: bool = False
     free: bool = False
     raised: str = ""
+    letters: LetterSizes = SMALL_SHEET
+
+    @property
+    def size(self) -> float:
+        """Of the letters."""
+        return self.letters.text if self.minor or self.balloon else self.letters.mark
 
     @property
     def extent(self) -> tuple[float, float]:
         if self.balloon:
-            return 2 * BALLOON, 2 * BALLOON
-        return self.tail + width(self.figures, SMALL), self.lift + SMALL * CAPS + self.size * self.depth
+            return 2 * BALLOON * self.size, 2 * BALLOON * self.size
+        small = self.letters.text
+        return self.tail + width(self.figures, small), self.lift + small * CAPS + self.size * self.depth
 
     @property
     def figures(self) -> Runs:
@@ -65,7 +73,7 @@ class Wish:
     @property
     def lift(self) -> float:
         """How far above the base line the figures stand: half a capital; without any, they end where the letters do."""
-        return self.size * CAPS / 2 if self.raised else (self.size - SMALL) * CAPS
+        return self.size * CAPS / 2 if self.raised else (self.size - self.letters.text) * CAPS
 
     @property
     def depth(self) -> float:
@@ -81,14 +89,15 @@ class Wish:
             nearest = min(max(x, left), right), min(max(y, low), top)
             yield Polyline(pens.LEADER, "letters", self.step, ((x, y), nearest))
         if self.balloon:
-            yield Circle(pens.BALLOON, "letters", self.step, middle, BALLOON)
+            yield Circle(pens.BALLOON, "letters", self.step, middle, BALLOON * self.size)
             base = middle[0], middle[1] - self.size * CAPS / 2
             yield Text(self.pen, "letters", self.step, base, self.runs, self.size, "middle", label=self.label)
         else:
             x, y = left, low + self.size * self.depth
             yield Text(self.pen, "letters", self.step, (x, y), self.runs, self.size, bold=self.bold, label=self.label)
             if self.raised:
-                yield Text(pens.FAINT, "letters", self.step, (x + self.tail, y + self.lift), self.figures, SMALL,
+                at = x + self.tail, y + self.lift
+                yield Text(pens.FAINT, "letters", self.step, at, self.figures, self.letters.text,
                            label=f"step {self.raised}")
 
 

@@ -9,6 +9,7 @@ then move again as long as that helps. All of it is deterministic.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from itertools import pairwise
 from typing import Any
 
@@ -16,6 +17,7 @@ import numpy as np
 import shapely
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates, Wish, candidates
+from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot
 
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
@@ -60,10 +62,12 @@ class Prices:
         self.known[behind] += 1
 
 
-def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect) -> list[Item]:
-    """The letters in their places, with leaders where they had to go far."""
+def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
+           letters: LetterSizes = SMALL_SHEET) -> list[Item]:
+    """The letters in their places and sizes, with leaders where they had to go far."""
     if not wishes:
         return []
+    wishes = [replace(wish, letters=letters) for wish in wishes]
     found = candidates(wishes, rect)
     choice = _chosen(Prices(found, (Lines(items), Marks(marks), Surfaces(items))), len(wishes))
     return [item for wish, place in zip(wishes, choice, strict=True) for item in wish.items(found[place])]

@@ -9,11 +9,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 
 FONTS = "'DejaVu Sans', Verdana, Arial, Helvetica, sans-serif"
-SIZE = 2.5  # mm; the cap height is 0.729 of it, so 1.8 mm
+SIZE = 2.5  # mm: in which words are set; the cap height is 0.729 of it, so 1.8 mm
+HEADING = 4.82  # mm: capitals of 3.5 mm
 CAPS, DEPTH = 0.729, 0.2
 SUBSCRIPT, DROP = 0.72, 0.22
 ANCHORS = {"start": 0.0, "middle": 0.5, "end": 1.0}  # how much of lettering stands left of its place
@@ -40,6 +42,30 @@ GREEK = {
     "iota": "ι", "kappa": "κ", "lambda": "λ", "mu": "μ", "nu": "ν", "xi": "ξ", "pi": "π", "rho": "ρ", "sigma": "σ",
     "tau": "τ", "upsilon": "υ", "phi": "φ", "chi": "χ", "psi": "ψ", "omega": "ω",
 }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class LetterSizes:
+    """The sizes of the letters on a sheet, mm: of marks, and of words and step numbers (ISO 3098).
+
+    Capitals are 2.5 and 1.8 mm high on A4 and A3, 3.5 and 2.5 mm on larger sheets; those of headings 3.5 mm on all.
+    """
+
+    mark: float
+    text: float
+
+    @property
+    def times(self) -> float:
+        """How many times as large as they are set words are."""
+        return self.text / SIZE
+
+
+SMALL_SHEET, LARGE_SHEET = LetterSizes(3.45, SIZE), LetterSizes(HEADING, 3.45)
+
+
+def letter_sizes(paper: str) -> LetterSizes:
+    """The sizes of the letters on a sheet such as `A3` or `A4 portrait`."""
+    return SMALL_SHEET if paper.partition(" ")[0] in ("A4", "A3") else LARGE_SHEET
 
 
 class Run(NamedTuple):

@@ -11,7 +11,7 @@ from graphplan.kernel.kinds import CIRCLE
 from graphplan.kernel.program import Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
-from graphplan.sheet.lettering.label_candidates import SMALL, Wish
+from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
@@ -41,7 +41,8 @@ def picture(plate: Plate) -> list[Item]:
         joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in letters]
         wishes = [*joints, *mechanism.wishes(), *wishes]
         marks += list(mechanism.spots.values())
-    return items + placed([*_inside(wishes, plate.view.rect)], items, marks, plate.view.rect)
+    rect = plate.view.rect
+    return items + placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
 
 
 def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
@@ -85,7 +86,7 @@ class Letters:
             numbered = [mark for mark in marks if not mark.name]
             if numbered:
                 said = _numbers(*numbered)
-                yield Wish(sentence_runs(said), (spot,), clear, SMALL, pens.FAINT, numbered[0].index, f"point {said}")
+                yield Wish(sentence_runs(said), (spot,), clear, True, pens.FAINT, numbered[0].index, f"point {said}")
 
     def _raised(self, *marks: DrawnStep) -> str:
         """The numbers that letters bear, where they do."""
@@ -122,11 +123,11 @@ class Letters:
                        raised=self._raised(line))
         elif self._spoken(line):
             number = _numbers(line)
-            yield Wish(sentence_runs(number), spots, 0.5, SMALL, pens.FAINT, line.index, f"line {number}", free=True)
+            yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
         for arrow, mark in self.plate.breaks(stretch):
             name, near = self.program.text(mark.index), (clip.between(*arrow.ends, 0.5),)
             runs = sentence_runs(self.plate.plans.tongue(said("to {0}", name)), (name,))
-            yield Wish(runs, near, 0.6, 2.2, pens.FAINT, line.index, f"to {name} {line.index}")
+            yield Wish(runs, near, 0.6, True, pens.FAINT, line.index, f"to {name} {line.index}")
 
     def _along(self, line: DrawnStep, stretch: Stroke) -> Sequence[float]:
         """Where along a line its letter may stand; numbers stand at its ends, the outer end of the figure first."""
@@ -149,7 +150,7 @@ class Letters:
         spots = [arc.at(arc.start + (arc.end - arc.start) * t) for t in STRUCK for arc in arcs]
         if inside := tuple(filter(self.plate.view.rect.holds, spots)):
             number = _numbers(circle)
-            yield Wish(sentence_runs(number), inside, 0.5, SMALL, pens.FAINT, circle.index, f"arc {number}", free=True)
+            yield Wish(sentence_runs(number), inside, 0.5, True, pens.FAINT, circle.index, f"arc {number}", free=True)
 
     def _spans(self) -> dict[Span, list[Stroke]]:
         """The vectors by where they begin and end: some lie on each other."""

@@ -52,6 +52,10 @@ class Rect:
         """The rectangle inside these margins."""
         return Rect(self.left + left, self.bottom + bottom, self.right - right, self.top - top)
 
+    def times(self, times: float) -> Rect:
+        """The rectangle so many times as large and as far from the origin."""
+        return Rect(times * self.left, times * self.bottom, times * self.right, times * self.top)
+
     def holds(self, spot: Spot, slack: float = 0.0) -> bool:
         """Whether a spot lies inside, or outside by no more than `slack`."""
         x, y = spot
@@ -164,21 +168,21 @@ class Text(Item):
         return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
 
 
-def moved(item: Item, dx: float, dy: float) -> Item:
-    """The item elsewhere on the paper."""
+def moved(item: Item, dx: float, dy: float, times: float = 1.0) -> Item:
+    """The item elsewhere on the paper, and so many times as large, but for pens and heads of vectors."""
 
     def there(spot: Spot) -> Spot:
-        return spot[0] + dx, spot[1] + dy
+        return times * spot[0] + dx, times * spot[1] + dy
 
     match item:
         case Polyline() | Polygon():
             return replace(item, spots=tuple(map(there, item.spots)))
         case Circle() | Arc():
-            return replace(item, centre=there(item.centre))
+            return replace(item, centre=there(item.centre), radius=times * item.radius)
         case Arrow():
             return replace(item, start=there(item.start), end=there(item.end))
         case Text():
-            return replace(item, at=there(item.at))
+            return replace(item, at=there(item.at), size=times * item.size)
     raise TypeError(f"no {type(item).__name__} can be moved")
 
 

@@ -16,6 +16,7 @@ from graphplan.kernel.program import Panel, Step
 from graphplan.mechanism.model import Scene
 from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
+from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
@@ -39,6 +40,7 @@ class Plates:
 
     plans: Plans
     views: Mapping[str, View]
+    letters: LetterSizes = SMALL_SHEET
 
     @property
     def scene(self) -> Scene:

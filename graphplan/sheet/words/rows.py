@@ -4,9 +4,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
-from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, SIZE, Runs, width
+from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, width
 from graphplan.sheet.plates.display import Item, Polygon, Rect, Text
 from graphplan.sheet.plates.pens import BORDER, LETTERS
 
@@ -39,6 +39,15 @@ class TextRow:
     layer: str = "text"
     tall: float = 0.0
     boxes: tuple[Rect, ...] = ()
+
+    def enlarged(self, times: float) -> TextRow:
+        """The row in letters so many times as large; those of headings are no larger than headings should be."""
+        if times == 1.0:
+            return self
+        cells = tuple(replace(cell, x=times * cell.x) for cell in self.cells)
+        boxes = tuple(box.times(times) for box in self.boxes)
+        size = max(min(times * self.size, HEADING), self.size)
+        return replace(self, cells=cells, size=size, gap=times * self.gap, tall=times * self.tall, boxes=boxes)
 
     @property
     def height(self) -> float:

@@ -11,7 +11,7 @@ from graphplan.mechanism.model import Balance, Loads, Pair, Scene
 from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
 from graphplan.methods.panels import JointForce, link_named, listed, slide_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
-from graphplan.sheet.frames.title import GUIDED, TASK, TITLE
+from graphplan.sheet.frames.title import GUIDED, TASK
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.words.rows import TextRow
 from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, ticked
@@ -30,7 +30,7 @@ class Task(Words):
 
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
-        return [self._heading(GUIDED if guided else TASK, TITLE, 0.0), *self._given(wide),
+        return [self._heading(GUIDED if guided else TASK, gap=0.0), *self._given(wide),
                 *(self._steps(wide) if guided else ()), *self._answers(wide), *(() if guided else self._hints(wide))]
 
     def _given(self, wide: float) -> Iterator[TextRow]:

@@ -12,12 +12,11 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
 from graphplan.phrases import arranged, digits, joined, said, unit
-from graphplan.sheet.lettering.lettering import SIZE, Runs, sentence_runs, wrap
+from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, sentence_runs, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
 
-HEADING = 3.0
 RESULTS = "results"  # the layer of what is read when all is drawn
 
 

@@ -99,6 +99,8 @@ class Expander:
                     mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
+            if step.quantity:
+                self.board.annotate(mark.step.index, quantity=step.quantity)
             place.append(self.board.named(mark, step.name))
             self.inner[step.index] = self._letters
             self.serves += [step.index] * (len(self.board.steps) - len(self.serves))

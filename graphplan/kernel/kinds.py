@@ -16,7 +16,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from fractions import Fraction
 from functools import cached_property
-from typing import Any, Self
+from typing import Any, NamedTuple, Self
 
 from graphplan.phrases import Phrase, Said, digits, joined, said, sentence
 
@@ -26,6 +26,15 @@ SCALE, STRAIGHTEDGE, SET_SQUARES = "scale", "straightedge", "set squares"
 COMPASSES, DIVIDERS, PENCIL = "compasses", "dividers", "pencil"
 
 Claim = tuple[Any, ...]
+
+
+class Quantity(NamedTuple):
+    """What a given length is drawn for: how it is written, such as P_3 or ω·OA, and the kind of its scale."""
+
+    written: str
+    kind: str  # length, velocity, acceleration or force
+
+
 Form = Callable[..., Any]  # what it draws on the board from its operands; nothing where it is not for the pose
 
 
@@ -72,6 +81,18 @@ class Movement(Enum):
     OTHER = "a movement of its own; of a compound several"
 
 
+class Sizing(Enum):
+    """How long it is what an operation lays off, where that is worked out and not just measured or given."""
+
+    MOMENTS = "a force in mm times its arm about 0, from 2, over the distance of 0 and 1"
+    COUPLE = "a given couple over the distance of 0 and 1"
+    INERTIA = "what the tangential part from 2 to 3 makes of a moment of inertia, over the distance of 0 and 1"
+    FRICTION = "the given radius of a friction circle about 0"
+    SHIFT = "the couple of the force from 5 to 6 at 4 about 3, over the force from 1 to 2 at 0"
+    SQUARE = "the square of the velocity from 2 to 3 over the distance of 0 and 1, laid off from 4"
+    DOUBLE = "twice a vector that is found beforehand, laid off from 4"
+
+
 LAID = frozenset({Movement.DROPPED, Movement.LAID_OFF, Movement.TURNED, Movement.LAID_ALONG,
                   Movement.LAID_BY_COMPONENTS, Movement.MEASURED})
 OPPOSITE = {"left": "right", "right": "left", "on": "back", "back": "on"}
@@ -102,6 +123,7 @@ class Primitive:
     | `by_form` | how it is spoken as one step where it is drawn in these forms, with their inner marks by name |
     | `before` | how in these forms that part is spoken which is drawn on another plan, before the rest |
     | `weighed` | whether the choice of its form is told, with its reason |
+    | `sizing` | how long it is what it lays off, where that is worked out |
     | `method` | what it is called where the ways are listed in which forces are found |
     """
 
@@ -122,6 +144,7 @@ class Primitive:
     reversal: str = ""
     described: str = ""
     weighed: bool = False
+    sizing: Sizing | None = None
     method: str = ""
     forms: dict[str, Form] = field(default_factory=dict, repr=False)
     by_form: dict[str, Phrase] = field(default_factory=dict, repr=False)

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, primitive
+from graphplan.kernel.kinds import LINE, POINT, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement, Sizing, primitive
 from graphplan.kernel.primitives import apart, cross, dot, size, vector
 
 NO_ARM = "the two points coincide: there is no arm"
@@ -25,7 +25,7 @@ def _across(u: Any, part: Any, m: Any) -> Any:
            "Measure the arms about {0}: from {5} lay off the force at {1}, square to {0}{1}, that balances the force "
            "from {3} to {4} at {2}; mark {out}.",
            claims=(("across", (5, -1), (0, 1)), ("counters", 0, 1, 2, 3, 4, 5)), fails=("points-coincide",),
-           source="Ozols 1974, 10-2: tangential parts from moments", movement=Movement.MEASURED)
+           source="Ozols 1974, 10-2: tangential parts from moments", movement=Movement.MEASURED, sizing=Sizing.MOMENTS)
 def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
     """The end of the force at X, square to YX and laid off from m, that balances the force pq at C about Y."""
     arm = apart(d, Y, X, NO_ARM)
@@ -33,10 +33,10 @@ def balance(d: Any, Y: Any, X: Any, C: Any, p: Any, q: Any, m: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "For the couple {moment} take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at "
-           "{1}; mark {out}.",
+           "For the couple take a pair of forces at {0} and {1}, square to {0}{1}: from {2} lay off that at {1}; mark "
+           "{out}.",
            claims=(("across", (2, -1), (0, 1)), ("turns", 0, 1, 2)), fails=("points-coincide",), params=("moment",),
-           source="Ozols 1974, 10-6", movement=Movement.MEASURED)
+           source="Ozols 1974, 10-6", movement=Movement.MEASURED, sizing=Sizing.COUPLE)
 def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
     """The end of the force at R, square to PR and laid off from m, that with its opposite at P has a given moment."""
     arm = apart(d, P, R, NO_ARM)
@@ -44,11 +44,10 @@ def couple(d: Any, P: Any, R: Any, m: Any, /, *, moment: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "For the inertia couple, {ratio} times the tangential acceleration from {2} to {3} over the square of "
-           "{0}{1}, take a "
-           "pair of forces at {0} and {1}: from {4} lay off that at {1}, reversed; mark {out}.",
+           "For the inertia couple, by the tangential part of the acceleration from {2} to {3}, take a pair of forces "
+           "at {0} and {1}, square to {0}{1}: from {4} lay off that at {1}, reversed; mark {out}.",
            claims=(("across", (4, -1), (0, 1)), ("resists", 0, 1, 2, 3, 4)), fails=("points-coincide",),
-           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", movement=Movement.MEASURED)
+           params=("ratio",), source="Ozols 1974, 9-2, fig. 9-4", movement=Movement.MEASURED, sizing=Sizing.INERTIA)
 def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: Any) -> Any:
     """The end of the force at R, laid off from m, whose pair with P is the inertia couple; ab is R's motion about P."""
     arm = apart(d, P, R, NO_ARM)
@@ -57,10 +56,10 @@ def inertia_pair(d: Any, P: Any, R: Any, a: Any, b: Any, m: Any, /, *, ratio: An
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SCALE,
-           "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0}, of radius "
-           "{radius}, so that it turns against the motion that the vector from {1} to {2} shows.",
+           "Mark {out} where a force along that from {3} to {4} touches the friction circle about {0} so "
+           "that it turns against the motion that the vector from {1} to {2} shows.",
            claims=(("touches", 0, 1, 2, 3, 4),), fails=("points-coincide",), where=0, params=("radius",),
-           source="Ozols 1974, 12-4, fig. 12-11", movement=Movement.MEASURED)
+           source="Ozols 1974, 12-4, fig. 12-11", movement=Movement.MEASURED, sizing=Sizing.FRICTION)
 def touch(d: Any, P: Any, R: Any, w: Any, p: Any, q: Any, /, *, radius: Any) -> Any:
     """The point of the friction circle of a journal at P through which its force acts, as its last one pq says.
 
@@ -97,7 +96,8 @@ def lean(d: Any, l: Any, B: Any, w: Any, p: Any, q: Any, /, *, coefficient: Any)
            "The force from {1} to {2} at {0} and the couple of the force from {5} to {6} at {4}, with its answer at "
            "{3}, are one force, shifted by the couple over the force: mark {out}, a point of its line.",
            claims=(("across", (0, -1), (1, 2)), ("takes couple", 0, 1, 2, 3, 4, 5, 6)), fails=("couple-alone",),
-           where=0, source="Ozols 1974, 10-2: arms of slider reactions", movement=Movement.MEASURED)
+           where=0, source="Ozols 1974, 10-2: arms of slider reactions", movement=Movement.MEASURED,
+           sizing=Sizing.SHIFT)
 def resultant(d: Any, C: Any, p: Any, q: Any, P: Any, R: Any, a: Any, b: Any) -> Any:
     """The point, square to the force pq from C, where pq alone does what it does at C with a pair of forces."""
     force = vector(p, q)

@@ -104,7 +104,8 @@ def opening(d: Any, P: Any, Q: Any) -> Any:
     return (dot(u, u),)
 
 
-@primitive((), OPENING, SCALE, "Open the compasses to {length}: {out}.", claims=(("measures",),), params=("length",))
+@primitive((), OPENING, SCALE, "Open the compasses to the given length: {out}.", claims=(("measures",),),
+           params=("length",))
 def radius(d: Any, /, *, length: Any) -> Any:
     """A given length, in the compasses."""
     r = d.lift(length)
@@ -150,7 +151,7 @@ def circles_meet(d: Any, k: Any, m: Any, /, *, side: str) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "From {2} lay off {ratio} times the vector from {0} to {1}: mark {out}.",
+           "From {2} lay off a multiple of the vector from {0} to {1}: mark {out}.",
            claims=(("along", (2, -1), (0, 1)), ("times", (2, -1), (0, 1))), params=("ratio",),
            movement=Movement.LAID_OFF, afar=(0, 1))
 def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
@@ -160,7 +161,7 @@ def step_off(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
 
 
 @primitive((POINT, POINT, POINT), POINT, SCALE,
-           "From {2} lay off {ratio} times the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
+           "From {2} lay off a multiple of the vector from {0} to {1}, turned a quarter counter-clockwise: mark {out}.",
            claims=(("across", (2, -1), (0, 1)), ("times across", (2, -1), (0, 1))), params=("ratio",),
            movement=Movement.TURNED, afar=(0, 1))
 def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
@@ -169,7 +170,7 @@ def step_across(d: Any, P: Any, Q: Any, R: Any, /, *, ratio: Any) -> Any:
     return R[0] - r * (Q[1] - P[1]), R[1] + r * (Q[0] - P[0])
 
 
-@primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the length {length} along {0}: mark {out}.",
+@primitive((LINE, POINT), POINT, SCALE, "From {1} lay off the given length along {0}: mark {out}.",
            claims=(("laid", 0, 1),), params=("length",), movement=Movement.LAID_ALONG, reversal="length")
 def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     """A given length laid off from a point the way a line runs."""
@@ -178,7 +179,7 @@ def lay_along(d: Any, l: Any, P: Any, /, *, length: Any) -> Any:
     return P[0] + r * l[1], P[1] - r * l[0]
 
 
-@primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector ({dx}, {dy}): mark {out}.",
+@primitive((POINT,), POINT, SCALE, "From {0} lay off the given vector: mark {out}.",
            claims=(("moved", (0, -1)),), params=("dx", "dy"), movement=Movement.LAID_BY_COMPONENTS)
 def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
     """A vector given by its components, laid off from a point."""
@@ -186,8 +187,7 @@ def lay_off(d: Any, P: Any, /, *, dx: Any, dy: Any) -> Any:
 
 
 @primitive((LINE, POINT, POINT), POINT, PENCIL,
-           "Mark {out} anywhere on {0}, as a trial: here from the foot of {1} on, about {ratio} times the distance "
-           "from {1} to {2}.",
+           "Mark {out} anywhere on {0}, as a trial.",
            claims=(("on", 0), ("ahead", 0, 1)), params=("ratio",), where=0, movement=Movement.PICKED, reversal="ratio")
 def pick(d: Any, l: Any, P: Any, Q: Any, /, *, ratio: Any) -> Any:
     """Any point of a line, for a trial figure: from the foot of P on, about `ratio` times PQ the way the line runs."""

@@ -13,6 +13,7 @@ from functools import cached_property
 from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
+from graphplan.kernel import kinds
 from graphplan.kernel.incidence import Heading, bearing, incident
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
@@ -64,7 +65,7 @@ class Step:
 
     `panel` is the plan it is drawn on, `why` the law or purpose, `links` the links of the mechanism it speaks of,
     `stage` tells what it is a part of, `names` are those of marks inside a compound, `choice` the form that begins here
-    and why it is drawn. `name` is empty where the mark has no letter of its own.
+    and why it is drawn, `quantity` what a length is drawn for. `name` is empty where the mark has no letter of its own.
     """
 
     index: int
@@ -78,6 +79,7 @@ class Step:
     stage: Teller | None = None
     names: dict[str, str] = field(default_factory=dict)
     choice: Choice | None = None
+    quantity: kinds.Quantity | None = None
 
     @property
     def begins(self) -> Panel:
@@ -177,7 +179,7 @@ class Board(Verbs):
             self._panel, self._links, self._stage = before
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], *, name: str = "", why: str = "",
-             names: dict[str, str] | None = None, **params: Any) -> Mark:
+             names: dict[str, str] | None = None, quantity: kinds.Quantity | None = None, **params: Any) -> Mark:
         """Record one step; names that are taken get a prime, the first name of a mark stays."""
         read = [arg.step for arg in args]
         if (kinds := tuple([step.op.gives for step in read])) != op.reads:
@@ -194,7 +196,8 @@ class Board(Verbs):
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             return self.named(same, name)
         panel = read[op.where].panel if read else self._panel
-        step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {})
+        step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {},
+                    None, quantity)
         mark = Mark(self, step, heading)
         self.steps.append(step)
         self.marks.append(mark)

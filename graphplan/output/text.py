@@ -7,12 +7,17 @@ from collections.abc import Iterable, Iterator
 from typing import Any
 
 from graphplan.kernel.lemoine import counts
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import evaluate
 from graphplan.kernel.stages import Equation, Stage
-from graphplan.methods.construction import Construction
+from graphplan.mechanism.model import Scene
+from graphplan.methods.panels import MECHANISM
 from graphplan.methods.positions import layout
 from graphplan.phrases import arranged, coordinates, joined, said
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.words.protocol import Passage, Protocol
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.words.lengths import Length, Lengths
+from graphplan.sheet.words.protocol import Passage, Protocol, measured
 from graphplan.words.tongue import Tongue
 
 WIDTH = 110
@@ -30,7 +35,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     drawing, told = plans.drawing, Protocol(plans, composition.scales)
     lines = [say.title(drawing.scene.title), *filter(None, [drawing.scene.source]), ""]
     lines += [say(said("Structure: {0}", line)) for line in structure]
-    lines += ["", *_pose(drawing, say), "", *_scales(composition), *_wrapped(say(said(
+    lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrapped(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
         "locus is.")), ""), *_passages(told.passages, say, movements)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
@@ -41,14 +46,17 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     return "\n".join(lines).rstrip() + "\n"
 
 
-def _pose(drawing: Construction, say: Tongue) -> list[str]:
-    """How the mechanism plan is laid out: coordinates, and steps where the scene places points by arcs and angles."""
-    program = layout(drawing.scene)
-    given = [joined((step.name, coordinates((float(step.params["x"]), float(step.params["y"])), 6)), " ")
+def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
+    """How the mechanism plan is laid out: coordinates in mm, and steps where the scene places points by arcs and
+    angles."""
+    program = layout(scene)
+    values = evaluate(program, Floats())
+    lengths = Lengths(program, values, lambda index: MECHANISM, scales)
+    given = [joined((step.name, coordinates([round(float(part) / scales.k_s, 1) for part in values[step.index]])), " ")
              for step in program.steps[: program.givens]]
-    lines = _wrapped(say(said("Mechanism plan, given: {0}.", joined(given))), "")
+    lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", joined(given))), "")
     for step in program.steps[program.givens :]:
-        lines += _wrapped(say(program.told(step.index)), "  ")
+        lines += _wrapped(say(measured(program.told(step.index), lengths.of(step))), "  ")
     return lines
 
 
@@ -109,11 +117,11 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
     drawing, say = composition.plans.drawing, composition.plans.tongue
     drawn, entries = drawing.drawn, []
     told = Protocol(composition.plans, composition.scales)
-    stages, stage_of = told.stages
+    (stages, stage_of), spoken = told.stages, {one.index: one for one in told.steps}
     compound_of = {one.index: number for number, compound in enumerate(drawing.compounds)
                    for one in compound.movements}
     for plate in composition.plates.steps:
-        step, number = plate.step, stage_of.get(plate.index)
+        step, number, words = plate.step, stage_of.get(plate.index), spoken.get(plate.index)
         entries.append({
             "number": plate.number,
             "makes": say(drawn.text(step.index)),
@@ -122,7 +130,8 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
             "instrument": step.op.instrument,
             "reads": [say(drawn.text(arg)) for arg in step.args],
             "plan": plate.panel,
-            "sentence": plate.sentence,
+            "sentence": say(words.sentence) if words else plate.sentence,
+            "lengths": _measures(words.lengths if words else ()),
             "stage": number,
             "why": say(step.why or ("" if number is None else stages[number].law)),
             "compound": compound_of.get(plate.index),
@@ -143,10 +152,16 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
         "stages": [_stage(stage, say) for stage in stages],
         "compounds": [say(compound.sentence) for compound in drawing.compounds],
         "entries": [{"steps": [one.number for one in entry.movements], "stage": passage.number, "plan": passage.plan,
-                     "sentence": say(entry.sentence), "why": say(entry.why)}
+                     "sentence": say(entry.sentence), "why": say(entry.why),
+                     "lengths": _measures(entry.lengths)}
                     for passage in told.passages for entry in passage.entries],
         "steps": entries,
     }
+
+
+def _measures(lengths: Iterable[Length]) -> list[dict[str, Any]]:
+    """The mm that a sentence speaks of, each with the marks between which they are, by their places in the list."""
+    return [{"mm": one.mm, "marks": list(one.marks)} for length in lengths for one in length.measures]
 
 
 def _stage(stage: Stage, say: Tongue) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 
+from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
 from graphplan.mechanism.order import by_name, ordered
@@ -147,7 +148,7 @@ class Loading:
 
     def _given(self, at: str, value: tuple[Number, ...], name: str, why: str, start: Mark) -> Acting:
         x, y = value
-        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why)
+        head = self.board.lay_off(start, dx=x * self.phi, dy=y * self.phi, why=why, quantity=Quantity(name, "force"))
         return Acting(self.pose.points[at], start, head, name)
 
     def _inertia(self, link: str, point: str, mass: Number, name: str, start: Mark) -> Acting:
@@ -158,7 +159,8 @@ class Loading:
         ratio = -mass * inertia(self.scene.units) * self.phi * self.unit * self.unit
         why = said("{0}, the inertia force of {1}, against the acceleration of {2}", name, link_named(link),
                    self.pose.spoken(point))
-        head = self.board.step_off(home, end, start, ratio=ratio, why=why)
+        written = f"{name} = m_{link} a_{self.pose.spoken(point)}"
+        head = self.board.step_off(home, end, start, ratio=ratio, why=why, quantity=Quantity(written, "force"))
         return Acting(self.pose.points[_replaced(link) if shifted else point], start, head, name)
 
     def _accelerated(self, link: str, point: str) -> bool:
@@ -171,7 +173,8 @@ class Loading:
                 P, R = self.arm(link)
                 value = moment.value * self.phi * metre(self.scene.units)
                 head = self.board.couple(P, R, start, moment=value,
-                                         why=said("the given moment on {0}", link_named(link)))
+                                         why=said("the given moment on {0}", link_named(link)),
+                                         quantity=Quantity(f"M_{link}", "force"))
                 yield Acting(R, start, head, f"M_{link}"), Acting(P, head, start, f"M_{link}")
         mass = self.loads.masses.get(link)
         if mass and self._form(link, mass) == "couple":
@@ -184,7 +187,8 @@ class Loading:
         P, R = self.pose.points[one], self.pose.points[two]
         ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
         why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))
-        head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why)
+        head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why,
+                                       quantity=Quantity(f"W_{link} = J_{link} α_{link}", "force"))
         return Acting(R, start, head, f"W_{link}"), Acting(P, head, start, f"W_{link}")
 
     def turns(self, link: str) -> bool:

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterable
 from functools import partial
 from typing import NamedTuple
 
-from graphplan.kernel.kinds import Movement
+from graphplan.kernel.kinds import Movement, Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
 from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Settle, SimilarFigure, Slip, Swing
@@ -160,7 +160,9 @@ class Normal(MotionPlan):
             return base
         if omega * omega == 1 and base is A:
             return X
-        return self._normal(link, joint, point, partial(self.board.step_off, A, X, base, ratio=omega * omega))
+        arm = Quantity(f"ω²·{joint}{point}", self.words.kind)
+        return self._normal(link, joint, point, partial(
+            self.board.step_off, A, X, base, ratio=omega * omega, quantity=arm))
 
     def _normal(self, link: str, K: str, X: str, draw: Callable[..., Mark]) -> Mark:
         """The mark of X, drawn from that of K in the figure of their link: the vector is the acceleration of K."""

@@ -83,13 +83,12 @@ class MotionPlan:
             return A if self.turned and much == 1 and mark is X else self._step((A, X), mark, much)
         line = self.pose.guide(weld.slide, run=True)
         line = self.board.perpendicular(line, X) if self.across else line
-        return self.board.lay_along(line, mark, length=much) if much else mark
+        return self.board.lay_along(line, mark, length=much, quantity=self.words.given()) if much else mark
 
     def _step(self, base: Vector, at: Mark, ratio: Number) -> Mark:
         """`at` moved by the image of a vector of a link that turns so much."""
-        if self.turned:
-            return self.board.step_off(*base, at, ratio=-ratio)
-        return self.board.step_across(*base, at, ratio=ratio)
+        draw, times = (self.board.step_off, -ratio) if self.turned else (self.board.step_across, ratio)
+        return draw(*base, at, ratio=times, quantity=self.words.turned(*(mark.step.name for mark in base)))
 
     def seat(self, slide: Slide, known: str, new: str, point: str) -> Mark:
         """Where the vector of the guide's coincident point begins, for use in the other link's figure."""
@@ -100,7 +99,8 @@ class MotionPlan:
         motion, home = self.pose.scene.motions[place[0]], self.home(place)
         dx, dy = map(self.prescribed, zip(motion.velocity, motion.acceleration, strict=True))
         dx, dy = (-dy, dx) if self.turned else (dx, dy)
-        return self.board.lay_off(home, dx=dx, dy=dy) if dx or dy else home
+        given = self.words.given(self.stages.vector(self.words.symbol, place).name, turned=self.turned)
+        return self.board.lay_off(home, dx=dx, dy=dy, quantity=given) if dx or dy else home
 
     def turned_by(self, body: str, like: str, base: Vector, at: Mark) -> Mark:
         """`at` moved by what the turning of `body` exceeds that of `like` on the vector `base`."""

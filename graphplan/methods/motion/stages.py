@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import partial
 from typing import NamedTuple
 
+from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.stages import Equation, Known, Stage, Vector
 from graphplan.mechanism.model import FRAME, Slide
 from graphplan.methods.motion.moves import (
@@ -54,18 +55,31 @@ SLIDING = said("the vectors of two coincident points differ by that of one relat
 
 
 class Words(NamedTuple):
-    """What is said of plans of one kind: the letter of their vectors, and titles."""
+    """What is said of plans of one kind: their kind of vector and its letter, that of turning, and titles."""
 
+    kind: str
     symbol: str
+    turning: str  # that of its rate
     point: Phrase
     figure: Phrase
     link: Phrase
     slide: Phrase
 
+    def given(self, name: str = "", *, turned: bool = False) -> Quantity:
+        """A given vector by its name, drawn turned or not; without a name that of a slide."""
+        name = name or f"{self.symbol}_r"
+        return Quantity(said("{0}, turned by 90°", name) if turned else name, self.kind)
 
-VELOCITIES = Words("v", phrase("Velocity of {0}"), phrase("Velocity of {0}, by the similar figure of {1}"),
-                   phrase("Angular velocity of {0}"), phrase("Relative velocity of the slide {0}"))
-ACCELERATIONS = Words("a", phrase("Acceleration of {0}"), phrase("Acceleration of {0}, by the similar figure of {1}"),
+    def turned(self, A: str, X: str) -> Quantity:
+        """What the rate of a link makes of its side AX."""
+        return Quantity(f"{self.turning}·{A}{X}", self.kind)
+
+
+VELOCITIES = Words("velocity", "v", "ω", phrase("Velocity of {0}"),
+                   phrase("Velocity of {0}, by the similar figure of {1}"), phrase("Angular velocity of {0}"),
+                   phrase("Relative velocity of the slide {0}"))
+ACCELERATIONS = Words("acceleration", "a", "α", phrase("Acceleration of {0}"),
+                      phrase("Acceleration of {0}, by the similar figure of {1}"),
                       phrase("Angular acceleration of {0}"), phrase("Relative acceleration of the slide {0}"))
 
 

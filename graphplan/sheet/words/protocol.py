@@ -26,19 +26,21 @@ from itertools import groupby
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
 from graphplan.methods.construction import Compound
-from graphplan.phrases import Said, arranged, said
+from graphplan.phrases import Said, arranged, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.lengths import Length, Lengths
 
 
 @dataclass(frozen=True)
 class SpokenStep:
-    """A drawn step in words: its number, what the hand does, and why."""
+    """A drawn step in words: its number, what the hand does and how long it is on paper, and why."""
 
     step: Step
     number: int
     sentence: Said
     why: str
+    lengths: tuple[Length, ...]
 
     @property
     def index(self) -> int:
@@ -52,6 +54,7 @@ class Entry:
     sentence: Said
     why: str
     movements: tuple[SpokenStep, ...]
+    lengths: tuple[Length, ...]
 
     @property
     def folded(self) -> bool:
@@ -107,9 +110,17 @@ class Protocol:
     @cached_property
     def steps(self) -> tuple[SpokenStep, ...]:
         """Every step, in drawing order."""
-        drawn = self._drawn
-        return tuple(SpokenStep(step, drawn.number(step.index), drawn.sentence(step.index), step.why)
-                     for step in drawn.steps[drawn.givens :])
+        drawn, found = self._drawn, list[SpokenStep]()
+        for step in drawn.steps[drawn.givens :]:
+            lengths = self.lengths.of(step)
+            told = measured(drawn.sentence(step.index), lengths)
+            found.append(SpokenStep(step, drawn.number(step.index), told, step.why, lengths))
+        return tuple(found)
+
+    @cached_property
+    def lengths(self) -> Lengths:
+        """The lengths of paper."""
+        return Lengths(self._drawn, self.plans.drawing.values, self.plans.plan_of_step.__getitem__, self.scales)
 
     @cached_property
     def stages(self) -> tuple[tuple[Stage, ...], Mapping[int, int]]:
@@ -142,17 +153,25 @@ class Protocol:
         """Steps of one stage, those of a compound as one entry where it has words for them."""
         for compound, run in groupby(steps, lambda one: self._compounds.get(one.index)):
             movements = tuple(run)
-            sentence = self._folded(compound, movements) if compound and len(movements) > 1 else None
-            if sentence:
-                yield Entry(sentence, _why(movements[-1], stage), movements)
+            folded = self._folded(compound, movements) if compound and len(movements) > 1 else None
+            if folded:
+                yield Entry(measured(*folded), _why(movements[-1], stage), movements, folded[1])
             else:
-                yield from (Entry(one.sentence, _why(one, stage), (one,)) for one in movements)
+                yield from (Entry(one.sentence, _why(one, stage), (one,), one.lengths) for one in movements)
 
-    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> Said | None:
+    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, tuple[Length, ...]] | None:
         """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
-        return compound.sentence if movements[-1].index == compound.step.index else compound.before
+        if movements[-1].index == compound.step.index:
+            return compound.sentence, self.lengths.of(compound.step)
+        return (compound.before, self.lengths.before(compound)) if compound.before else None
+
+
+def measured(sentence: Said, lengths: Sequence[Length]) -> Said:
+    """A sentence with its lengths behind it."""
+    return arranged("{0} {1}.", sentence, joined(length.told for length in lengths)) if lengths else sentence
 
 
 def _why(step: SpokenStep, stage: Stage | None) -> str:
     """Why a step is drawn, where its stage does not say it."""
-    return "" if stage and str(step.why) in str(stage.law) else step.why
+    said = f"{stage.title} {stage.law}".lower() if stage else ""
+    return "" if step.why.lower() in said else step.why

@@ -1,0 +1,225 @@
+"""Lengths of paper: what a step lays off or takes between the compasses' points, as the hand measures it.
+
+A given quantity is divided by the scale of its plan; a vector of another plan is carried over by the scales of both; a
+moment is a force in mm times its arm in mm over the other arm. Spoken are tenths of a millimetre.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+from graphplan.kernel.kinds import LAID, OPENING, Movement, Quantity, Sizing
+from graphplan.kernel.program import Panel, Program, Step
+from graphplan.methods.construction import Compound
+from graphplan.phrases import Said, arranged, digits, figures, joined, said, unit
+from graphplan.sheet.layout.scales import Scales
+
+SAME = 5e-4  # of a length carried over: what differs by less is as long
+NOTHING = 0.05  # mm: what is shorter has no length on paper
+LENGTH = Quantity("", "length")
+COMPONENTS = Movement.LAID_BY_COMPONENTS, Movement.LAID_ALONG
+
+
+class Measure(NamedTuple):
+    """So many mm between two marks, by step, of one more than once if it has a radius; or the arm about the first of
+    four marks of a force at the second, as from the third to the fourth."""
+
+    mm: float
+    marks: tuple[int, ...]
+
+    @property
+    def told(self) -> Said:
+        return joined((tenths(self.mm), unit("mm")), " ")
+
+
+class Length(NamedTuple):
+    """How a length is spoken, and all that its words measure, what is laid off last."""
+
+    told: Said
+    measures: tuple[Measure, ...]
+
+    @property
+    def mm(self) -> float:
+        return self.measures[-1].mm
+
+
+def tenths(length: float) -> Said:
+    """A number of mm as it is read off a ruler."""
+    return figures(f"{length:z.1f}".replace("-", "−"))
+
+
+@dataclass(frozen=True)
+class Lengths:
+    """The lengths of a program's steps: its values, and by step the plan that it is drawn on, at these scales."""
+
+    program: Program
+    values: Sequence[Any]
+    plan: Callable[[int], Panel]
+    scales: Scales
+
+    def of(self, step: Step) -> tuple[Length, ...]:
+        """What a step lays off or opens, of marks of the program; nothing where it has no size of its own."""
+        return tuple(length for length in self._found(step) if length.mm >= NOTHING)
+
+    def before(self, compound: Compound) -> tuple[Length, ...]:
+        """What of a compound is laid off later, as its part on another plan has found it."""
+        match compound.step.op.sizing, compound.step.args, dict(compound.inner):
+            case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
+                # the velocity, as it is carried to the link
+                speed = Measure(self.mm(m, w) * self.per_mm(w) / self.per_mm(A), (m, w))
+                arm, found = self._between(K, A), self._between(E, A)
+                told = arranged("v²/{0} = {1}² : {2} = {3}", self._side(K, A), tenths(speed.mm), tenths(arm.mm),
+                                found.told)
+                return (Length(told, (speed, arm, found)),)
+            case Sizing.DOUBLE, (_, B, *_), {"K": K}:
+                half = self._between(K, B)
+                return (Length(half.told, (half,)),)
+        return ()
+
+    # ---- mm -----------------------------------------------------------------------------------------------------
+
+    def per_mm(self, index: int) -> float:
+        """Lengths of the scene for a mm where a step is drawn."""
+        return self.scales.of(self.plan(index))
+
+    def mm(self, P: int, Q: int) -> float:
+        """How far apart two marks of one plan are."""
+        return math.hypot(*self._vector(P, Q)) / self.per_mm(Q)
+
+    def _between(self, P: int, Q: int) -> Measure:
+        return Measure(self.mm(P, Q), (P, Q))
+
+    def _arm(self, Y: int, C: int, p: int, q: int) -> Measure:
+        """The arm about Y of a force at C, as from p to q, which may be marks of another plan."""
+        (x, y), (u, v) = self._vector(p, q), self._vector(Y, C)
+        return Measure(abs(u * y - v * x) / (math.hypot(x, y) or 1.0) / self.per_mm(C), (Y, C, p, q))
+
+    def _vector(self, P: int, Q: int) -> tuple[float, float]:
+        (x, y), (u, v) = self.values[P][:2], self.values[Q][:2]
+        return float(u - x), float(v - y)
+
+    # ---- what a movement lays off or opens ------------------------------------------------------------------------
+
+    def _found(self, step: Step) -> Iterator[Length]:
+        op, args, out = step.op, step.args, step.index
+        if op.sizing:
+            yield WORKED_OUT[op.sizing](self, step)
+        elif op.movement is Movement.OPENED:
+            yield Length((wide := self._between(*args)).told, (wide,))
+        elif op.gives == OPENING:
+            wide = Measure(math.sqrt(self.values[out][0]) / self.per_mm(out), (out, out))
+            yield Length(self._given(step.quantity or LENGTH, wide, out), (wide,))
+        elif op.movement is Movement.STRUCK:
+            wide = Measure(math.sqrt(self.values[out][2]) / self.per_mm(out), (out, out))
+            taken = Measure(math.sqrt(self.values[args[1]][0]) / self.per_mm(args[1]), (args[1], args[1]))
+            yield from () if self._alike(taken, wide) else (self._carried(taken, wide),)
+        elif op.movement is Movement.PICKED and self.plan(args[1]) == self.plan(out):
+            away = self._between(args[1], out)
+            yield Length(said("Here {0} from {1}", away.told, self.program.text(args[1])), (away,))
+        elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
+            yield self._laid(step, self._between(args[op.root], out))
+
+    def _laid(self, step: Step, laid: Measure) -> Length:
+        """A vector: a given one with its components, or one that is drawn on this plan or another, and how often."""
+        if step.op.movement in COMPONENTS:
+            told = self._given(step.quantity or LENGTH, laid, step.index)
+            parts = (tenths(part / self.per_mm(step.index)) for part in self._vector(*laid.marks))
+            return Length(said("{0} (x {1}, y {2})", told, *parts), (laid,))
+        if step.quantity:
+            found = Length(self._given(step.quantity, laid, step.index), (laid,))
+        else:
+            found = self._carried(self._between(*step.args[:2]), laid)
+        against = step.params.get("ratio", 1) < 0
+        return found._replace(told=said("{0}, against that vector", found.told)) if against else found
+
+    def _carried(self, source: Measure, laid: Measure) -> Length:
+        """A length, and where it is another where it is taken from, how it follows from that one."""
+        if source.mm < NOTHING or self._alike(source, laid):
+            return Length(laid.told, (laid,))
+        told = arranged("{0} · {1} = {2}", source.told, digits(laid.mm / source.mm), laid.told)
+        return Length(told, (source, laid))
+
+    def _alike(self, one: Measure, other: Measure) -> bool:
+        return math.isclose(one.mm, other.mm, rel_tol=SAME)
+
+    def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
+        """A quantity with its value, over the scale of its plan."""
+        per, symbol = self.scale(quantity.kind, where)
+        value = joined((digits(laid.mm * per), unit(symbol)), " ")
+        told = (arranged("{0} · {1} = {2}", value, digits(1 / per), laid.told) if self.scales.convention == "drawn"
+                else arranged("{0} : {1} = {2}", value, digits(per), laid.told))
+        return arranged("{0}: {1}", quantity.written, told) if quantity.written else told
+
+    def scale(self, kind: str, where: int) -> tuple[float, str]:
+        """What a mm stands for where a step is drawn, of one kind of quantity, and its unit."""
+        scales, plan = self.scales, self.plan(where)
+        return {"velocity": (scales.speed(plan), f"{scales.length}/s"),
+                "acceleration": (scales.acceleration(plan), f"{scales.length}/s²"),
+                "force": (scales.force(plan), scales.unit)}.get(kind, (scales.of(plan), scales.length))
+
+    def _side(self, P: int, Q: int) -> Said:
+        """The distance of two points by their letters."""
+        names = [self.program.steps[index].name for index in (P, Q)]
+        return arranged("{0}{1}", *names) if all(names) else arranged("{0}", "r")
+
+    # ---- what is worked out -----------------------------------------------------------------------------------------
+
+    def _moments(self, step: Step) -> Length:
+        """A force from the moment of another about a point."""
+        Y, X, C, p, q, m = step.args
+        force, lever, arm = self._between(p, q), self._arm(Y, C, p, q), self._between(Y, X)
+        found = self._between(m, step.index)
+        per, symbol = self.scale("force", step.index)
+        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self._side(Y, X), *map(tenths, (
+            force.mm, lever.mm, arm.mm)), found.told, joined((digits(found.mm * per), unit(symbol)), " "))
+        return Length(told, (force, lever, arm, found))
+
+    def _couple(self, step: Step) -> Length:
+        """A force whose pair is a given couple."""
+        P, R, m = step.args
+        found = self._paired(step, P, R, m)
+        clockwise = step.params["moment"] < 0
+        return found._replace(told=said("{0}, clockwise", found.told) if clockwise else
+                              said("{0}, counter-clockwise", found.told))
+
+    def _inertia(self, step: Step) -> Length:
+        """A force whose pair is the couple of inertia."""
+        P, R, a, b, m = step.args
+        u, v = self._vector(P, R), self._vector(a, b)
+        part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (math.hypot(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
+        found = self._paired(step, P, R, m)
+        return Length(said("tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
+
+    def _paired(self, step: Step, P: int, R: int, m: int) -> Length:
+        """The force of a couple's pair, by the distance of its points."""
+        arm, found, names = self._between(P, R), self._between(m, step.index), self._side(P, R)
+        force = found.told if step.quantity is None else self._given(
+            Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), found, step.index)
+        return Length(arranged("{0} = {1}, {2}", names, arm.told, force), (arm, found))
+
+    def _friction(self, step: Step) -> Length:
+        """The radius of a friction circle."""
+        radius = self._between(step.args[0], step.index)
+        return Length(self._given(Quantity("r", "length"), radius, step.index), (radius,))
+
+    def _shifted(self, step: Step) -> Length:
+        """How far a couple shifts a force."""
+        C, p, q, P, R, a, b = step.args
+        measures = self._between(a, b), self._arm(P, R, a, b), self._between(p, q), self._between(C, step.index)
+        told = arranged("{0} · {1} : {2} = {3}", *(tenths(one.mm) for one in measures[:3]), measures[3].told)
+        return Length(told, measures)
+
+    def _whole(self, step: Step) -> Length:
+        """What was found beforehand, as it is laid off here."""
+        whole = self._between(step.args[4], step.index)
+        return Length(whole.told, (whole,))
+
+
+WORKED_OUT: dict[Sizing, Callable[[Lengths, Step], Length]] = {
+    Sizing.MOMENTS: Lengths._moments, Sizing.COUPLE: Lengths._couple, Sizing.INERTIA: Lengths._inertia,
+    Sizing.FRICTION: Lengths._friction, Sizing.SHIFT: Lengths._shifted, Sizing.SQUARE: Lengths._whole,
+    Sizing.DOUBLE: Lengths._whole,
+}  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import json
 import re
 from collections.abc import Iterator
 from functools import cache
@@ -177,6 +178,17 @@ def test_coordinates_stand_apart(code: str) -> None:
     """Where decimals have a comma, coordinates have a semicolon between them; in English they stay as they are."""
     pair = coordinates((-13.0, 4.25))
     assert (tongue(code)(pair), tongue("en")(pair), pair) == ("(−13; 4,25)", "(−13, 4.25)", "(−13, 4.25)")
+
+
+def test_data_are_the_same_in_every_language(capsys: pytest.CaptureFixture[str]) -> None:
+    """The values and names of the steps as data have points and no words: a decimal comma changes none of them."""
+    told = {}
+    for code in ("en", "ru"):
+        assert main(["steps", "four-bar", "--json", "--language", code]) == 0
+        steps = json.loads(capsys.readouterr().out)["steps"]
+        told[code] = [(step["number"], step["value"], step["operation"], step["plan"]) for step in steps]
+    assert told["ru"] == told["en"]
+    assert any(number % 1 for _, value, *_ in told["en"] for number in value)
 
 
 def test_an_unknown_language_is_refused() -> None:

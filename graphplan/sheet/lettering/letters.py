@@ -16,7 +16,6 @@ from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Item, Rect, Spot
-from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import around, corner
 from graphplan.sheet.plates.plate import Plate
@@ -36,11 +35,11 @@ def picture(plate: Plate) -> list[Item]:
     items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
-        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
+        mechanism = plate.drawn_mechanism
         letters = mechanism.letters().items()
         joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in letters]
         wishes = [*joints, *mechanism.wishes(), *wishes]
-        marks += list(mechanism.spots.values())
+        marks += list(mechanism.shown.values())
     rect = plate.view.rect
     return items + placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
 

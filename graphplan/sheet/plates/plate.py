@@ -133,10 +133,14 @@ class Plate:
         return [mark for mark in on if mark.panel == self.panel]
 
     @cached_property
+    def drawn_mechanism(self) -> DrawnMechanism:
+        """The mechanism, or what of it is shown."""
+        return DrawnMechanism(self.plates.scene, self.view)
+
+    @cached_property
     def mechanism(self) -> list[Item]:
         """The links, pairs and ground, on the plan of the mechanism."""
-        mechanism = DrawnMechanism(self.plates.scene, self.view)
-        shown = mechanism.items() if self.panel == MECHANISM else ()
+        shown = self.drawn_mechanism.items() if self.panel == MECHANISM else ()
         return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
 
     def items(self) -> Iterator[Item]:

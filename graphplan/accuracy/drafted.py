@@ -11,6 +11,7 @@ from typing import Any
 from graphplan.accuracy.first_order import Result, first_order
 from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
+from graphplan.cycle.traced import traced
 from graphplan.errors import Refused
 from graphplan.kernel.expand import crossing
 from graphplan.kernel.kinds import DIVIDERS, POINT, SET_SQUARES
@@ -207,7 +208,7 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     words, errors in one figure, the sheet is composed until its scales stay. Fails with `Refused` where they do not, or
     the words do not fit the paper named.
     """
-    composer = Composer(drawing, paper, check, tongue, protocol)
+    composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene))
     usual = first_order(drawing, hand(drawing, composer.usual.of, pencil), composer.usual)
     composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations)
     for _ in range(ATTEMPTS):

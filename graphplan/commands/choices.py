@@ -9,7 +9,9 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
 from graphplan.errors import Refused
-from graphplan.mechanism.presentation import FRAMES, PROTOCOLS, SIZES
+from graphplan.mechanism.items import perhaps
+from graphplan.mechanism.pairs.pair import FRAME
+from graphplan.mechanism.presentation import FRAMES, MOST_POSITIONS, PROTOCOLS, SIZES
 from graphplan.methods.styles import INERTIA, METHODS
 from graphplan.words import LANGUAGES
 
@@ -80,6 +82,14 @@ def add_sheet(command: argparse.ArgumentParser) -> None:
     add_language(command)
 
 
+def add_motion(command: argparse.ArgumentParser) -> None:
+    """The options that show the motion on the plan of the mechanism; without them the scene has a say in it."""
+    command.add_argument("--curves", metavar="POINTS",
+                         help="the paths of these points over the motion, such as M,C, or of all")
+    command.add_argument("--positions", type=count("--positions", 1, MOST_POSITIONS), metavar="N",
+                         help="so many positions of the mechanism in faint lines")
+
+
 def add_pencil(command: argparse.ArgumentParser) -> None:
     """The option that says how well it is drawn."""
     command.add_argument("--pencil", type=_pencil, metavar="SIZES",
@@ -119,6 +129,10 @@ def presented(options: argparse.Namespace) -> Scene:
 
     scene = given(options)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    if getattr(options, "curves", None):
+        said["curves"] = _movable(scene, options.curves)
+    if getattr(options, "positions", None):
+        said["positions"] = options.positions
     sheet = replace(scene.sheet, **said)
     return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
 
@@ -160,3 +174,14 @@ def pencil(options: argparse.Namespace) -> Pencil:
     from graphplan.accuracy.pencil import Pencil
 
     return options.pencil or Pencil()
+
+
+def _movable(scene: Scene, text: str) -> tuple[str, ...]:
+    """The points of an option, all of which must move."""
+    movable = [point for point, links in scene.links_of.items() if links and FRAME not in links]
+    wanted = movable if text == "all" else text.replace(",", " ").split()
+    for point in wanted:
+        if point not in movable:
+            why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
+            raise Refused(f"--curves {text}", why, perhaps(point, movable, "point"))
+    return tuple(dict.fromkeys(wanted))

@@ -25,9 +25,7 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
     Without a span it is one full turn, whose end is its beginning; a span, in degrees or lengths, has both ends.
     Fails with :class:`Refused` where nothing drives the scene, or a sliding drive is given no span.
     """
-    if scene.motions or not scene.drives:
-        why = said("the motion of points is given, for this pose alone" if scene.motions else "nothing drives it")
-        raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
+    check_drives(scene)
     if positions < 1:
         raise Refused("the cycle", f"{positions} positions are none", "at least 1")
     afford("the cycle", positions, "positions", POSE)
@@ -41,6 +39,13 @@ def travels(scene: Scene, positions: int, span: tuple[float, float] | None) -> A
         raise Refused("the cycle", f"the span {span[0]} to {span[1]} has no end", "two finite numbers")
     ends = span if sliding else (math.radians(span[0]), math.radians(span[1]))
     return np.linspace(*ends, positions)
+
+
+def check_drives(scene: Scene) -> None:
+    """Fail with :class:`Refused` where nothing drives the scene but for a moment."""
+    if scene.motions or not scene.drives:
+        why = said("the motion of points is given, for this pose alone" if scene.motions else "nothing drives it")
+        raise Refused("the cycle", why, "a scene with a [[drive]] for each degree of freedom")
 
 
 def paces(scene: Scene) -> tuple[float, ...]:

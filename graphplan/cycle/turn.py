@@ -55,29 +55,47 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
     """
     travel = travels(scene, positions, span)
-    linkage = Linkage(scene, paces(scene))
-    groups = [Group(linkage, part) for part in linkage.parts]
-    closed = span is None and closes(scene, linkage.paces)
+    closed = span is None and closes(scene, paces(scene))
     ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
-    continuation = Continuation(linkage, groups, *ends, progress)
-    path = continuation.path(closed)
-    course = Course(scene, path, travel, closed)
-    slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
-    placing = Placing(linkage, groups, positions, [slide.along for slide in slides])
-    placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
-    placing.retry(partial(continuation.state, path), course.at)
-    knots = np.flatnonzero(course.knots)
-    placing.stand(path.nearest(course.at[knots]), course.at, knots)
-    placing.refuse(course.at, np.flatnonzero(~course.reached))
-    lost = ~course.reached
-    for _, at in placing.failures:
-        lost[at] = True
-    for array in (*placing.points.values(), *placing.turns.values()):
-        array[lost] = complex(np.nan, np.nan)
-    points = {name: placing.points[name] for name in scene.points}
-    guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
-    points |= {name: points[at] for name, at in _under(scene).items()}
-    return Turn(travel, points, guides, course.faults(placing.failures), closed and _comes_back(path, groups))
+    return RangeOfMotion(scene, *ends, closed, progress).turn(travel, compiled)
+
+
+class RangeOfMotion:
+    """How far a scene is followed from its given pose, between two travels of its first drive: `path` says where it
+    stops.
+
+    Where the motion is `closed`, as every drive is back after a turn, it goes backwards as far as a turn leaves over.
+    Fails as :func:`follow` does.
+    """
+
+    def __init__(self, scene: Scene, lower: float, upper: float, closed: bool, progress: Progress | None = None):
+        self.scene, self.closed = scene, closed
+        self.linkage = Linkage(scene, paces(scene))
+        self.groups = [Group(self.linkage, part) for part in self.linkage.parts]
+        self._continuation = Continuation(self.linkage, self.groups, lower, upper, progress)
+        self.path = self._continuation.path(closed)
+
+    def turn(self, travel: Array, compiled: bool = False) -> Turn:
+        """The poses at these travels, an array of shape (n,) in any order."""
+        scene, path = self.scene, self.path
+        course = Course(scene, path, travel, self.closed)
+        slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
+        placing = Placing(self.linkage, self.groups, len(travel), [slide.along for slide in slides])
+        placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
+        placing.retry(partial(self._continuation.state, path), course.at)
+        knots = np.flatnonzero(course.knots)
+        placing.stand(path.nearest(course.at[knots]), course.at, knots)
+        placing.refuse(course.at, np.flatnonzero(~course.reached))
+        lost = ~course.reached
+        for _, at in placing.failures:
+            lost[at] = True
+        for array in (*placing.points.values(), *placing.turns.values()):
+            array[lost] = complex(np.nan, np.nan)
+        points = {name: placing.points[name] for name in scene.points}
+        guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
+        points |= {name: points[at] for name, at in _under(scene).items()}
+        back = self.closed and _comes_back(path, self.groups)
+        return Turn(travel, points, guides, course.faults(placing.failures), back)
 
 
 def _comes_back(path: Path, groups: Sequence[Group]) -> bool:

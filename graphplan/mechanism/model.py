@@ -162,6 +162,8 @@ class Presentation:
     k_F: Fraction | None = None
     multiples: dict[str, Fraction] = field(default_factory=dict)
     convention: str = "real"
+    curves: tuple[str, ...] = ()
+    positions: int = 0
 
     @property
     def kappa(self) -> Fraction | None:

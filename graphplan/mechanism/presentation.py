@@ -10,7 +10,7 @@ from graphplan.mechanism.items import Item, described, perhaps
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.units import METRES
-from graphplan.mechanism.values import DISTANCE, TEXT, choice
+from graphplan.mechanism.values import DISTANCE, POINT, TEXT, asked, choice
 from graphplan.words import LANGUAGES
 
 SIZES = {"A4": (297.0, 210.0), "A3": (420.0, 297.0), "A2": (594.0, 420.0), "A1": (841.0, 594.0), "A0": (1189.0, 841.0)}
@@ -19,6 +19,7 @@ FRAMES = ("iso", "gost")
 ASIDE = "aside"
 PROTOCOLS = ("auto", ASIDE, "pages", "none")  # where the words stand: beside the plans, or on pages of their own
 PLANS = ("N-plan", "velocity plan", "acceleration plan", "lever")  # and force plans, by their links
+MOST_POSITIONS = 72  # positions that are drawn
 LENGTH = r"(?=[0.]*[1-9])(\d{1,9}(?:\.\d{1,9})?)"  # above zero
 RATIO = rf"\s*{LENGTH}\s*:\s*{LENGTH}\s*"
 
@@ -43,6 +44,23 @@ def _plan(name: str, item: Item, names: Names) -> None:
     """A fault where there is no such plan; which force plans there are only the drawing tells."""
     if name not in PLANS and not name.startswith(("force plan ", "lever ")):
         item.fault("there is no such plan", perhaps(name, (*PLANS, "force plan 2, 3"), "plan"))
+
+
+def _stands_still(point: object, item: Item, names: Names) -> bool:
+    """Whether a point whose path is asked for has none; that is a fault."""
+    still = point in names.points and point not in names.movable
+    if still:
+        item.fault(f"{point} does not move", "a point of moving links only")
+    return still
+
+
+def _count(item: Item, names: Names) -> int | None:
+    number = item.number()
+    if number is None:
+        return None
+    if number.denominator != 1 or not 1 <= number <= MOST_POSITIONS:
+        return item.fault(f"{shown(number)} is no number of positions", f"a whole number from 1 to {MOST_POSITIONS}")
+    return int(number)
 
 
 def _presentation(row: Row) -> Presentation | None:
@@ -84,4 +102,9 @@ SHEET = Table("the sheet", (
     Field("k_F", "the force for a mm of paper", _SCALE),
     Field("multiples", "how many times as large as by these scales other plans are drawn, by their names",
           Named(_above_0("multiple"), TEXT, _plan)),
+    Field("curves", 'the points whose paths over the motion are drawn on the mechanism plan, or "all"',
+          asked("point", '["M"]', lambda names: names.points, lambda names: names.movable, after=("points", "links"),
+                entry=POINT, wrong=_stands_still)),
+    Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
+          Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MOST_POSITIONS})),
 ), _presentation)

@@ -53,7 +53,9 @@ def _laid_out(drawing: Construction, paper: str | None, check: Mapping[str, Any]
 def _composed(drawing: Construction, paper: str | None, check: Mapping[str, Any] | None,
               language: str | None) -> Composition:
     """Where all of it lies, in a language by its code."""
+    from graphplan.cycle.traced import traced
     from graphplan.sheet.layout.composition import compose
     from graphplan.words.tongue import tongue
 
-    return compose(drawing, paper, check, tongue(language) if language else None)
+    say = tongue(language) if language else None
+    return compose(drawing, paper, check, say, motion=traced(drawing.scene))

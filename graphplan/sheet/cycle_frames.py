@@ -192,7 +192,7 @@ def _frame(travel: float, composition: Composition) -> CycleFrame:
 
 def _composed(base: Composition, words: Words, drawing: Posed) -> Composition:
     """The same composition of another pose; its words, else those of all poses, tell the results of that pose."""
-    plans = Plans(drawing, base.plans.tongue)
+    plans = replace(base.plans, drawing=drawing)
     arrangement = base.arrangement
     told = replace(words, plans=plans)
     rows = arrangement.set(lambda wide: told.rows(wide, Deviations())) if arrangement.columns else ()

@@ -23,6 +23,7 @@ from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect
 from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.pens import BORDER, GREY, ORIGIN, Pen
 from graphplan.sheet.plates.selection import with_numbers
+from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.rows import lettered
 from graphplan.sheet.words.task import Task
 
@@ -57,7 +58,7 @@ def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[
     arrangement = composition.arrangement
     words = arrangement.set(lambda wide: Task(composition.plans).lines(wide, document == GUIDED))
     apart = (*arrangement.columns, arrangement.title)
-    bare = [item for item in solved.items if item.step is None and not within(item, apart)]
+    bare = [item for item in solved.items if item.step is None and item.layer != MOTION and not within(item, apart)]
     begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
     empty = [item for item in bare if not within(item, arrangement.panels.values())]
     filled = packed(words, arrangement)

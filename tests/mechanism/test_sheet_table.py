@@ -30,6 +30,8 @@ k_s = 2.5
 k_v = 10
 k_a = 40
 k_F = 4
+curves = ["A", "M"]
+positions = 12
 [sheet.multiples]
 N-plan = 2
 "force plan 2, 3" = 0.5
@@ -46,6 +48,7 @@ def test_every_wish_is_read() -> None:
     assert parse(PRESS + WHOLE, "f.toml").sheet == Presentation(
         "A4 portrait", "gost", "Chair of Mechanisms", "TMM-01", "1939-05-01", "N. N.", "M. M.", "lv", Fraction(5, 2),
         Fraction(10), Fraction(40), Fraction(4), {"N-plan": Fraction(2), "force plan 2, 3": Fraction(1, 2)}, "drawn",
+        ("A", "M"), 12,
     )  # fmt: skip
 
 
@@ -76,6 +79,10 @@ def test_two_scales_tie_how_long_vectors_are_drawn() -> None:
      "portrait"),
     ('frame = "din"', 'sheet.frame: the string "din" is not known here; one of iso, gost'),
     ('language = "xx"', f'sheet.language: the string "xx" is not known here; one of {", ".join(LANGUAGES)}'),
+    ('curves = ["A", "Z"]', "sheet.curves: there is no point Z; one of A, B, M, O"),
+    ('curves = ["O"]', "sheet.curves: O does not move; a point of moving links only"),
+    ("positions = 2.5", "sheet.positions: 2.5 is no number of positions; a whole number from 1 to 72"),
+    ("positions = 100", "sheet.positions: 100 is no number of positions; a whole number from 1 to 72"),
     ('convention = "paper"', 'sheet.convention: the string "paper" is not known here; one of real, drawn'),
     ("date = 1939-05-01", "sheet.date: a date or time where a text is wanted; a text in quotes"),
     ('owner = "two\\nlines"', "sheet.owner: a text with line breaks or characters that cannot be printed; a text on "

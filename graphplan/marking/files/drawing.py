@@ -114,7 +114,7 @@ def _wishes(place: int, word: Lettering, name: str, traces: Sequence[Trace], thi
 
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
-                        "drive"})  # layers of graphplan's own sheets with nothing that a construction draws
+                        "drive", "motion"})  # layers of graphplan's own sheets with nothing that a construction draws
 ROUNDED = 1e-4  # of a size: as files write their numbers
 
 

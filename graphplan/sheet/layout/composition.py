@@ -34,6 +34,7 @@ from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, whole
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
@@ -285,14 +286,16 @@ def _check_force_plans(plans: Plans) -> None:
 
 
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-            tongue: Tongue | None = None, protocol: str = PROTOCOLS[0]) -> Composition:
+            tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
+            motion: TracedMotion | None = None) -> Composition:
     """Where everything goes: on the paper named, here or by the scene, or on the smallest good one.
 
-    Without a tongue it speaks that of the scene's sheet; `protocol` says where the words stand.
+    Without a tongue it speaks that of the scene's sheet; `protocol` says where the words stand, `motion` what is
+    shown of it (cycle/traced.py).
 
     Fails with `Refused` where the words do not fit the paper named.
     """
-    return Composer(drawing, paper, check, tongue, protocol).compose()
+    return Composer(drawing, paper, check, tongue, protocol, motion).compose()
 
 
 class Composer:
@@ -302,10 +305,12 @@ class Composer:
     """
 
     def __init__(self, drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
-                 tongue: Tongue | None = None, protocol: str = PROTOCOLS[0]):
+                 tongue: Tongue | None = None, protocol: str = PROTOCOLS[0],
+                 motion: TracedMotion | None = None):
         scene = drawing.scene
         say = tongue or tongue_of(scene.sheet.language or "en")
-        self.plans, self.paper, self.protocol = Plans(drawing, say), paper or scene.sheet.paper or None, protocol
+        self.plans, self.protocol = Plans(drawing, say, motion=motion), protocol
+        self.paper = paper or scene.sheet.paper or None
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = Words(self.plans, check or {})
         self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None

@@ -16,11 +16,13 @@ from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
 
-BACK, FRONT = ("paper", BORDER, "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
+BACK = "paper", BORDER, "plates", MOTION, "ground", "links"
+FRONT = "blocks", "drive", "pairs", "letters", "text", RESULTS
 
 
 def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,

@@ -47,6 +47,7 @@ class Wish:
     balloon: bool = False
     free: bool = False
     raised: str = ""
+    layer: str = "letters"
     letters: LetterSizes = SMALL_SHEET
 
     @property
@@ -87,17 +88,17 @@ class Wish:
         middle = (left + right) / 2, (low + top) / 2
         if place.led:
             nearest = min(max(x, left), right), min(max(y, low), top)
-            yield Polyline(pens.LEADER, "letters", self.step, ((x, y), nearest))
+            yield Polyline(pens.LEADER, self.layer, self.step, ((x, y), nearest))
         if self.balloon:
-            yield Circle(pens.BALLOON, "letters", self.step, middle, BALLOON * self.size)
+            yield Circle(pens.BALLOON, self.layer, self.step, middle, BALLOON * self.size)
             base = middle[0], middle[1] - self.size * CAPS / 2
-            yield Text(self.pen, "letters", self.step, base, self.runs, self.size, "middle", label=self.label)
+            yield Text(self.pen, self.layer, self.step, base, self.runs, self.size, "middle", label=self.label)
         else:
             x, y = left, low + self.size * self.depth
-            yield Text(self.pen, "letters", self.step, (x, y), self.runs, self.size, bold=self.bold, label=self.label)
+            yield Text(self.pen, self.layer, self.step, (x, y), self.runs, self.size, bold=self.bold, label=self.label)
             if self.raised:
                 at = x + self.tail, y + self.lift
-                yield Text(pens.FAINT, "letters", self.step, at, self.figures, self.letters.text,
+                yield Text(pens.FAINT, self.layer, self.step, at, self.figures, self.letters.text,
                            label=f"step {self.raised}")
 
 

@@ -16,15 +16,18 @@ from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Item, Rect, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import around, corner
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.symbols import RADIUS
+from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 ALONG = 0.97, 0.03, 0.9, 0.1, 0.8, 0.2, 0.65, 0.35, 0.5  # where along a line its letter may stand
 MIDDLE, NEAR_HEAD = (0.5, 0.4, 0.6, 0.3, 0.7), (0.7, 0.65, 0.75, 0.6, 0.8)  # the same along a vector
 NEAR = 0.25
 NUMBERED = 0.5, 0.4, 0.6, 0.3, 0.7  # the same of the number of a line that ends at its marks
+PATH_PLACES = 24  # along a path, where its letters may stand
 STRUCK = 1.0, 0.0, 0.85, 0.15, 0.7, 0.3, 0.5  # the same along an arc
 
 Span = tuple[Spot, Spot]
@@ -35,13 +38,14 @@ def picture(plate: Plate) -> list[Item]:
     items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
-        mechanism = plate.drawn_mechanism
-        letters = mechanism.letters().items()
-        joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in letters]
-        wishes = [*joints, *mechanism.wishes(), *wishes]
-        marks += list(mechanism.shown.values())
+        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
+        named = mechanism.letters().items()
+        joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in named]
+        wishes = [*joints, *mechanism.wishes(), *wishes, *_path_letters(plate)]
+        marks += list(mechanism.spots.values())
     rect = plate.view.rect
-    return items + placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
+    letters = placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
+    return [*items, *letters, *plate.positions(letters)]
 
 
 def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
@@ -49,6 +53,16 @@ def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
             yield replace(wish, spots=spots)
+
+
+def _path_letters(plate: Plate) -> Iterator[Wish]:
+    """Whose path a curve is, where most room is beside it."""
+    motion = plate.plans.motion
+    for path in motion.paths if motion else ():
+        spots = tuple(map(plate.view, path.spots[:: len(path.spots) // PATH_PLACES + 1]))
+        runs = sentence_runs(plate.plans.tongue(said("path of {0}", path.point)), (path.point,))
+        yield Wish(runs, spots, 0.6, True, pens.FAINT, label=f"path {path.point}", free=True,
+                   layer=MOTION)
 
 
 @dataclass(frozen=True)

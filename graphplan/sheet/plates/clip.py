@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
+from dataclasses import replace
 
-from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Rect, Spot
+from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Rect, Spot
+
+AIR = 0.6  # mm that a line keeps off letters at which it breaks off
 
 
 def segment(rect: Rect, start: Spot, end: Spot) -> tuple[float, float] | None:
@@ -29,7 +32,12 @@ def between(start: Spot, end: Spot, t: float) -> Spot:
 
 
 def clipped(item: Item, rect: Rect) -> Iterator[Item]:
-    """The item as far as it lies in the rectangle: strokes are cut; vectors, figures and letters are left whole."""
+    """The item as far as it lies in the rectangle: strokes are cut; vectors, figures and letters are left whole.
+
+    A circle is left out with its middle.
+    """
+    if isinstance(item, Circle) and not rect.holds(item.centre):
+        return
     if isinstance(item, Arc):
         spots = item.spots()
         if all(map(rect.holds, spots)):
@@ -50,3 +58,13 @@ def _cut(item: Polyline | Polygon, rect: Rect) -> Iterator[Item]:
     inside = shapely.clip_by_rect(shapely.LineString(spots), rect.left, rect.bottom, rect.right, rect.top)
     for run in shapely.get_parts(inside):
         yield Polyline(item.pen.filled("none"), item.layer, item.step, tuple(run.coords))
+
+
+def spared(line: Polyline, rect: Rect, boxes: Iterable[Rect]) -> Iterator[Item]:
+    """What of a line lies inside, and off some boxes."""
+    import shapely
+
+    inside = shapely.clip_by_rect(shapely.LineString(line.spots), rect.left, rect.bottom, rect.right, rect.top)
+    covered = [shapely.box(box.left - AIR, box.bottom - AIR, box.right + AIR, box.top + AIR) for box in boxes]
+    for run in shapely.get_parts(inside.difference(shapely.union_all(covered))):
+        yield replace(line, spots=tuple(run.coords))

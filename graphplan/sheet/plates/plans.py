@@ -17,6 +17,7 @@ from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
+from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.words.tongue import ENGLISH, Tongue
 
 
@@ -29,24 +30,28 @@ def corner(step: Step) -> bool:
 class Extent:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
 
-    `nice` is room for half circles, taken where it costs nothing.
+    `path` is how far paths of points reach, which may cost a bit; `nice` is room for half circles and positions, taken
+    where it costs nothing.
     """
 
     core: Rect
     extra: tuple[Spot, ...]
     nice: tuple[Spot, ...] = ()
+    path: tuple[Spot, ...] = ()
 
 
 @dataclass(frozen=True)
 class Plans:
     """A construction seen plan by plan, and the tongue in which its sheet speaks.
 
-    Where it is `numbered`, every mark bears the number of its step, lettered marks too.
+    Where it is `numbered`, every mark bears the number of its step, lettered marks too. `motion` is what the mechanism
+    plan shows of it, if anything.
     """
 
     drawing: Construction
     tongue: Tongue = ENGLISH
     numbered: bool = False
+    motion: TracedMotion | None = None
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:
@@ -151,7 +156,9 @@ class Plans:
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        return Extent(box, tuple(spot for far, spot in extra if far > 0), tuple(self._apexes(panel)))
+        motion = self.motion if panel == MECHANISM else None
+        path, poses = (motion.path_ends, motion.position_ends) if motion else ((), ())
+        return Extent(box, tuple(spot for far, spot in extra if far > 0), (*self._apexes(panel), *poses), path)
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

@@ -18,7 +18,7 @@ from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import digits
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.plates import clip, pens
-from graphplan.sheet.plates.display import Circle, Item, Rect, Spot
+from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER, DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
@@ -133,15 +133,19 @@ class Plate:
         return [mark for mark in on if mark.panel == self.panel]
 
     @cached_property
-    def drawn_mechanism(self) -> DrawnMechanism:
-        """The mechanism, or what of it is shown."""
-        return DrawnMechanism(self.plates.scene, self.view)
-
-    @cached_property
     def mechanism(self) -> list[Item]:
-        """The links, pairs and ground, on the plan of the mechanism."""
-        shown = self.drawn_mechanism.items() if self.panel == MECHANISM else ()
+        """The links, pairs and ground, on the plan of the mechanism, and the paths of points."""
+        if self.panel != MECHANISM:
+            return []
+        motion = self.plans.motion
+        shown = [*(motion.items(self.view) if motion else ()), *DrawnMechanism(self.plates.scene, self.view).items()]
         return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
+
+    def positions(self, letters: Iterable[Item]) -> Iterator[Item]:
+        """Other positions of the mechanism in faint lines, which break off at letters."""
+        motion = self.plans.motion if self.panel == MECHANISM else None
+        for item in motion.faint(self.plates.scene, self.view) if motion else ():
+            yield from clip.spared(item, self.view.rect, [letter.box for letter in letters if isinstance(letter, Text)])
 
     def items(self) -> Iterator[Item]:
         """Every stroke of the plan as it lies, cut off at the panel's edge, in drawing order."""

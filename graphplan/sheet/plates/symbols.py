@@ -6,7 +6,7 @@ Everything is in millimetres on paper and of fixed size, whatever the scale.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot
@@ -18,6 +18,7 @@ LONG, HIGH, GUIDE = 4.4, 2.3, 13.0  # half the length and height of a block, hal
 ELBOW = 2.6
 SHADED = 9.0  # of the sides of a plate, at its hatched corner
 AROUND, DRIVEN, SWEEP = 7.0, 41.0, 54.0  # the arrow of a drive: its radius, how far off the crank, how long, in degrees
+NEAR = 0.05  # spots closer than this are one
 GROUNDED = 0.35  # the cosine of the angle within which it would run into the ground
 
 Vector = tuple[float, float]
@@ -141,6 +142,15 @@ def hull(spots: Sequence[Spot]) -> tuple[Spot, ...]:
 def turn(a: Spot, b: Spot, c: Spot) -> float:
     """Twice the area of a triangle, positive counter-clockwise."""
     return (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])
+
+
+def places(spots: Iterable[Spot]) -> list[Spot]:
+    """The spots in order, coincident ones once."""
+    found: list[Spot] = []
+    for spot in spots:
+        if all(math.dist(spot, other) > NEAR for other in found):
+            found.append(spot)
+    return found
 
 
 def straight(spots: Sequence[Spot]) -> bool:

@@ -1,0 +1,111 @@
+"""The motion of a mechanism on its plan: the paths of points, and where its links stand on the way."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+
+from graphplan.mechanism.model import Scene
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
+from graphplan.sheet.plates.symbols import hull, off, places, straight, unit
+
+View = Callable[[Spot], Spot]
+LAYER = "motion"
+FINE = 0.01  # mm by which what is drawn of a path may be off
+AGAIN = 0.05  # mm: a path that goes back so near to itself is drawn once
+STOP, DOT = 1.5, 0.35  # mm: half of the stroke across the end of a path; the radius of the dots on it
+
+
+@dataclass(frozen=True)
+class PointPath:
+    """The path of a point, spot by spot in lengths of the scene, and whether the motion stops at its two ends."""
+
+    point: str
+    spots: tuple[Spot, ...]
+    stops: tuple[bool, bool]
+
+    def chain(self, view: View) -> tuple[Spot, ...]:
+        """The path on paper."""
+        return once([view(spot) for spot in self.spots])
+
+
+@dataclass(frozen=True)
+class TracedMotion:
+    """Paths of points, and positions of the mechanism: the places of all points in each."""
+
+    paths: tuple[PointPath, ...]
+    positions: tuple[Mapping[str, Spot], ...]
+
+    @property
+    def path_ends(self) -> tuple[Spot, ...]:
+        """The corners of the box of all paths."""
+        return _corners([spot for path in self.paths for spot in path.spots])
+
+    @property
+    def position_ends(self) -> tuple[Spot, ...]:
+        """The corners of the box of all positions."""
+        return _corners([spot for position in self.positions for spot in position.values()])
+
+    def faint(self, scene: Scene, view: View) -> Iterator[Polyline]:
+        """The links in all positions."""
+        for position in self.positions:
+            for link in scene.moving:
+                spots = [view(position[name]) for name in scene.links[link]]
+                yield from (Polyline(pens.POSITION, LAYER, None, chain) for chain in outline(spots))
+
+    def items(self, view: View) -> Iterator[Item]:
+        """The paths, a dot on them for each position, and a stroke across their ends where the motion stops."""
+        for path in self.paths:
+            chain = path.chain(view)
+            yield Polyline(pens.PATH, LAYER, None, chain)
+            for stopped, end in zip(path.stops, (chain, chain[::-1]), strict=True):
+                if stopped:
+                    yield _stop(end)
+        for point in dict.fromkeys(path.point for path in self.paths):
+            dots = (view(position[point]) for position in self.positions)
+            yield from (Circle(pens.PATH_DOT, LAYER, None, dot, DOT) for dot in dots)
+
+
+def _corners(spots: Sequence[Spot]) -> tuple[Spot, ...]:
+    """The lower left and the upper right of a box around some spots; of none nothing."""
+    xs, ys = [x for x, _ in spots], [y for _, y in spots]
+    return ((min(xs), min(ys)), (max(xs), max(ys))) if spots else ()
+
+
+def outline(spots: Sequence[Spot]) -> Iterator[tuple[Spot, ...]]:
+    """The lines of a link: one through all its points, or its hull; none of a link with points at one place alone."""
+    apart = places(spots)
+    if len(apart) > 1 and straight(apart):
+        yield max(((p, q) for p in apart for q in apart), key=lambda ends: math.dist(*ends))
+    elif len(apart) > 1:
+        corners = hull(apart)
+        yield (*corners, corners[0])
+
+
+def once(spots: Sequence[Spot]) -> tuple[Spot, ...]:
+    """A chain with no more spots than it takes; of one that goes back on its own way, that way alone."""
+    import shapely  # where nothing is drawn, as for a list of steps, it is not needed
+
+    if math.dist(spots[0], spots[-1]) < AGAIN:
+        ring = [spot for spot, after in pairwise(spots) if spot != after]
+        turns = [k for k, spot in enumerate(ring) if _turns_back(ring[k - 1], spot, ring[k + 1 - len(ring)])]
+        if len(turns) == 2:
+            (first, last), ring = turns, ring + ring
+            ways = [shapely.LineString(ring[a : b + 1]) for a, b in ((first, last), (last, first + len(ring) // 2))]
+            if shapely.hausdorff_distance(*ways) < AGAIN:
+                return tuple(ways[0].simplify(FINE).coords)
+    return tuple(shapely.LineString(spots).simplify(FINE).coords)
+
+
+def _turns_back(before: Spot, here: Spot, after: Spot) -> bool:
+    """Whether a chain goes back the way it came."""
+    return sum((q - p) * (r - q) for p, q, r in zip(before, here, after, strict=True)) < 0
+
+
+def _stop(spots: Sequence[Spot]) -> Item:
+    """The stroke across the first end of a chain."""
+    way = next((unit(p, q) for p, q in pairwise(spots) if math.dist(p, q) > FINE), (1.0, 0.0))
+    return Polyline(pens.PATH_END, LAYER, None, (off(spots[0], way, 0.0, STOP), off(spots[0], way, 0.0, -STOP)))

@@ -214,7 +214,7 @@ def _ordinates(carry: str, s: Any, A1: Any, A2: Any, Z1: Any, l1: Any, Z2: Any, 
 
 @primitive((POINT, POINT, POINT, LINE, POINT, LINE), POINT, STRAIGHTEDGE,
            "Trial {0} leaves {2} off {3}, trial {1} leaves {4} off {5}: by false position mark {out}, which leaves "
-           "nothing.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
+           "no error.", claims=(("alike", 3, 5), ("along", (0, -1), (0, 1)), ("balanced", 0, 1, 2, 3, 4, 5)),
            fails=("points-coincide", "trials-agree"), source="false position; Rosenauer 1939, No. 14", where=0,
            method="false position", forms={
                "a trial that fits": lambda s, A1, A2, Z1, l1, Z2, l2:

@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper
 from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
-from graphplan.mechanism.presentation import ASIDE, PROTOCOLS
 from graphplan.output import back_end
 
 if TYPE_CHECKING:
@@ -52,8 +51,7 @@ def run(options: argparse.Namespace) -> int:
 
     positions = POSITIONS if options.positions is None else options.positions
     afford("--positions", positions, "drawn positions", SHOWN)
-    if options.protocol == PROTOCOLS[0]:
-        options.protocol = ASIDE  # what changes from pose to pose stands on one page
+    options.protocol = "none"  # the page itself has the words
     on_sheet = on_paper(options)
     write(stepper(_round(on_sheet.drawing, on_sheet.composition, positions)), options.output)
     return 0
@@ -73,10 +71,8 @@ def _pages(composition: Composition, only: str | None) -> list[Sheet]:
     """The pages of the parts that are wanted."""
     from graphplan.sheet.handout import guided, solution, task
 
-    solved = solution(composition)
-    pages = {"task": lambda: task(solved[0], composition), "guided": lambda: guided(solved[0], composition),
-             "solution": lambda: solved}
-    return [sheet for part in PARTS if only in (None, part) for sheet in pages[part]()]
+    pages = {"task": task, "guided": guided, "solution": solution}
+    return [sheet for part in PARTS if only in (None, part) for sheet in pages[part](composition)]
 
 
 def _round(drawing: Construction, composition: Composition, positions: int) -> CycleFrames:

@@ -99,13 +99,13 @@ class Desk:
         from graphplan.marking.judge.score import score
         from graphplan.marking.submission import read
         from graphplan.marking.traces import PlanFrame
-        from graphplan.sheet.handout import code, solution, task
+        from graphplan.sheet.handout import code, task
 
         composition = self.on_sheet.composition
         frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
         size = composition.arrangement.width, composition.arrangement.height
         submission = read(path, list(composition.views), frames,  # task and guided version have the same plans
-                          lambda: task(solution(composition)[0], composition)[0], code(composition), size)
+                          lambda: task(composition)[0], code(composition), size)
         work = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
         found = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))

@@ -33,6 +33,13 @@ def _ordered_loads(loads: Loads) -> Loads:
                    frictions=tuple(sorted(loads.frictions, key=lambda f: (f.slide or (), by_name(f.at)))))
 
 
+def named_forces(loads: Loads) -> dict[str, Force]:
+    """The given forces by their letters: P_2 and P_2' on link 2."""
+    forces = _ordered_loads(loads).forces
+    links = [force.on for force in forces]
+    return {f"P_{force.on}" + "'" * links[:i].count(force.on): force for i, force in enumerate(forces)}
+
+
 def ordered_links(scene: Scene) -> dict[str, tuple[str, ...]]:
     """Each link with its points."""
     links = sorted(scene.links, key=lambda link: (link == FRAME, by_name(link)))

@@ -1,7 +1,8 @@
 """The stepper: a construction as one page for a browser, step by step and pose by pose, that needs no network.
 
-The page is a template with the sheet in it as SVG, a group for each layer and step, and data: what each step reads and
-makes, and for every other pose the groups that look otherwise there, packed with gzip.
+The page is a template with the sheet in it as SVG, a group for each layer and step, the protocol and the results in
+words, and data: what each step reads and makes, and for every other pose what is otherwise there, packed with gzip.
+Without a script it is the finished sheet with its protocol.
 """
 
 from __future__ import annotations
@@ -10,8 +11,7 @@ import base64
 import gzip
 import json
 import re
-from collections.abc import Iterable, Iterator
-from dataclasses import replace
+from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
 from html import escape
 from importlib.resources import files
@@ -20,24 +20,29 @@ from xml.etree.ElementTree import tostring
 
 from svgwrite.container import SVG
 
+from graphplan.kernel.stages import Equation
 from graphplan.output.svg import MAKE, Element, group, inked, parted
 from graphplan.phrases import Said, arranged, digits, joined, said
 from graphplan.sheet.cycle_frames import CycleFrame, CycleFrames
-from graphplan.sheet.lettering.lettering import sentence_runs
-from graphplan.sheet.plates.display import Item, Rect, Sheet, Text
+from graphplan.sheet.lettering.lettering import Runs, sentence_runs
+from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.plates.pens import PAPER
-from graphplan.sheet.words.texts import RESULTS
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol
+from graphplan.sheet.words.tables import Table
+from graphplan.sheet.words.texts import Words
 
 PACKING = 9  # how hard gzip tries
 MECHANISM_LAYERS = ("plates", "ground", "links", "blocks", "drive", "pairs", "letters")
+LEVELS = "{}", "<sup>{}</sup>", "<sub>{}</sub>"  # of letters: on the line, above it, and, as the last, below
 WORDS = {  # what stands on the page
     "previous": said("Previous step"), "next": said("Next step"), "first": said("First step"),
     "last": said("Last step"), "play": said("Play"), "pause": said("Pause"), "step": said("Step"),
     "steps": said("Steps"), "sheet": said("Sheet"), "controls": said("Controls"), "zoom": said("Zoom to the plan"),
-    "turn": said("Turn of the drive"), "reads": said("reads"), "makes": said("makes"),
+    "turn": said("Turn of the drive"), "reads": said("reads"), "makes": said("makes"), "results": said("Results"),
     "begin": said("The mechanism as it is given; nothing is drawn yet."),
     "old": said("This browser cannot unpack the other poses."),
-    "keys": said("Keys: arrows, Home, End, space."),
+    "keys": said("Keys: arrows, Page Up and Page Down for stages, Home, End, space."),
 }  # fmt: skip
 
 Groups = dict[str, Element]  # every group of a sheet, by layer or step
@@ -52,14 +57,15 @@ def stepper(found: CycleFrames) -> str:
 
 def _parts(found: CycleFrames) -> dict[str, str]:
     """What the page is filled with besides words."""
-    sheet = found.frames[0].sheet
-    poses = list(_poses(found.frames))
+    sheet, plans = found.frames[0].sheet, found.composition.plans
+    poses, passages = list(_poses(found.frames)), Protocol(plans, found.composition.scales).passages
     return {
         "language": sheet.language, "title": escape(sheet.title), "source": escape(found.drawing.scene.source),
         "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _picture(found, poses),
-        "list": "\n".join(_entries(found)), "turned": "" if len(found.frames) > 1 else "hidden",
-        "remark": escape(_remark(found)), "data": _script(json.dumps(_data(found), ensure_ascii=False)),
-        "poses": _packed(found, poses), "scene": _script(sheet.scene),
+        "list": "\n".join(_protocol(found, passages)), "results": _results(found.frames[0].plans),
+        "turned": "" if len(found.frames) > 1 else "hidden", "remark": escape(_remark(found)),
+        "data": _script(json.dumps(_data(found, passages), ensure_ascii=False)), "poses": _packed(found, poses),
+        "scene": _script(sheet.scene),
     }  # fmt: skip
 
 
@@ -74,8 +80,12 @@ def _degrees(travel: float) -> Said:
 def _set(found: CycleFrames, text: str) -> str:
     """Words with the names of marks set as on the sheet."""
     names = tuple(step.name for step in found.drawing.drawn.steps if step.name)
-    runs = sentence_runs(_say(found, text), names)
-    return "".join(f"<sub>{escape(run.text)}</sub>" if run.level else escape(run.text) for run in runs)
+    return _html(sentence_runs(_say(found, text), names))
+
+
+def _html(runs: Runs) -> str:
+    """Lettering as HTML."""
+    return "".join(LEVELS[run.level].format(escape(run.text)) for run in runs)
 
 
 def _remark(found: CycleFrames) -> str:
@@ -89,31 +99,99 @@ def _remark(found: CycleFrames) -> str:
     return ""
 
 
-def _entries(found: CycleFrames) -> Iterator[str]:
-    """The steps as items of an ordered list."""
-    drawn, panel = found.drawing.drawn, ""
-    for step in drawn.steps[drawn.givens:]:
-        plan = _say(found, arranged("{0:capital}", step.panel.words))
-        head = f'<span class="plan">{escape(plan)}</span>' if step.panel != panel else ""
-        panel = step.panel
-        yield f'<li>{head}<button type="button">{_set(found, drawn.sentence(step.index))}</button></li>'
+# ---- the words ---------------------------------------------------------------------------------------------------
 
 
-def _data(found: CycleFrames) -> dict[str, Any]:
+def _protocol(found: CycleFrames, passages: Iterable[Passage]) -> Iterator[str]:
+    """The stages with their entries, and in these their movements, as items of an ordered list."""
+    plan = ""
+    for passage in passages:
+        if passage.plan != plan:
+            plan = passage.plan
+            yield f"<li><h3>{_set(found, arranged('{0:capital}', passage.plan.words))}</h3></li>"
+        yield f'<li class="stage">{_head(found, passage)}<ol>{"".join(_entries(found, passage.entries))}</ol></li>'
+
+
+def _head(found: CycleFrames, passage: Passage) -> str:
+    """A stage's title, its equations with what is known in them underlined, and its law."""
+    if passage.stage is None or passage.title is None:
+        return ""
+    equations = () if passage.again else passage.stage.equations
+    told = [f"<h4>{_set(found, arranged('{0:capital}', passage.title))}</h4>"]
+    told += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
+    told += [f"<p>{_set(found, arranged('{0:capital}.', passage.law))}</p>"] if passage.law else []
+    return "".join(told)
+
+
+def _equation(equation: Equation) -> str:
+    """An equation whose vectors are underlined as often as numbers of them are known."""
+    told, done = "", 0
+    for start, end, times in equation.underlined:
+        told += _symbols(equation.text[done:start])
+        told += f'<span class="known-{times}">{_symbols(equation.text[start:end])}</span>'
+        done = end
+    return told + _symbols(equation.text[done:])
+
+
+def _symbols(text: str) -> str:
+    """A part of an equation: a_n and a^n as they are written by hand."""
+    return re.sub(r"\^(\w+)", r"<sup>\1</sup>", _html(sentence_runs(text)))
+
+
+def _entries(found: CycleFrames, entries: Iterable[Entry]) -> Iterator[str]:
+    """Entries as items of a list; one of several movements has a list of these."""
+    for entry in entries:
+        told = f'<b>{entry.number}</b> <span>{_set(found, entry.told)}</span>'
+        last = entry.movements[-1].number
+        if not entry.folded:
+            yield f'<li><button type="button" data-place="{last}">{told}</button></li>'
+            continue
+        parts = "".join(f'<li><button type="button" data-place="{one.number}"><b>{one.number}</b> '
+                        f'<span>{_set(found, one.sentence)}</span></button></li>' for one in entry.movements)
+        yield f'<li><button type="button" class="whole" data-until="{last}">{told}</button><ol>{parts}</ol></li>'
+
+
+def _results(plans: Plans) -> str:
+    """What is read when all is drawn, as tables."""
+    return "".join(f"<table>{''.join(_rows(table))}</table>" for table in Words(plans).result_tables())
+
+
+def _rows(table: Table) -> Iterator[str]:
+    """The rows of a table, its head first."""
+    for number, row in enumerate(table):
+        cell = "th" if number == 0 else "td"
+        yield f"<tr><th>{_html(row[0])}</th>{''.join(f'<{cell}>{_html(runs)}</{cell}>' for runs in row[1:])}</tr>"
+
+
+# ---- the data ----------------------------------------------------------------------------------------------------
+
+
+def _data(found: CycleFrames, passages: Sequence[Passage]) -> dict[str, Any]:
     """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
     drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.frames[0].sheet
     panels = list(sheet.panels)
-    steps = [{
-        "name": _set(found, drawn.text(step.index)), "told": _set(found, drawn.told(step.index)),
-        "plan": panels.index(plans.plan_of_step[step.index]), "reads": list(step.args),
-        "span": list(step.args) if step.op.spans else [],
-    } for step in drawn.steps]  # fmt: skip
+    parts = {one.index: (stage, _whole(found, entry), one.sentence if entry.folded else entry.told)
+             for stage, passage in enumerate(passages) for entry in passage.entries for one in entry.movements}
+    steps = []
+    for step in drawn.steps:
+        stage, whole, told = parts.get(step.index, (None, "", ""))
+        steps.append({
+            "name": _set(found, drawn.text(step.index)), "told": _set(found, told), "stage": stage, "whole": whole,
+            "plan": panels.index(plans.plan_of_step[step.index]), "reads": list(step.args),
+            "span": list(step.args) if step.op.spans else [],
+        })  # fmt: skip
     return {
         "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},
+        "stages": [_head(found, passage) for passage in passages],
         "panels": [_box(sheet, rect) for rect in sheet.panels.values()],
+        "plans": _box(sheet, found.composition.plates.box), "spots": _spots(found.frames[0]),
         "travels": [_say(found, _degrees(frame.travel)) for frame in found.frames],
-        "spots": _spots(found.frames[0]),
     }  # fmt: skip
+
+
+def _whole(found: CycleFrames, entry: Entry) -> str:
+    """What a movement is a part of."""
+    return f"{entry.number}. {_set(found, entry.sentence)}" if entry.folded else ""
 
 
 def _spots(frame: CycleFrame) -> dict[int, tuple[float, float]]:
@@ -130,24 +208,14 @@ def _box(sheet: Sheet, rect: Rect) -> list[float]:
 
 
 def _poses(frames: Iterable[CycleFrame]) -> Iterator[Groups]:
-    """The groups of each sheet; the words of the steps stand in groups apart, as a page lights them up otherwise.
-
-    What is drawn alike in two poses that follow each other is one group.
-    """
+    """The groups of each sheet. What is drawn alike in two poses that follow each other is one group."""
     drawn: dict[str, tuple[list[Item], Element]] = {}
     for frame in frames:
-        sheet, before, drawn = replace(frame.sheet, items=tuple(map(_apart, frame.sheet.items))), drawn, {}
-        for key, items in parted(sheet):
+        before, drawn = drawn, {}
+        for key, items in parted(frame.sheet):
             was = before.get(str(key))
-            drawn[str(key)] = was if was and was[0] == items else (items, inked(sheet, key, items))
+            drawn[str(key)] = was if was and was[0] == items else (items, inked(frame.sheet, key, items))
         yield {key: element for key, (_, element) in drawn.items()}
-
-
-def _apart(item: Item) -> Item:
-    """Words of a step, in a layer of their own."""
-    if isinstance(item, Text) and item.layer == "text" and item.step is not None:
-        return replace(item, layer=f"words-{item.step}", step=None)
-    return item
 
 
 def _picture(found: CycleFrames, poses: list[Groups]) -> str:
@@ -169,7 +237,7 @@ def _picture(found: CycleFrames, poses: list[Groups]) -> str:
 
 def _place(key: str) -> tuple[int, int]:
     """From back to front: paper and links, the halos of marks, steps, pairs and letters, words."""
-    back, front = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text", RESULTS)
+    back, front = ("paper", "plates", "ground", "links"), ("blocks", "drive", "pairs", "letters", "text")
     if key.isdigit():
         return 1, int(key)
     return (0, back.index(key)) if key in back else (2, front.index(key) if key in front else len(front))
@@ -183,8 +251,6 @@ def _empty(key: str, sheet: Sheet) -> Element:
 def _marked(key: str, group: Element, panel: int) -> Element:
     """A group of the picture with its key, cut off where its plan ends."""
     group["data-key"] = key
-    if key.startswith("words-"):
-        group.update({"class": "words", "data-step": key.removeprefix("words-")})
     if key.isdigit() or key in MECHANISM_LAYERS:
         group["clip-path"] = f"url(#panel-{panel})"
     return group
@@ -205,7 +271,7 @@ def _packed(found: CycleFrames, poses: list[Groups]) -> str:
     keys = dict.fromkeys(key for pose in poses for key in pose)
     varied = {key: [pose.get(key, "") for pose in insides] for key in keys}
     data = {"groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
-            "spots": list(map(_spots, found.frames))}
+            "spots": list(map(_spots, found.frames)), "results": [_results(frame.plans) for frame in found.frames]}
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
 

@@ -27,8 +27,6 @@ from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.view import View
-from graphplan.sheet.words.tables import Deviations
-from graphplan.sheet.words.texts import Words
 
 SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails
 Given = dict[Any, dict[str, float]]
@@ -97,9 +95,11 @@ def _scene(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, com
 
 @dataclass(frozen=True)
 class CycleFrame:
-    """One pose of the round on paper: how far the drive has gone, in degrees, the sheet, and where its marks lie."""
+    """One pose of the round on paper: how far the drive has gone, in degrees, the sheet without its words, and where
+    its marks lie."""
 
     travel: float
+    plans: Plans
     sheet: Sheet
     spots: dict[int, Spot]
 
@@ -141,8 +141,9 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
             lost[-1].append(k)
         else:
             lost.append([k])
-    base, words = _roomy(composition, [Plans(found) for found in poses.values()]), Words(composition.plans)
-    frames = (_frame(travel, _composed(base, words, found)) for travel, found in poses.items())
+    base = _roomy(composition, [Plans(found) for found in poses.values()])
+    frames = (_frame(travel, replace(base, plans=replace(base.plans, drawing=found)))
+              for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
     return CycleFrames(drawing, base, (_frame(0.0, base), *frames), ends)
 
@@ -186,17 +187,9 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
 
 def _frame(travel: float, composition: Composition) -> CycleFrame:
     """A composed construction on its sheet."""
-    spots = {drawn.index: drawn.at for drawn in composition.plates.steps if drawn.kind == POINT}
-    return CycleFrame(travel, layout(composition.plans.drawing, composition=composition), spots)
-
-
-def _composed(base: Composition, words: Words, drawing: Posed) -> Composition:
-    """The same composition of another pose; its words, else those of all poses, tell the results of that pose."""
-    plans = replace(base.plans, drawing=drawing)
-    arrangement = base.arrangement
-    told = replace(words, plans=plans)
-    rows = arrangement.set(lambda wide: told.rows(wide, Deviations())) if arrangement.columns else ()
-    return replace(base, plans=plans, arrangement=replace(arrangement, rows=rows))
+    bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
+    spots = {drawn.index: drawn.at for drawn in bare.plates.steps if drawn.kind == POINT}
+    return CycleFrame(travel, bare.plans, layout(bare.plans.drawing, composition=bare), spots)
 
 
 def slid(view: View, box: Rect) -> View:

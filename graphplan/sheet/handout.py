@@ -1,33 +1,39 @@
 """Handouts: the sheet that a student draws on, with or without the steps, in the frame and windows of the solution.
 
-A student's drawing lies exactly over the solution, so both have one composition; even the letters of the mechanism
-stand in the same places.
+A student's drawing lies exactly over the solution, so both have one composition.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from functools import partial
 
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
 from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
+from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import pages, titled
-from graphplan.sheet.layout.paper import packed
+from graphplan.sheet.layout.layout import captions, framed, pages, sheet, words_pages
+from graphplan.sheet.layout.paper import enlarged, packed, words_page
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.lettering import listed
-from graphplan.sheet.plates.display import Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text, within
+from graphplan.sheet.lettering.letters import of_mechanism
+from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Sheet, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import LAYER
-from graphplan.sheet.plates.pens import BORDER, GREY, ORIGIN, Pen
+from graphplan.sheet.plates.given_arrows import GivenArrows
+from graphplan.sheet.plates.pens import GREY, ORIGIN, Pen
+from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.selection import with_numbers
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
-from graphplan.sheet.words.rows import lettered
+from graphplan.sheet.words.rows import fill
 from graphplan.sheet.words.task import Task
 
 RULING, RULED, CROSS = Pen(0.13, GREY), 10.0, 0.5  # a cross every 10 mm, half so long
+LARGE = 1.4  # times: the words of one page that has room for it
 FREE = 4.0  # mm about a beginning without crosses
 
 
@@ -43,54 +49,65 @@ def code(composition: Composition) -> int:
     return sheet_code("\n".join((composition.plans.drawing.scene.text, composition.arrangement.paper, *windows)))
 
 
-def task(solved: Sheet, composition: Composition) -> list[Sheet]:
-    """The task of a solution: the mechanism, what is given and asked, empty plans, and a table to fill."""
-    return list(_pages(solved, composition, TASK))
+def task(composition: Composition) -> list[Sheet]:
+    """The task: the mechanism, what is given and asked, empty plans, and a table to fill."""
+    return _pages(composition, TASK)
 
 
-def guided(solved: Sheet, composition: Composition) -> list[Sheet]:
+def guided(composition: Composition) -> list[Sheet]:
     """The same with the steps in words, a box to tick before each; the drawing is the student's."""
-    return list(_pages(solved, composition, GUIDED))
+    return _pages(composition, GUIDED)
 
 
-def _pages(solved: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
-    """The sheet with its plans, and the pages of words that do not fit beside them."""
-    arrangement = composition.arrangement
-    words = arrangement.set(lambda wide: Task(composition.plans).lines(wide, document == GUIDED))
-    apart = (*arrangement.columns, arrangement.title)
-    bare = [item for item in solved.items if item.step is None and item.layer != MOTION and not within(item, apart)]
-    begun = [item for panel in composition.views for item in _plan(composition, panel, bare)]
-    empty = [item for item in bare if not within(item, arrangement.panels.values())]
-    filled = packed(words, arrangement)
-    marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
-    for number, page in enumerate(filled, 1):
-        block = titled(composition, document, number, len(filled))
-        items = [*(bare + begun + marks if number == 1 else empty), *block, *lettered(page)]
-        yield replace(solved, items=tuple(items), panels=solved.panels if number == 1 else {})
+def _pages(composition: Composition, document: Said) -> list[Sheet]:
+    """The sheet with its plans, and pages of words where there is no room for them beside the plans."""
+    composition = _worded(composition, document == GUIDED)
+    items = [*framed(composition), *captions(composition)]
+    for plate in composition.plates:
+        items += _begun(plate)
+    first = sheet(composition, items, document)
+    marks = corner_marks(first.width, first.height, first.frame, code(composition))
+    marked = replace(first, items=(*first.items, *marks))
+    return [marked, *words_pages(first, composition, document)]
 
 
-def _plan(composition: Composition, panel: str, bare: Sequence[Item]) -> Iterator[Item]:
-    """What a plan has before its first step: where it begins, and crosses to measure by unless the mechanism is there.
-    """
-    rect = composition.views[panel].rect
-    begins = [drawn for drawn in composition.plates.steps if drawn.panel == panel and drawn.free and drawn.number]
+def _worded(composition: Composition, guided: bool) -> Composition:
+    """The composition with other words in the place of the protocol, on pages of A4 where they are apart."""
+    arrangement, scene = composition.arrangement, composition.plans.drawing.scene
+    words, frame = partial(Task(composition.plans, composition=composition).lines, guided=guided), frame_of(scene)
+    rows = arrangement.set(words) if arrangement.columns else ()
+    if rows and fill(rows, arrangement.columns) is not None:
+        return replace(composition, arrangement=replace(arrangement, rows=rows), protocol=())
+    page = words_page(frame.paper("A4"), frame, frame.block(scene, composition.plans.tongue))
+    filled = packed(enlarged(words, LARGE)(page.further[0].width), page)
+    if len(filled) > 1:
+        filled = packed(page.set(words), page)
+    apart = tuple((page, one) for one in filled)
+    return replace(composition, arrangement=replace(arrangement, rows=()), protocol=apart)
+
+
+def _begun(plate: Plate) -> Iterator[Item]:
+    """What a plan has before its first step: the mechanism with what drives and loads it, or crosses to measure by; and
+    where it begins."""
+    rect, begins = plate.view.rect, plate.beginnings
     spots = [drawn.at for drawn in begins]
-    dots = [Circle(ORIGIN, LAYER, drawn.index, drawn.at, 0.5) for drawn in begins]
+    items: list[Item] = [Circle(ORIGIN, LAYER, drawn.index, drawn.at, plate.size(drawn)) for drawn in begins]
     wishes = [Wish(listed([drawn.name]), (drawn.at,), step=drawn.index, label=drawn.name)
               for drawn in begins if drawn.name]
-    around = [_covered(item) for item in bare if within(item, (rect,))]
-    if panel != MECHANISM:
+    if plate.panel == MECHANISM:
+        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
+        given = list(GivenArrows(mechanism, plate.plans.tongue))
+        items += (item for item in plate.mechanism if item.layer != MOTION)
+        items += (item for arrow, _ in given for item in arrow)
+        wishes += [*of_mechanism(mechanism), *(value for _, value in given)]
+        spots += mechanism.spots.values()
+    else:
         yield from _ruling(rect, spots)
-    yield from dots
-    yield from placed(wishes, [*dots, *around], spots, rect, composition.arrangement.letters)
+    yield from items
+    yield from placed(wishes, items, spots, rect, plate.plates.letters)
 
 
-def _covered(item: Item) -> Item:
-    """What an item covers: lettering is as solid as a figure."""
-    return Polygon(BORDER, item.layer, None, item.box.corners) if isinstance(item, Text) else item
-
-
-def _ruling(rect: Rect, spots: list[Spot]) -> Iterator[Item]:
+def _ruling(rect: Rect, spots: Sequence[Spot]) -> Iterator[Item]:
     """Crosses a centimetre apart, from where the plan begins."""
     x0, y0 = spots[0] if spots else rect.centre
     for y in _marks(y0, rect.bottom, rect.top):

@@ -37,7 +37,7 @@ from graphplan.marking.submission import read
 from graphplan.marking.traces import PlanFrame, Submission
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
-from graphplan.sheet.handout import code, solution, task
+from graphplan.sheet.handout import code, task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.plates.plans import Plans
 
@@ -74,7 +74,7 @@ def _page(drawing: Construction, sheet: Composition) -> Printed:
     """The task from the printer; the last one is kept."""
     if drawing.scene.title not in PAPERS:
         PAPERS.clear()
-        PAPERS[drawing.scene.title] = printed(task(solution(sheet)[0], sheet)[0])
+        PAPERS[drawing.scene.title] = printed(task(sheet)[0])
     return PAPERS[drawing.scene.title]
 
 
@@ -152,7 +152,7 @@ def measure(kind: str, name: str, seeds: range, tally: Tally) -> None:
 def _judged(kind: str, drawing: Construction, sheet: Composition, drawn: Drawn, seed: int, tally: Tally) -> Judgement:
     """A drawing judged against the clock."""
     made = KINDS[kind](drawn, sheet, seed)
-    page = cache(lambda: task(solution(sheet)[0], sheet)[0])
+    page = cache(lambda: task(sheet)[0])
     before = time.perf_counter()
     known = isinstance(made, Submission)
     submission = made if known else read(made, list(sheet.views), drawn.frames, page, code(sheet))

@@ -21,7 +21,7 @@ from graphplan.marking.judge.mistakes import Mistake  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
 from graphplan.marking.submission import read  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
-from graphplan.sheet.handout import code, solution, task  # noqa: E402
+from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.composition import Composition, compose  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402
 
@@ -31,7 +31,7 @@ def handout() -> tuple[Construction, Composition, Sheet, Printed]:
     """A task, and its page from the printer."""
     drawing = gp.construct(gp.load("four-bar"))
     sheet = compose(drawing)
-    page = task(solution(sheet)[0], sheet)[0]
+    page = task(sheet)[0]
     return drawing, sheet, page, printed(page)
 
 

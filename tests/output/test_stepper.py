@@ -26,6 +26,8 @@ from graphplan.output.stepper import stepper
 from graphplan.sheet.cycle_frames import CycleFrames, standing, turning
 from graphplan.sheet.layout.composition import compose
 from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.words.protocol import Protocol
+from graphplan.sheet.words.texts import Words
 
 POSES = 12
 VOID = {"meta", "br", "hr", "input", "link", "img"}
@@ -101,13 +103,29 @@ def test_every_step_is_there_with_its_group_its_sentence_and_what_it_reads() -> 
     drawn, reader = found.drawing.drawn, Reader(page)
     data = json.loads(reader.scripts["data"])
     assert [step["reads"] for step in data["steps"]] == [list(step.args) for step in drawn.steps]
-    assert [tag for tag, _ in reader.elements].count("li") == len(drawn) - drawn.givens
-    groups = {int(look["data-step"] or -1) for tag, look in reader.elements if look.get("class") == "words"}
-    assert groups == set(range(drawn.givens, len(drawn)))
+    places = [look["data-place"] for _, look in reader.elements if "data-place" in look]
+    assert places == [str(drawn.number(step.index)) for step in drawn.steps[drawn.givens:]]
     names = tuple(step.name for step in drawn.steps if step.name)
-    for step in drawn.steps[drawn.givens:]:
-        told = "".join(run.text for run in sentence_runs(drawn.told(step.index), names))
-        assert unescape(re.sub("</?sub>", "", data["steps"][step.index]["told"])) == told
+    for passage in Protocol(found.composition.plans, found.composition.scales).passages:
+        for entry in passage.entries:
+            for one in entry.movements:
+                told = "".join(run.text for run in sentence_runs(one.sentence if entry.folded else entry.told, names))
+                assert unescape(re.sub("</?sub>", "", data["steps"][one.index]["told"])) == told
+
+
+@pytest.mark.parametrize("name", ["four-bar", "triad-loaded"])
+def test_the_page_tells_every_stage_with_its_equations_and_every_result(name: str) -> None:
+    """A heading for each stage in the list, its equations below it, and a row for each point, link and reaction."""
+    found = standing(drawing := gp.construct(gp.load(name)), compose(drawing))
+    page = stepper(found)
+    passages = Protocol(found.composition.plans, found.composition.scales).passages
+    assert page.count("<h4>") == 2 * sum(passage.title is not None for passage in passages)  # in the list, in the data
+    listed = page[: page.index('id="scene"')]
+    assert listed.count('class="equation"') == sum(
+        len(passage.stage.equations) for passage in passages if passage.stage and not passage.again)
+    rows = sum(map(len, Words(found.composition.plans).result_tables()))
+    assert rows
+    assert listed.count("<tr>") == rows
 
 
 def test_other_poses_have_the_groups_of_the_given_one() -> None:
@@ -117,8 +135,9 @@ def test_other_poses_have_the_groups_of_the_given_one() -> None:
     shown = {look["data-key"] for _, look in Reader(page).elements if "data-key" in look}
     assert set(poses["groups"]) <= shown
     assert {len(insides) for insides in poses["groups"].values()} == {len(found.frames)}
-    assert {"links", "pairs", "results"} <= set(poses["groups"])
+    assert {"links", "pairs"} <= set(poses["groups"])
     assert "paper" not in poses["groups"]
+    assert len(set(poses["results"])) == len(found.frames)
     assert len(poses["spots"]) == len(found.frames)
 
 
@@ -199,7 +218,8 @@ def test_keys_go_through_the_steps(page: Any) -> None:
         assert told.startswith(f"Step {place}/")
         assert page.get_attribute("#sentence", "aria-live") == "polite"
         assert max(shown_steps(page)) <= last
-        current = page.eval_on_selector_all("li button", "all => all.map(one => one.getAttribute('aria-current'))")
+        current = page.eval_on_selector_all(
+            "button[data-place]", "all => all.map(one => one.getAttribute('aria-current'))")
         assert [i for i, marked in enumerate(current, 1) if marked == "step"] == [place]
         assert page.input_value("#place") == str(place)
     page.keyboard.press("Home")
@@ -210,7 +230,7 @@ def test_marks_that_a_step_reads_and_makes_are_told_apart(page: Any) -> None:
     """A crossing lights up the two lines it reads and the point it makes: by colour, width, dashes and words."""
     drawn = round_of("slider-crank").drawing.drawn
     step = next(step for step in drawn.steps if step.op.name == "meet")
-    page.click(f"li:nth-of-type({drawn.number(step.index)}) button")
+    page.click(f"button[data-place='{drawn.number(step.index)}']")
     assert page.eval_on_selector_all("g.step.read", "all => all.map(g => Number(g.dataset.step))") == sorted(step.args)
     assert page.eval_on_selector_all("g.step.made", "all => all.map(g => Number(g.dataset.step))") == [step.index]
     looks = [page.eval_on_selector(f"#halos .{role} > *", "g => [getComputedStyle(g).stroke, "
@@ -248,7 +268,7 @@ def test_zoom_follows_the_plan_of_the_step(page: Any) -> None:
     whole = page.get_attribute("#picture", "viewBox")
     page.click("#zoom")
     for place in (1, len(found.drawing.drawn) - found.drawing.drawn.givens):
-        page.click(f"li:nth-of-type({place}) button")
+        page.click(f"button[data-place='{place}']")
         rect = sheet.panels[plans.plan_of_step[place - 1 + found.drawing.drawn.givens]]
         box = [float(part) for part in page.get_attribute("#picture", "viewBox").split()]
         assert box == pytest.approx([rect.left, sheet.height - rect.top, rect.width, rect.height], abs=0.01)
@@ -279,13 +299,54 @@ def test_a_phone_shows_it_without_sideways_scrolling(page: Any) -> None:
         assert box["x"] + box["width"] <= 400
 
 
-def test_printed_it_is_the_solution(page: Any) -> None:
+def test_page_keys_go_from_stage_to_stage(page: Any) -> None:
+    """Page Down stands on the first step of each stage in turn, Page Up goes back the same way."""
+    found = round_of("slider-crank")
+    firsts = [passage.entries[0].movements[0].number
+              for passage in Protocol(found.composition.plans, found.composition.scales).passages]
+    seen = []
+    for _ in firsts:
+        page.keyboard.press("PageDown")
+        seen.append(int(page.input_value("#place")))
+    assert seen == firsts
+    for number in reversed(firsts[:-1]):
+        page.keyboard.press("PageUp")
+        assert int(page.input_value("#place")) == number
+
+
+def test_tab_goes_through_the_controls_and_stops_once_in_the_list(page: Any) -> None:
+    """Whatever the number of steps, Tab stops at the current one alone, after the controls."""
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("ArrowRight")
+    stops = []
+    for _ in range(9):
+        page.keyboard.press("Tab")
+        stops.append(page.evaluate("document.activeElement.id || document.activeElement.dataset.place"))
+    assert stops == ["first", "previous", "next", "last", "play", "zoom", "place", "turn", "2"]
+
+
+def test_without_a_script_it_is_the_sheet_with_its_protocol(browser: Any, tmp_path: Path) -> None:
+    """All that is drawn can be seen, the protocol stands beside it, and nothing that would do nothing."""
+    file = tmp_path / "steps.html"
+    file.write_text(page_of("slider-crank"), encoding="utf-8")
+    context = browser.new_context(java_script_enabled=False)
+    found = context.new_page()
+    found.goto(file.as_uri())
+    assert found.locator("g.step").count() == found.locator("g.step:not(.later)").count() > 0
+    assert found.is_visible("#list")
+    assert found.is_visible("#tables table")
+    assert not found.is_visible("#controls")
+    context.close()
+
+
+def test_printed_it_is_the_solution_and_the_protocol(page: Any) -> None:
     """In print every step is there, nothing is lit up, and the controls are gone."""
     page.keyboard.press("ArrowRight")
     page.emulate_media(media="print")
     groups = set(page.eval_on_selector_all("g.step", "all => all.map(g => Number(g.dataset.step))"))
     assert shown_steps(page) == groups
-    for part in ("nav", "#controls", "#told", "#halos"):
+    assert page.is_visible("#list")
+    for part in ("#controls", "#told", "#halos"):
         assert page.eval_on_selector(part, "part => getComputedStyle(part).display") == "none"
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from functools import cache
 from itertools import count
 
@@ -13,14 +14,15 @@ import graphplan as gp
 from graphplan.cycle import follow
 from graphplan.errors import Refused
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.mechanism.presentation import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, turning
 from graphplan.sheet.frames.corner_marks import corner_marks
-from graphplan.sheet.handout import code, guided, task
-from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.handout import code, guided, solution, task
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.paper import paged
-from graphplan.sheet.lettering.lettering import plain
+from graphplan.sheet.lettering.lettering import plain, sentence_runs
 from graphplan.sheet.plates.display import Polygon, Sheet, Text
 from graphplan.sheet.words.rows import Cell, TextRow
 
@@ -31,7 +33,7 @@ Handout = tuple[Composition, Sheet, list[Sheet], list[Sheet]]
 def handout_of(name: str) -> Handout:
     """The composition of a scene, its solution, its task and its guided version."""
     composition, solved = composition_of(name), solved_of(name)
-    return composition, solved, task(solved, composition), guided(solved, composition)
+    return composition, solved, task(composition), guided(composition)
 
 
 def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
@@ -41,14 +43,51 @@ def boxes(sheets: list[Sheet], ticks: bool = False) -> list[Polygon]:
 
 
 @pytest.mark.parametrize("name", SCENES)
-def test_all_pages_are_those_of_the_solution(name: str) -> None:
-    """Every page has the solution's size and frame, the first its panels; nothing leaves the frame."""
+def test_the_first_page_is_that_of_the_solution_and_others_are_a4(name: str) -> None:
+    """A drawing on the first page lies over the solution; pages of words fit any printer; nothing leaves the frame."""
     _, solved, *parts = handout_of(name)
-    for pages in parts:
-        assert pages[0].panels == solved.panels
+    for first, *others in parts:
+        assert (first.panels, first.frame) == (solved.panels, solved.frame)
+        assert (first.width, first.height) == (solved.width, solved.height)
+        assert {(page.width, page.height) for page in others} <= {SIZES["A4"]}
+        assert not any(page.panels for page in others)
+        assert [item for page in (first, *others) for item in outside(page)] == []
+
+
+@pytest.mark.parametrize("frame", ["iso", "gost"])
+def test_a_student_fills_in_name_group_date_and_variant(frame: str) -> None:
+    """Every page of the task and the guided version asks who drew it, and names nobody; the solution does."""
+    scene = gp.load("slider-crank")
+    composition = compose(gp.construct(replace(scene, sheet=replace(scene.sheet, frame=frame))))
+    for pages in (task(composition), guided(composition)):
         for page in pages:
-            assert (page.width, page.height, page.frame) == (solved.width, solved.height, solved.frame)
-            assert outside(page) == []
+            told = {plain(item.runs) for item in page.items if isinstance(item, Text)}
+            assert {"Name", "Group", "Date", "Variant"} <= told
+            assert "graphplan" not in told
+    assert "graphplan" in {plain(item.runs) for item in solution(composition)[0].items if isinstance(item, Text)}
+
+
+@pytest.mark.parametrize(("name", "values"), [
+    ("triad-loaded", ["ω1 = 10 1/s", "P4 = 94.87 N", "M5 = 4 N·m"]), ("five-bar", ["ω1 = 10 1/s", "ω4 = 10 1/s"]),
+    ("open-chain", ["vK = 80 mm/s", "ω21 = 0.8 1/s"]),
+])
+def test_what_drives_and_loads_the_mechanism_is_drawn_with_its_value(name: str, values: list[str]) -> None:
+    """Each drive, given motion, force and moment has its value on the panel of the mechanism."""
+    composition, _, (page, *_), _ = handout_of(name)
+    panel = composition.arrangement.panels[MECHANISM]
+    told = {plain(item.runs) for item in page.items if isinstance(item, Text) and panel.holds(item.at)}
+    assert set(values) <= told
+
+
+def test_the_words_of_a_task_state_the_scales_and_where_plans_begin() -> None:
+    """Each plan is told with the scale that its caption has, and with its origin."""
+    composition, _, pages, _ = handout_of("four-bar")
+    told = " ".join(plain(item.runs) for page in pages for item in page.items if isinstance(item, Text))
+    scales = composition.scales
+    for panel in composition.plans.panels:
+        for scale in scales.said(panel, composition.plans.kinds(panel)):
+            assert told.count(plain(sentence_runs(scale))) == 2
+    assert "origin a" in told
 
 
 def test_only_sheets_with_plans_bear_marks() -> None:
@@ -84,7 +123,7 @@ def test_a_task_shows_the_mechanism_and_where_plans_begin(name: str) -> None:
     """The mechanism is drawn as in the solution; of the steps there are only the marks where plans begin."""
     _, solved, pages, _ = handout_of(name)
     steps = drawing_of(name).drawn.steps
-    begins = {step.index for step in steps if step.op.name == "begin"}
+    begins = {step.index for step in steps[drawing_of(name).drawn.givens :] if step.op.free}
     assert {item.step for page in pages for item in page.items if item.step is not None} == begins
     plates = [item for item in solved.items if item.layer in ("plates", "links", "blocks", "pairs", "ground")]
     assert set(plates) <= set(pages[0].items)
@@ -109,7 +148,7 @@ def test_guided_steps_are_all_there_with_a_box_to_tick(name: str) -> None:
     steps = list(range(drawn.givens, len(drawn)))
     assert [box.step for box in boxes(pages, ticks=True)] == steps
     numbers = [plain(item.runs) for page in pages for item in page.items
-               if isinstance(item, Text) and item.layer == "text" and item.anchor == "end"]
+               if isinstance(item, Text) and item.layer == "text" and item.anchor == "end" and item.step is not None]
     assert numbers == [str(drawn.number(i)) for i in steps]
 
 

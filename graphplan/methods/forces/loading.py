@@ -14,7 +14,7 @@ from functools import partial
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
-from graphplan.mechanism.order import by_name, ordered
+from graphplan.mechanism.order import by_name, named_forces, ordered
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
@@ -68,9 +68,8 @@ class Loading:
 
     def each(self, link: str) -> Iterator[tuple[str, Lay]]:
         """The forces on a link: the point where each acts, and how it is laid off; one that is nothing is left out."""
-        for nth, force in enumerate((f for f in self.loads.forces if f.on == link), 1):
-            if any(force.value):
-                name = f"P_{link}" + "'" * (nth - 1)
+        for name, force in named_forces(self.loads).items():
+            if force.on == link and any(force.value):
                 why = said("{0}, the given force on {1} at {2}", name, link_named(link), force.at)
                 yield force.at, partial(self._given, force.at, force.value, name, why)
         mass = self.loads.masses.get(link)

@@ -38,6 +38,16 @@ class Page:
     number: int = 1
     of: int = 1
 
+    @property
+    def filled_by_hand(self) -> bool:
+        """Whether a student writes on the page, and so who drew it."""
+        return self.document in (TASK, GUIDED)
+
+    @property
+    def brief(self) -> Said:
+        """All of it on one line."""
+        return joined((self.document, self.scale, self.paper.partition(" ")[0], f"{self.number}/{self.of}"), " · ")
+
 
 @dataclass(frozen=True)
 class TitleCell:
@@ -95,7 +105,6 @@ CELL_HIGH = 9.0  # mm: of a cell with one line
 FOOT, HEAD = 1.6, 3.2  # mm: the lowest base line of a cell above its edge, that of its heading below
 MOST = 3  # lines of a title in large letters; twice as many in small ones
 RATIO, PER_LENGTH = "1 : 0000", "mu_s = 0.000"  # the longest, as a rule
-ANY_PAGE = Page(CONSTRUCTION, "A0", RATIO)
 OPTIONAL = (  # which stand where the scene says them
     TitleCell(said("Legal owner"), "sheet.owner"), TitleCell(said("Number"), "sheet.number"),
     TitleCell(said("Date of issue"), "sheet.date"), TitleCell(said("Approved by"), "sheet.approved_by"),
@@ -105,6 +114,7 @@ ALWAYS = (
     TitleCell(said("Scale"), "sheet.k_s"), TitleCell(said("Format"), "format"), TitleCell(said("Sheet"), "page"),
     TitleCell(said("Language"), "language"),
 )  # fmt: skip
+BY_HAND = (said("Name"), 38.0), (said("Group"), 18.0), (said("Date"), 18.0), (said("Variant"), 14.0)  # mm to write in
 
 
 class _Filled(NamedTuple):
@@ -112,12 +122,13 @@ class _Filled(NamedTuple):
 
     heading: str
     text: str
-    longest: str
+    longest: str = ""
+    least: float = 0.0
 
     @property
     def natural(self) -> float:
         """The width in which all stands on one line."""
-        return max(_long(self.heading), _long(self.longest or self.text)) + 2 * CELL
+        return max(_long(self.heading) + 2 * CELL, _long(self.longest or self.text) + 2 * CELL, self.least)
 
     @property
     def size(self) -> float:
@@ -156,31 +167,39 @@ class IsoBlock:
         return (moved(item, rect.left, rect.bottom, self.times) for item in self._items(whole, page))
 
     def _height(self, wide: float) -> float:
-        """The height of a block so wide in the letters in which it is set."""
-        rows = sum(_high(row, wide) for row in self._rows(wide))
-        return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide))
+        """The height of a block so wide in the letters in which it is set, whatever its page."""
+        longest = self._longest()["sheet.k_s"]
+        return max(self._needed(wide, Page(document, "A0", longest, 10, 10)) for document in (CONSTRUCTION, GUIDED))
+
+    def _needed(self, wide: float, page: Page) -> float:
+        rows = sum(_high(row, wide) for row in self._rows(wide, page))
+        return rows + 2 * PAD + sum(PITCH * size for _, size, _ in self._title(wide, page))
 
     def _items(self, rect: Rect, page: Page) -> Iterator[Item]:
         """The block in the letters in which it is set."""
         yield stroke((rect.left, rect.bottom), (rect.left, rect.top), wide=True)
         yield stroke((rect.left, rect.top), (rect.right, rect.top), wide=True)
         y = rect.top - PAD
-        for runs, size, bold in self._title(rect.width):
+        for runs, size, bold in self._title(rect.width, page):
             y -= PITCH * size
             yield Text(LETTERS, "text", None, (rect.left + PAD, y + 0.45 * size), runs, size, "start", bold)
-        y -= PAD
-        for row in self._rows(rect.width, page):
+        y = rect.bottom
+        for row in reversed([*self._rows(rect.width, page)]):
             high = _high(row, rect.width)
+            yield from _cells(row, Rect(rect.left, y, rect.right, y + high))
+            y += high
             yield stroke((rect.left, y), (rect.right, y))
-            yield from _cells(row, Rect(rect.left, y - high, rect.right, y))
-            y -= high
 
-    def _title(self, wide: float) -> list[tuple[Runs, float, bool]]:
-        """The wrapped title and source with their sizes; a long title is smaller. Refused where it is much too long."""
+    def _title(self, wide: float, page: Page) -> list[tuple[Runs, float, bool]]:
+        """The wrapped title and source with their sizes; a long title is smaller. Refused where it is much too long.
+
+        On a page that is filled in by hand the rest of the cells stand in the place of the source.
+        """
         room = wide - 2 * PAD
         sizes = HEADING / self.times, TITLE, SIZE
         *found, small = (wrap(sentence_runs(self.scene.title), size, room, bold=True) for size in sizes)
-        source = wrap(sentence_runs(self.scene.source), SIZE, room)
+        told = self.tongue(page.brief) if page.filled_by_hand else self.scene.source
+        source = wrap(sentence_runs(told), SIZE, room)
         for name, lines in (("title", small), ("source", source)):
             if len(lines) > 2 * MOST:
                 raise Refused(name, f"it is too long for a title block {wide:g} mm wide", "fewer words")
@@ -191,13 +210,15 @@ class IsoBlock:
 
     # ---- cells -----------------------------------------------------------------------------------------------------
 
-    def _rows(self, wide: float, page: Page = ANY_PAGE) -> Iterator[list[_Filled]]:
+    def _rows(self, wide: float, page: Page) -> Iterator[list[_Filled]]:
         """The cells in rows: first those that a scene fills or not, then those of every sheet."""
         found, longest = values(self.scene, self.tongue, page), self._longest()
-        for cells in ([cell for cell in OPTIONAL if found[cell.field]], ALWAYS):
+        optional, always = ([_Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+                             for cell in cells] for cells in (OPTIONAL, ALWAYS))
+        by_hand = [_Filled(self.tongue(words), "", least=least) for words, least in BY_HAND]
+        for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
             row: list[_Filled] = []
-            for cell in cells:
-                made = _Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
+            for made in cells:
                 if row and sum(other.natural for other in (*row, made)) > wide:
                     yield row
                     row = []
@@ -249,11 +270,10 @@ LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.
 HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
 ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. check"), ""), ("", ""), (
     said("Std. check"), ""), (said("Approved"), "sheet.approved_by")
-CELLS = (  # from left to right, by columns
+ROLES_BY_HAND = (said("Name"), ""), (said("Checked"), ""), (said("Group"), ""), (said("Variant"), ""), *ROLES[4:]
+CELLS = (  # from left to right, by columns; those of the roles stand before them
     *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL, middle=True)
       for head, (left, right) in zip(HEADS, pairwise(CHANGES), strict=True)),
-    *(TitleCell(role, "", (0.0, 25.0 - ROW * i, 17.0, 30.0 - ROW * i), SMALL) for i, (role, _) in enumerate(ROLES)),
-    *(TitleCell("", name, (17.0, 25.0 - ROW * i, 40.0, 30.0 - ROW * i)) for i, (_, name) in enumerate(ROLES)),
     TitleCell("", "sheet.date", (55.0, 25.0, 65.0, 30.0), SMALL, middle=True),
     TitleCell("", "sheet.number", (65.0, 40.0, WIDE, HIGH), (5.0, TITLE, SIZE), middle=True),
     TitleCell("", "title", (65.0, 20.0, 135.0, 40.0), (TITLE, 3.0, SIZE), bold=True, middle=True),
@@ -305,12 +325,20 @@ class GostBlock:
             yield stroke((x + start, y + at), (x + end, y + at), wide)
         for at, start, end, wide in UPRIGHT:
             yield stroke((x + at, y + start), (x + at, y + end), wide)
-        for cell in CELLS:
+        for cell in (*_roles(ROLES_BY_HAND if page.filled_by_hand else ROLES), *CELLS):
             left, low, right, high = cell.place
             text = " ".join(filter(None, (self.tongue(cell.words), found.get(cell.field, ""))))
             place = Rect(x + left, y + low, x + right, y + high)
             what = cell.field or cell.words
             yield from filled(place, text, cell.sizes, what=what, bold=cell.bold, middle=cell.middle)
+
+
+def _roles(roles: Sequence[tuple[Said | str, str]]) -> Iterator[TitleCell]:
+    """The cells of those who have a part in the sheet, each role with its name."""
+    for i, (role, name) in enumerate(roles):
+        low, high = 25.0 - ROW * i, 30.0 - ROW * i
+        yield TitleCell(role, "", (0.0, low, 17.0, high), SMALL)
+        yield TitleCell("", name, (17.0, low, 40.0, high))
 
 
 TitleBlock = IsoBlock | GostBlock  # its width follows from the frame and the pitch of columns, its height from that

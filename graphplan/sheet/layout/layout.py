@@ -21,8 +21,8 @@ from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
 
-BACK = "paper", BORDER, "plates", MOTION, "ground", "links"
-FRONT = "blocks", "drive", "pairs", "letters", "text", RESULTS
+BACK = "paper", BORDER, "ruling", "plates", MOTION, "ground", "links"
+FRONT = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
 
 
 def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -33,14 +33,18 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     `document` is what its title block calls it. Fails with `Refused` where the words do not fit the paper named.
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
-    plans = composition.plans
-    arrangement, scales = composition.arrangement, composition.scales
-    items = list(_framed(composition))
-    items += captions(composition)
+    items = [*framed(composition), *captions(composition)]
     for plate in composition.plates:
         items += picture(plate)
-    items += lettered(fill(arrangement.rows, arrangement.columns) or [])
-    items += titled(composition, document, 1, composition.page_count)
+    return sheet(composition, items, document)
+
+
+def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sheet:
+    """The first sheet of a composition: these items, the words for which there is room, and the title block."""
+    arrangement, plans = composition.arrangement, composition.plans
+    drawing, scales = plans.drawing, composition.scales
+    items = [*items, *lettered(fill(arrangement.rows, arrangement.columns) or []),
+             *titled(composition, document, 1, composition.page_count)]
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
         drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
@@ -51,19 +55,18 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
 def pages(composition: Composition, document: Said = CONSTRUCTION) -> list[Sheet]:
     """The sheet of a composed construction, and the pages of its words where they stand apart."""
     first = layout(composition.plans.drawing, composition=composition, document=document)
-    return [first, *(_words_page(first, composition, number, document) for number in range(len(composition.protocol)))]
+    return [first, *words_pages(first, composition, document)]
 
 
-def _words_page(first: Sheet, composition: Composition, number: int, document: Said) -> Sheet:
-    """A page of words, by its number from 0."""
-    page, placed = composition.protocol[number]
-    apart = replace(composition, arrangement=page)
-    words = lettered(placed), titled(apart, document, 2 + number, composition.page_count)
-    items = stacked([*_framed(apart), *words[0], *words[1]])
-    return replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
+def words_pages(first: Sheet, composition: Composition, document: Said) -> Iterator[Sheet]:
+    """The pages of words that follow a first sheet."""
+    for number, (page, placed) in enumerate(composition.protocol, 2):
+        apart = replace(composition, arrangement=page)
+        items = stacked([*framed(apart), *lettered(placed), *titled(apart, document, number, composition.page_count)])
+        yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))
 
 
-def _framed(composition: Composition) -> Iterator[Item]:
+def framed(composition: Composition) -> Iterator[Item]:
     """The frame with its border, and the panels."""
     arrangement, plans = composition.arrangement, composition.plans
     yield from frame_of(plans.drawing.scene).items(arrangement.paper, arrangement.frame, plans.tongue)

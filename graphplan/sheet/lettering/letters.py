@@ -39,9 +39,7 @@ def picture(plate: Plate) -> list[Item]:
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
         mechanism = DrawnMechanism(plate.plates.scene, plate.view)
-        named = mechanism.letters().items()
-        joints = [Wish(runs, (spot,), RADIUS + 0.3, label=label) for spot, (runs, label) in named]
-        wishes = [*joints, *mechanism.wishes(), *wishes, *_path_letters(plate)]
+        wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
         marks += list(mechanism.spots.values())
     rect = plate.view.rect
     letters = placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
@@ -53,6 +51,13 @@ def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):
             yield replace(wish, spots=spots)
+
+
+def of_mechanism(mechanism: DrawnMechanism) -> Iterator[Wish]:
+    """The letters of the joints, then the numbers of the links."""
+    for spot, (runs, label) in mechanism.letters().items():
+        yield Wish(runs, (spot,), RADIUS + 0.3, label=label)
+    yield from mechanism.wishes()
 
 
 def _path_letters(plate: Plate) -> Iterator[Wish]:

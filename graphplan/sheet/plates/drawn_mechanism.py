@@ -38,10 +38,10 @@ class DrawnMechanism:
         for link in self.scene.moving:
             yield from self._link(link)
         for slide in self.scene.slides:
-            yield symbols.PAIRS[slide.symbol](self._seat(slide), self._along(slide))
+            yield symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
         for drive in self.scene.drives:
             if not drive.slides and drive.rate:
-                yield from self._driven(drive)
+                yield from self.driven(drive)
         yield from self._pairs()
 
     def _pairs(self) -> Iterator[Item]:
@@ -88,7 +88,7 @@ class DrawnMechanism:
 
     def _guide(self, slide: Slide) -> Iterator[Item]:
         """The fixed guide of a slide on the frame, or the ground of a fixed block; hatched away from the mechanism."""
-        at, along = self._seat(slide), self._along(slide)
+        at, along = self.seat(slide), self.along(slide)
         if FRAME in (slide.along, slide.link):
             yield from symbols.guideway(at, along, self._outer(slide, at, along))
 
@@ -101,16 +101,17 @@ class DrawnMechanism:
 
     # ---- links -----------------------------------------------------------------------------------------------------
 
-    def _along(self, slide: Slide) -> Vector:
+    def along(self, slide: Slide) -> Vector:
+        """The direction of a slide's guide."""
         x, y = (float(part) for part in slide.direction)
         return unit((0.0, 0.0), (x, y))
 
-    def _seat(self, slide: Slide) -> Spot:
+    def seat(self, slide: Slide) -> Spot:
         """Where the block is: at the pair's point, or where the guiding link is itself the block."""
         at = self.spots[slide.at]
         guide = self._distinct(slide.along) if slide.along != FRAME else []
         rod = len(self._distinct(slide.link)) > 1 or slide.link == FRAME
-        if rod and len(guide) == 1 and abs(turn(at, off(at, self._along(slide), 1.0), guide[0])) < NEAR:
+        if rod and len(guide) == 1 and abs(turn(at, off(at, self.along(slide), 1.0), guide[0])) < NEAR:
             return guide[0]
         return at
 
@@ -118,10 +119,15 @@ class DrawnMechanism:
         """The places of a link's points, coincident ones once."""
         return places(self.spots[name] for name in self.scene.links[link])
 
+    def middle(self, link: str) -> Spot:
+        """The middle of a link's points."""
+        spots = self._distinct(link)
+        return sum(x for x, _ in spots) / len(spots), sum(y for _, y in spots) / len(spots)
+
     def _link(self, link: str) -> Iterator[Item]:
         spots = self._distinct(link)
         for slide in self.scene.slides:
-            seated = self._seat(slide) == self.spots[slide.at]
+            seated = self.seat(slide) == self.spots[slide.at]
             guides = slide.along == link and (len(spots) > 1 or seated)
             if guides or (slide.link == link and not seated):
                 yield from self._rail(slide, spots)
@@ -138,7 +144,7 @@ class DrawnMechanism:
 
     def _rail(self, slide: Slide, spots: list[Spot]) -> Iterator[Item]:
         """The part of a moving link that guides: through the block and a little beyond, tied to the link's points."""
-        seat, along = self._seat(slide), self._along(slide)
+        seat, along = self.seat(slide), self.along(slide)
         reach = [off(seat, along, -LONG - 3.0), off(seat, along, LONG + 3.0)]
         if not spots:
             return
@@ -156,7 +162,7 @@ class DrawnMechanism:
         lean = sum(turn(inner, ahead, other) / math.dist(inner, other) for other in self._around(inner))
         return -1.0 if lean > 0 else 1.0
 
-    def _driven(self, drive: Drive) -> Iterator[Item]:
+    def driven(self, drive: Drive) -> Iterator[Item]:
         """The sense of turning, about the pair of the driving link."""
         pairs = [p for p in self.scene.links[drive.link] if p in self.scene.links.get(drive.on, ())]
         others = [p for p in self.scene.links[drive.link] if p not in pairs]
@@ -180,8 +186,7 @@ class DrawnMechanism:
                 middles = tuple(clip.between(*ends, t) for t in (0.5, 0.4, 0.6, 0.3, 0.7))
                 yield Wish(runs, middles, 0.8, label=f"link {link}", balloon=True, free=True)
             else:
-                n = len(spots)
-                centre = sum(x for x, _ in spots) / n, sum(y for _, y in spots) / n
+                centre = self.middle(link)
                 inside = [clip.between(centre, spot, t) for t in (0.0, 0.25, 0.45) for spot in spots]
                 yield Wish(runs, tuple(dict.fromkeys(inside)), -2.0, label=f"link {link}", balloon=True, free=True)
 

@@ -123,6 +123,11 @@ class Plate:
         """The steps that are drawn here, in order, after what is given here."""
         return [drawn for drawn in self.plates.steps if drawn.panel == self.panel]
 
+    @property
+    def beginnings(self) -> list[DrawnStep]:
+        """The marks that are chosen freely: where the plan begins."""
+        return [drawn for drawn in self.steps if drawn.free and drawn.number]
+
     def shown(self, mark: DrawnStep) -> bool:
         """Whether a point lies on the panel."""
         return mark.kind == POINT and mark.panel == self.panel and self.view.rect.holds(mark.at)

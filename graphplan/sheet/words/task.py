@@ -3,18 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.mechanism.model import Balance, Loads, Pair, Scene
+from graphplan.mechanism.order import named_forces
 from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
 from graphplan.methods.panels import JointForce, link_named, listed, slide_named
 from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.frames.title import GUIDED, TASK
-from graphplan.sheet.lettering.lettering import sentence_runs
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.lettering.lettering import name_runs, sentence_runs
+from graphplan.sheet.plates.given_arrows import rate_letters
 from graphplan.sheet.words.rows import TextRow
-from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, ticked
+from graphplan.sheet.words.tables import TICKED, Deviations, Table, answer_rows, fits, joined_tables, rows, ticked
 from graphplan.sheet.words.texts import Words
 
 INSTRUMENTS = {
@@ -23,25 +27,50 @@ INSTRUMENTS = {
 }  # fmt: skip
 
 
+@dataclass(frozen=True, eq=False)
 class Task(Words):
     """All that is said on a task sheet, or where it is `guided`, on the sheet of a student who is told the steps."""
 
+    composition: Composition = field(kw_only=True)
     indent = TICKED
 
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
-        return [self._heading(GUIDED if guided else TASK, gap=0.0), *self._given(wide),
+        return [self._heading(GUIDED if guided else TASK, gap=0.0), *self._given(wide), *self._plans(wide),
                 *(self._steps(wide) if guided else ()), *self._answers(wide), *(() if guided else self._hints(wide))]
 
     def _given(self, wide: float) -> Iterator[TextRow]:
         scene = self.drawing.scene
+        yield from self.paragraph(scene.source, wide) if scene.source else ()
         yield self._heading(said("Given"))
         for sentence in data(scene):
             yield from self.paragraph(sentence, wide)
+        yield from rows(self._masses())
         asked = list(question(scene, self.values))
         yield from [self._heading(said("To find"))] if asked else []
         for sentence in asked:
             yield from self.paragraph(sentence, wide)
+
+    def _masses(self) -> Table:
+        """The masses of the links, as a table."""
+        loads, say, mass = self.drawing.scene.loads, self.plans.tongue, self.drawing.scene.units.mass
+        if not loads or not loads.masses:
+            return []
+        heads = (said("link"), arranged("m {0}", unit(mass)), arranged("J {0}", unit(f"{mass}·m²")),
+                 said("mass centre"))
+        table = [[sentence_runs(say(head)) for head in heads]]
+        for link, body in loads.masses.items():
+            told = (link, _figure(body.mass), _figure(body.inertia))
+            table.append([*(sentence_runs(say(cell)) for cell in told), name_runs(body.centre)])
+        return table
+
+    def _plans(self, wide: float) -> Iterator[TextRow]:
+        """The scale of each plan, and where it begins."""
+        yield self._heading(said("Scales"))
+        for plate in self.composition.plates:
+            told = self.composition.scales.said(plate.panel, self.plans.kinds(plate.panel))
+            told += [said("origin {0}", drawn.name) for drawn in plate.beginnings if drawn.name]
+            yield from self.paragraph(arranged("{0:capital}: {1}.", plate.panel.words, joined(told)), wide)
 
     def _numbered(self, row: TextRow) -> TextRow:
         """The row with a box to tick before its number."""
@@ -71,9 +100,7 @@ class Task(Words):
         """The tables of the solution, two by two as they stand side by side."""
         yield from self._motion(Deviations())
         if self.drawing.scene.loads:
-            from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
-
-            tables = ForceTables(self.drawing, self.values, Deviations(), self.plans.tongue)
+            tables = self._force_tables(Deviations())
             yield tables.reactions(), self._seats()
             yield tables.balance(), []
 
@@ -115,30 +142,28 @@ def _motion(scene: Scene) -> Iterator[Said]:
     """The drives and the given motions of points."""
     length = scene.units.length
     for drive in scene.drives:
-        names, of = (("v", "a"), length) if drive.slides else (("omega", "alpha"), "1")
-        rates = map(_with_unit, names, drive.rates, (f"{of}/s", f"{of}/s²"))
-        does = phrase("{0:capital} slides along {1}: {2}." if drive.slides else "{0:capital} turns against {1}: {2}.")
-        yield does(*map(link_named, drive.links), joined(tuple(rates)))
+        of = length if drive.slides else "1"
+        rates = map(_with_unit, rate_letters(drive), drive.rates, (f"{of}/s", f"{of}/s²"))
+        turns = [] if drive.rpm is None else [_with_unit("n", drive.rpm, "1/min")]
+        does = phrase("{0:capital} slides along {1}: {2}." if drive.slides
+                      else "{0:capital} turns relative to {1}: {2}.")
+        yield does(*map(link_named, drive.links), joined((*turns, *rates)))
     for name, motion in scene.motions.items():
-        velocity = joined(("v =", _pair(motion.velocity), unit(f"{length}/s")), " ")
-        acceleration = joined(("a =", _pair(motion.acceleration), unit(f"{length}/s²")), " ")
+        velocity = joined((f"v_{name} =", _pair(motion.velocity), unit(f"{length}/s")), " ")
+        acceleration = joined((f"a_{name} =", _pair(motion.acceleration), unit(f"{length}/s²")), " ")
         yield said("Motion of {0}: {1}.", name, joined((velocity, acceleration)))
 
 
 def _loads(scene: Scene, loads: Loads) -> Iterator[Said]:
-    """Gravity, masses, forces, moments and friction."""
+    """Gravity, forces, moments and friction."""
     units = scene.units
     if any(loads.gravity):
         yield said("Gravity: {0}.", joined(("g =", _pair(loads.gravity), unit("m/s²")), " "))
-    for link, mass in loads.masses.items():
-        inertia = [_with_unit("J", mass.inertia, f"{units.mass}·m²")] if mass.inertia else []
-        told = _with_unit("m", mass.mass, units.mass), *inertia, said("centre {0}", mass.centre)
-        yield said("Mass of {0}: {1}.", link_named(link), joined(told))
-    for force in loads.forces:
-        value = joined(("F =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
+    for letter, force in named_forces(loads).items():
+        value = joined((f"{letter} =", _pair(force.value), unit(units.force), said("at {0}", force.at)), " ")
         yield said("Force on {0}: {1}.", link_named(force.on), value)
     for moment in loads.moments:
-        value = _with_unit("M", moment.value, f"{units.force}·m")
+        value = _with_unit(f"M_{moment.on}", moment.value, f"{units.force}·m")
         yield said("Moment on {0}: {1}.", link_named(moment.on), value)
     slides = {(slide.link, slide.along): slide for slide in scene.slides}
     for friction in loads.frictions:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
@@ -16,6 +16,9 @@ from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, sentence_ru
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
+
+if TYPE_CHECKING:
+    from graphplan.sheet.words.force_tables import ForceTables
 
 RESULTS = "results"  # the layer of what is read when all is drawn
 
@@ -109,6 +112,13 @@ class Words:
         if self.drawing.scene.loads:
             yield from self._forces(wide, pencil)
 
+    def result_tables(self) -> Iterator[Table]:
+        """The tables of what is read when all is drawn, each kind of vector in one of its own."""
+        yield from (table for pair in self._motion(Deviations()) for table in pair if table)
+        if self.drawing.scene.loads:
+            tables = self._force_tables(Deviations())
+            yield from filter(None, (tables.reactions(), tables.balance()))
+
     def _motion(self, pencil: Deviations) -> Iterator[tuple[Table, Table]]:
         """The tables of points, links and slides: each that of velocities and that of accelerations."""
         values, scene, say = self.values, self.drawing.scene, self.plans.tongue
@@ -131,13 +141,16 @@ class Words:
         return one, two
 
     def _forces(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
-        from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
-
-        tables = ForceTables(self.drawing, self.values, pencil, self.plans.tongue)
+        tables = self._force_tables(pencil)
         yield from rows(tables.reactions())
         for sentence in tables.seats():
             yield from self.paragraph(sentence, wide)
         yield from rows(tables.balance())
+
+    def _force_tables(self, pencil: Deviations) -> ForceTables:
+        from graphplan.sheet.words.force_tables import ForceTables  # most scenes have no loads
+
+        return ForceTables(self.drawing, self.values, pencil, self.plans.tongue)
 
     def _errors(self, wide: float, told: str) -> Iterator[TextRow]:
         if told:

@@ -28,7 +28,7 @@ def test_steps_tell_cost_and_errors_as_data(capsys: pytest.CaptureFixture[str]) 
     assert data["cost"]["operations"] > 0
     assert set(data["pencil"]["results"]["velocity"]) == set("DECAB")
     assert data["pencil"]["worst step"]["sentence"]
-    assert any("weighed" in note for note in data["forms"])
+    assert any("compared" in note for note in data["forms"])
 
 
 def test_cost_lists_every_form_on_every_plan(capsys: pytest.CaptureFixture[str]) -> None:

@@ -14,7 +14,7 @@ from functools import partial
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Loads, Mass, Number, Scene
-from graphplan.mechanism.order import by_name, named_forces, ordered
+from graphplan.mechanism.order import by_name, named_forces, ordered, turning_drives
 from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.forces import stages
 from graphplan.methods.motion.network import Network
@@ -248,7 +248,8 @@ def force_scale(scene: Scene) -> Number:
 def _inertia_sizes(scene: Scene, size: float) -> Iterator[float]:
     """About how large inertia forces are: as if every moving mass ran round a quarter of the mechanism."""
     assert scene.loads is not None
-    rate = float(tempo(scene).unit) ** 2 if scene.drives else 0.0
+    turning = [abs(float(drive.rate)) for drive in turning_drives(scene)]
+    rate = (max(turning, default=0.0) or float(tempo(scene).unit)) ** 2 if scene.drives else 0.0
     for mass in scene.loads.masses.values():
         if FRAME not in scene.links_of[mass.centre]:
             yield float(mass.mass * inertia(scene.units)) * rate * size / 4

@@ -38,9 +38,9 @@ def picture(plate: Plate) -> list[Item]:
     items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
-        mechanism = DrawnMechanism(plate.plates.scene, plate.view)
+        mechanism = plate.drawn_mechanism
         wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
-        marks += list(mechanism.spots.values())
+        marks += list(mechanism.shown.values())
     rect = plate.view.rect
     letters = placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
     return [*items, *letters, *plate.positions(letters)]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -20,34 +20,54 @@ DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
 
 @dataclass(frozen=True)
 class DrawnMechanism:
-    """A mechanism seen through a window."""
+    """A mechanism seen through a window, or some `links` and further `points` of it alone."""
 
     scene: Scene
     view: View
+    links: Collection[str] | None = None
+    points: Collection[str] = ()
 
     @cached_property
     def spots(self) -> dict[str, Spot]:
         return {name: self.view((float(x), float(y))) for name, (x, y) in self.scene.points.items()}
 
+    @cached_property
+    def shown(self) -> dict[str, Spot]:
+        """The points that are shown."""
+        if self.links is None:
+            return self.spots
+        names = {name for link in self.links for name in self.scene.links[link]}.union(self.points)
+        return {name: spot for name, spot in self.spots.items() if name in names}
+
+    @property
+    def _moving(self) -> list[str]:
+        """The moving links that are shown."""
+        return [link for link in self.scene.moving if self.links is None or link in self.links]
+
+    @property
+    def _slides(self) -> list[Slide]:
+        """The sliding pairs that are shown."""
+        return [one for one in self.scene.slides if not {one.link, one.along}.isdisjoint(self._moving)]
+
     def items(self) -> Iterator[Item]:
         """Everything, from the ground up."""
         for name in self._pivots:
             yield from symbols.pivot(self.spots[name], self._ground(name))
-        for slide in self.scene.slides:
+        for slide in self._slides:
             yield from self._guide(slide)
-        for link in self.scene.moving:
+        for link in self._moving:
             yield from self._link(link)
-        for slide in self.scene.slides:
+        for slide in self._slides:
             yield symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
         for drive in self.scene.drives:
-            if not drive.slides and drive.rate:
+            if not drive.slides and drive.rate and drive.link in self._moving:
                 yield from self.driven(drive)
         yield from self._pairs()
 
     def _pairs(self) -> Iterator[Item]:
         """A circle for each joint and each driven point; a dot for a point that only traces."""
-        pairs = [self.spots[name] for name in (*self.scene.joints, *self.scene.motions)]
-        for spot in places([*pairs, *self.spots.values()]):
+        pairs = [self.shown[name] for name in (*self.scene.joints, *self.scene.motions) if name in self.shown]
+        for spot in places([*pairs, *self.shown.values()]):
             yield symbols.revolute(spot) if spot in pairs else symbols.tracer(spot)
 
     # ---- ground ----------------------------------------------------------------------------------------------------
@@ -55,7 +75,7 @@ class DrawnMechanism:
     @property
     def _pivots(self) -> list[str]:
         """The turning pairs with the frame."""
-        return [name for name in self.scene.joints if FRAME in self.scene.links_of[name]]
+        return [name for name in self.scene.joints if name in self.shown and FRAME in self.scene.links_of[name]]
 
     def neighbours(self, name: str) -> list[Spot]:
         """The other ends of the moving links at a point."""
@@ -176,7 +196,7 @@ class DrawnMechanism:
 
     def wishes(self) -> Iterator[Wish]:
         """The numbers of the links, beside their middles."""
-        for link in self.scene.moving:
+        for link in self._moving:
             spots = self._distinct(link)
             runs = sentence_runs(link)
             if len(spots) == 1:
@@ -193,7 +213,7 @@ class DrawnMechanism:
     def letters(self) -> dict[Spot, tuple[tuple[Run, ...], str]]:
         """What stands at each joint: one name, or all the names of coincident points."""
         found: dict[Spot, list[str]] = {}
-        for name, spot in self.spots.items():
+        for name, spot in self.shown.items():
             key = next((other for other in found if math.dist(other, spot) < NEAR), spot)
             found.setdefault(key, []).append(name)
         runs = {spot: sentence_runs(" ≡ ".join(names), tuple(names)) for spot, names in found.items()}

@@ -10,20 +10,23 @@ import math
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import combinations
 
 from graphplan.kernel.kinds import CIRCLE, OPENING, POINT, Movement
 from graphplan.kernel.program import Panel, Program
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Rect, Spot, Text
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.view import least, view
 
 MARGIN = 7.0  # mm about the marks, for their letters
-CONTEXT, ROUND = 0.2, 0.5  # of the plan: no window shows less of it; so much if it need not be smaller
+CONTEXT, ROUND = 0.08, 0.4  # of the plan: no window shows less of it; so much if it need not be smaller
 MORE = 1.5  # times as large a window may be for what else lies on its lines and arcs
 FLAT = 0.4  # of its width: how high a window is at least
+OPEN = 9.0  # mm: a mechanism with a shorter link is not shown where nothing is drawn on it
 FIRM = 0.25  # mm: no new stroke is thinner
 
 
@@ -51,6 +54,17 @@ class Excerpt(Plate):
         """What is shown, in drawing order."""
         shown = self.own | self.used
         return [drawn for drawn in self.plates.steps if drawn.panel == self.panel and drawn.index in shown]
+
+    @cached_property
+    def drawn_mechanism(self) -> DrawnMechanism:
+        """All the mechanism where its links are long enough to be no heap, else what the steps use of it."""
+        scene, whole = self.plates.scene, super().drawn_mechanism
+        if all(math.dist(whole.spots[p], whole.spots[q]) >= OPEN for link in scene.moving
+               for p, q in combinations(scene.links[link], 2) if scene.points[p] != scene.points[q]):
+            return whole
+        read = {step.name for step in self.plates.plans.drawing.drawn.steps if step.index in self.used and step.name}
+        links = [link for link in scene.moving if len(read.intersection(scene.links[link])) > 1]
+        return replace(whole, links=links, points=read.intersection(scene.points))
 
     @cached_property
     def mechanism(self) -> list[Item]:

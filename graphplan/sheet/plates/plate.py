@@ -138,12 +138,17 @@ class Plate:
         return [mark for mark in on if mark.panel == self.panel]
 
     @cached_property
+    def drawn_mechanism(self) -> DrawnMechanism:
+        """The mechanism, or what of it is shown."""
+        return DrawnMechanism(self.plates.scene, self.view)
+
+    @cached_property
     def mechanism(self) -> list[Item]:
         """The links, pairs and ground, on the plan of the mechanism, and the paths of points."""
         if self.panel != MECHANISM:
             return []
         motion = self.plans.motion
-        shown = [*(motion.items(self.view) if motion else ()), *DrawnMechanism(self.plates.scene, self.view).items()]
+        shown = [*(motion.items(self.view) if motion else ()), *self.drawn_mechanism.items()]
         return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
 
     def positions(self, letters: Iterable[Item]) -> Iterator[Item]:

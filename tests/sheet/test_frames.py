@@ -133,7 +133,7 @@ def test_data_fields_are_told_where_the_scene_fills_them() -> None:
     """Document, author, scale, format, sheet and language always stand in the block, the others where there are any."""
     bare, full = (texts(sheet_with("four-bar", "A3", **wishes)) for wishes in (
         {}, {"owner": "Chair of Mechanisms", "number": "TMM-01", "date": "1939", "approved_by": "N. N."}))
-    assert {"Document", "Construction sheet", "Drawn by", "graphplan", "Format", "A3", "Sheet", "1/1", "Language",
+    assert {"Document", "Construction sheet", "Drawn by", "graphplan", "Format", "A3", "Sheet", "1/2", "Language",
             "en"} <= set(bare)
     optional = {"Legal owner", "Number", "Date of issue", "Approved by"}
     assert not optional & set(bare)

@@ -187,7 +187,7 @@ class Loading:
         ratio = mass.inertia * weight(self.scene.units) * metre(self.scene.units) * self.phi * self.unit * self.unit
         why = said("the inertia couple of {0}, against its angular acceleration", link_named(link))
         head = self.board.inertia_pair(P, R, *ends, start, ratio=ratio, why=why,
-                                       quantity=Quantity(f"W_{link} = J_{link} α_{link}", "force"))
+                                       quantity=Quantity(f"W_{link} = J_{link} alpha_{link}", "force"))
         return Acting(R, start, head, f"W_{link}"), Acting(P, head, start, f"W_{link}")
 
     def turns(self, link: str) -> bool:

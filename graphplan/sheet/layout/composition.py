@@ -48,6 +48,7 @@ TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a c
 FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
+ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
 
@@ -323,18 +324,28 @@ class Composer:
         return _scales(rooms, extents, self.plans, given_scales(self.plans))
 
     def compose(self, pencil: Deviations | None = None) -> Composition:
-        """The composition with these drawing errors told on it."""
+        """The composition with these drawing errors told on it; what its words measure is so at its scales."""
+        scales = self._composed[0].scales if self._composed else self.usual
+        for _ in range(ROUNDS):
+            found, composition = self._at(scales, pencil or Deviations())
+            if composition.scales == scales:
+                break
+            scales = composition.scales
+        return self._worded(composition, found)
+
+    def _at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
+        """Words that measure at some scales, for columns of any width, and the composition that they lead to."""
         found: dict[float, list[TextRow]] = {}
 
         def rows(exact: float) -> list[TextRow]:
             wide = round(exact, 9)  # columns of one width differ by rounding
             if wide not in found:
-                found[wide] = self.words.rows(wide, pencil or Deviations())
+                found[wide] = self.words.rows(wide, scales, pencil)
             return found[wide]
 
         if not (self._composed and all(_alike(was, rows(wide)) for wide, was in self._composed[1].items())):
             self._composed = composed(self.plans, rows, self.title, self.paper, self.protocol), dict(found)
-        return self._worded(self._composed[0], rows)
+        return rows, self._composed[0]
 
     def _worded(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:
         """The composition with its words, beside the plans or on pages of their own."""

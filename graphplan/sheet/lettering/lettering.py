@@ -69,7 +69,7 @@ def letter_sizes(paper: str) -> LetterSizes:
 
 
 class Run(NamedTuple):
-    """A stretch of text on one level: 0 on the base line, -1 subscript."""
+    """A stretch of text on one level: 0 on the base line, -1 subscript, 1 superscript."""
 
     text: str
     level: int = 0
@@ -104,7 +104,7 @@ def _pattern(names: tuple[str, ...]) -> re.Pattern[str]:
     """What needs setting: the names, longest first, and what always does."""
     special = [n for n in names if "_" in n or n.endswith("'") or n.lower() in GREEK]
     ranked = sorted(special, key=lambda n: (-len(n), n))
-    parts = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) for n in ranked]
+    parts = [rf"(?<![a-z]){n}(?![a-z])" if n.isalpha() else re.escape(n) + r"(?!\d)" * n[-1].isdigit() for n in ranked]
     return re.compile("|".join([*parts, _PLAIN.pattern]))
 
 
@@ -115,6 +115,19 @@ def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
         runs += [Run(sentence[done : found.start()]), *name_runs(found.group())]
         done = found.end()
     return _joined((*runs, Run(sentence[done:])))
+
+
+_SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
+
+
+def equation_runs(text: str) -> Runs:
+    """An equation as runs: a^n_BA is a with n above and BA below."""
+    runs, done = list[Run](), 0
+    for found in _SYMBOLS.finditer(text):
+        above, below = found.groups()
+        runs += [Run(text[done : found.start()]), Run(above, 1) if above else Run(below, -1)]
+        done = found.end()
+    return _joined((*runs, Run(text[done:])))
 
 
 def _joined(runs: Iterable[Run]) -> Runs:

@@ -7,20 +7,23 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, HEADING, SIZE, Runs, width
-from graphplan.sheet.plates.display import Item, Polygon, Rect, Text
-from graphplan.sheet.plates.pens import BORDER, LETTERS
+from graphplan.sheet.plates.display import Item, Polygon, Polyline, Rect, Text
+from graphplan.sheet.plates.pens import BORDER, LETTERS, THIN
 
 LEADING = 1.42  # of the letter size, base line to base line
+BELOW, BETWEEN = 0.36, 0.16  # of the letter size: rules under the base line
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A piece of a row: `x` is its distance from the column's left edge."""
+    """A piece of a row: `x` is its distance from the column's left edge; `rules` are lines below it, from where to
+    where beside the size of the letters, and how many."""
 
     x: float
     runs: Runs
     anchor: str = "start"
     bold: bool = False
+    rules: tuple[tuple[float, float, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -96,3 +99,8 @@ def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
         base = foot + (row.tall - CAPS * row.size) / 2 if row.tall else y
         for cell in row.cells:
             yield Text(LETTERS, row.layer, row.step, (x + cell.x, base), cell.runs, row.size, cell.anchor, cell.bold)
+            for start, end, times in cell.rules:
+                left, right = x + cell.x + start * row.size, x + cell.x + end * row.size
+                for k in range(times):
+                    low = base - (BELOW + k * BETWEEN) * row.size
+                    yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))

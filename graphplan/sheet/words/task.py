@@ -33,11 +33,13 @@ class Task(Words):
 
     composition: Composition = field(kw_only=True)
     indent = TICKED
+    unfolded = True
 
     def lines(self, wide: float, guided: bool) -> list[TextRow]:
         """Everything, for a column of this width."""
-        return [self._heading(GUIDED if guided else TASK, gap=0.0), *self._given(wide), *self._plans(wide),
-                *(self._steps(wide) if guided else ()), *self._answers(wide), *(() if guided else self._hints(wide))]
+        head, steps = (GUIDED, self._steps(wide, self.composition.scales)) if guided else (TASK, iter(()))
+        return [self._heading(head, gap=0.0), *self._given(wide), *self._plans(wide), *steps, *self._answers(wide),
+                *(() if guided else self._hints(wide))]
 
     def _given(self, wide: float) -> Iterator[TextRow]:
         scene = self.drawing.scene

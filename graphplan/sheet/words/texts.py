@@ -8,18 +8,23 @@ from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.stages import Equation
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import WORDS
 from graphplan.methods.panels import slide_named
-from graphplan.phrases import arranged, digits, joined, said, unit
-from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, sentence_runs, wrap
+from graphplan.phrases import Said, arranged, digits, joined, said, unit
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
 
 if TYPE_CHECKING:
     from graphplan.sheet.words.force_tables import ForceTables
 
+PLAN = 1.2  # of the letter size: the name of a plan
+TALL = 1.75  # of the letter size: a row with room for rules below its letters
 RESULTS = "results"  # the layer of what is read when all is drawn
 
 
@@ -33,8 +38,9 @@ class Words:
 
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
-    _set: dict[float, tuple[list[TextRow], list[TextRow]]] = field(default_factory=dict)
-    indent: ClassVar[float] = 8.5  # mm: of what hangs from a number
+    _set: dict[float, tuple[Scales, list[TextRow], list[TextRow]]] = field(default_factory=dict)
+    indent: ClassVar[float] = 11.0  # mm: of what hangs from a number
+    unfolded: ClassVar[bool] = False  # whether what takes several movements has them below it
 
     @property
     def drawing(self) -> Construction:
@@ -50,23 +56,13 @@ class Words:
         """What the construction reads off, by kind and name."""
         return self.drawing.read(Floats())
 
-    def rows(self, wide: float, pencil: Deviations) -> list[TextRow]:
+    def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
-        if wide not in self._set:
-            self._set[wide] = [*self._steps(wide)], [*self._check(wide), *self._forms(wide)]
-        before, after = self._set[wide]
+        if wide not in self._set or self._set[wide][0] != scales:
+            self._set[wide] = scales, [*self._steps(wide, scales)], [*self._check(wide), *self._forms(wide)]
+        _, before, after = self._set[wide]
         found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
-
-    @cached_property
-    def told(self) -> dict[int, Runs]:
-        """Each drawn step in words as they are set, and with them its law where that is told first."""
-        drawn, laws, found = self.drawing.drawn, set[str](), dict[int, Runs]()
-        for step in drawn.steps[drawn.givens :]:
-            found[step.index] = self._runs(
-                drawn.sentence(step.index) if step.why in laws else drawn.told(step.index))
-            laws.add(step.why)
-        return found
 
     def _runs(self, text: str) -> Runs:
         """A text in the tongue of the sheet, with the names of marks as they are set."""
@@ -92,17 +88,57 @@ class Words:
         runs = sentence_runs(self.plans.tongue(text))
         return TextRow((Cell(0.0, runs, bold=True),), size=size, gap=gap, step=step, keep=2)
 
-    def _steps(self, wide: float) -> Iterator[TextRow]:
+    def _steps(self, wide: float, scales: Scales) -> Iterator[TextRow]:
+        """The protocol, plan by plan and stage by stage."""
         drawn = self.drawing.drawn
         yield self._heading(said("Construction"))
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
         yield from self.paragraph(said("Given, on the mechanism plan: {0}.", given), wide)
-        panel = ""
-        for step in drawn.steps[drawn.givens :]:
-            if step.panel != panel:
-                panel = step.panel
-                yield self._heading(said("On the {0}", step.panel.words), SIZE, 1.2, step.index)
-            yield from self._hung(self.told[step.index], wide, step.index, str(drawn.number(step.index)))
+        plan = ""
+        for passage in Protocol(self.plans, scales).passages:
+            first = passage.entries[0].movements[0].index
+            if passage.plan != plan:
+                plan = passage.plan
+                yield from self._title(said("On the {0}", passage.plan.words), wide, first, PLAN * SIZE, 2.4)
+            yield from self._stage(passage, wide, first)
+            for entry in passage.entries:
+                yield from self._entry(entry, wide)
+
+    def _stage(self, passage: Passage, wide: float, step: int) -> Iterator[TextRow]:
+        """The title of a stage, its equations with what is known in them, and its law where it was not told before."""
+        if passage.stage is None or passage.title is None:
+            return
+        yield from self._title(arranged("{0:capital}", passage.title), wide, step)
+        for equation in () if passage.again else passage.stage.equations:
+            yield from self._equation(equation, wide - self.indent, step)
+        if passage.law:
+            law = self._hung(self._runs(arranged("{0:capital}.", passage.law)), wide, step)
+            yield from (replace(row, keep=row.keep + 1) for row in law)
+
+    def _title(self, text: Said, wide: float, step: int, size: float = SIZE, gap: float = 1.2) -> Iterator[TextRow]:
+        """What stands over some entries, in as many lines as it takes."""
+        for i, runs in enumerate(wrap(self._runs(text), size, wide, bold=True)):
+            yield TextRow((Cell(0.0, runs, bold=True),), size=size, gap=0.0 if i else gap, step=step, keep=2)
+
+    def _equation(self, equation: Equation, wide: float, step: int) -> Iterator[TextRow]:
+        """An equation with its vectors underlined as often as is known of them; a long one is broken, and bare."""
+        runs, lettered = equation_runs(equation.text), equation.text
+        if width(runs, SIZE) > wide:
+            yield from (TextRow((Cell(self.indent, line),), step=step, keep=1) for line in wrap(runs, SIZE, wide))
+            return
+        rules = tuple((width(equation_runs(lettered[:start]), 1.0), width(equation_runs(lettered[:end]), 1.0), times)
+                      for start, end, times in equation.underlined if times)
+        yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1, tall=TALL * SIZE)
+
+    def _entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
+        """One step as the textbook tells it, unfolded with its movements below it."""
+        whole = self.unfolded and entry.folded
+        if not whole:
+            yield from self._hung(self._runs(entry.told), wide, entry.movements[-1].index, entry.number)
+            return
+        yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index)
+        for one in entry.movements:
+            yield from self._hung(self._runs(one.sentence), wide, one.index, str(one.number))
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))

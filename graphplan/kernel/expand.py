@@ -15,13 +15,13 @@ from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
+from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.primitives import dot
-from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at
+from graphplan.kernel.program import Board, Mark, Panel, Program, Step, Verbs, error_at, plan_of
 
 AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
-ROUNDED = 1e-12  # beside the largest numbers that a mark was made from: what differs by less is one
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
@@ -57,6 +57,8 @@ class Attempt(NamedTuple):
     marks: Sequence[Mark] = ()
     values: Sequence[Any] = ()
     reach: Sequence[float] = ()
+    plans: Sequence[Panel] = ()
+    lines: Sequence[LyingLine] = ()
     made: Mapping[int, tuple[str, tuple[Mark, ...]]] = {}
     letters: Sequence[tuple[Mark, str]] = ()
 
@@ -79,6 +81,8 @@ class Expander:
         self.board = Board()
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
+        self.plans: list[Panel] = []  # on which the marks lie
+        self.lines = LyingLines(self.values, self.reach, self.plans)
         self.panel = Panel()
         self.place: list[int] = []  # of each step of the program its mark, and of each drawn step which step it serves
         self.serves: list[int] = []
@@ -96,30 +100,26 @@ class Expander:
             try:
                 with self.board.on(step.panel, step.links, step.stage):
                     self._letters = ()
-                    mark = self.draw(step.op, args, self._params(step, args), step.why, step.names)
+                    mark = self.draw(step.op, args, step.params, step.why, step.names)
             except Undrawable as fault:
                 raise error_at(self.program, step, fault) from None
             if step.quantity:
                 self.board.annotate(mark.step.index, quantity=step.quantity)
-            place.append(self.board.named(mark, step.name))
+            self.board.named(mark, step.name)
+            place.append(self._along(self.truth[step.index], mark) if mark.kind == LINE else mark)
             self.inner[step.index] = self._letters
             self.serves += [step.index] * (len(self.board.steps) - len(self.serves))
         self.place = [mark.step.index for mark in place]
         return Program(tuple(self.board.steps), tuple(self.place[index] for index in self.program.wanted))
 
-    def _params(self, step: Step, args: tuple[Mark, ...]) -> Mapping[str, Any]:
-        """A step's parameters, turned round where the line that it reads runs the other way than in the program.
-
-        A locus has no way to run: drawn out, it may run against its rule.
-        """
-        by_its_way = step.op.reversal and step.op.reads[0] == LINE
-        if by_its_way and _runs_against(self.truth[step.args[0]], self.value(args[0])):
-            return step.op.reversed(step.params)
-        return step.params
+    def _along(self, truth: Any, mark: Mark) -> Mark:
+        """A line as it runs in truth. A locus has no way to run: drawn out, it may run against its rule."""
+        return mark.reversed if _runs_against(truth, self.value(mark)) else mark
 
     def value(self, mark: Mark) -> Any:
         """The float value of a mark on the board."""
-        return self.values[mark.step.index]
+        value = self.values[mark.step.index]
+        return tuple(-part for part in value) if mark.against else value
 
     def draw(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "",
              names: Mapping[str, str] | None = None, tried: bool = False) -> Mark:
@@ -147,6 +147,8 @@ class Expander:
         self.board.lay(attempt.marks)
         self.values += attempt.values
         self.reach += attempt.reach
+        self.plans += attempt.plans
+        self.lines.lay(attempt.lines)
         self._made |= attempt.made
         if len(self.values) > self._limit:
             raise Outdone
@@ -177,13 +179,24 @@ class Expander:
 
     def _record(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], why: str = "") -> Mark:
         """Record one step and give it its value."""
-        mark = self.board.draw(op, args, why=why, **params)
+        mark, step = self.board.draw(op, args, why=why, **params), self.board.steps[-1]
         if mark.step.index == len(self.values):
-            self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in mark.step.args], **params))
-            self.reach.append(self._reach(mark.step))
+            self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in step.args], **step.params))
+            self.reach.append(self._reach(step))
+            self.plans.append(plan_of(step, self.board.steps, self.plans))
+            if op.gives == LINE and (lying := self.lines.fallen(step)) is not None:
+                run = self.value(mark)
+                self._rewind(step.index)
+                return self._along(run, self.board.marks[lying])
             if len(self.values) > self._limit:
                 raise Outdone
         return mark
+
+    def _rewind(self, length: int) -> None:
+        """Take back all steps after the first `length`."""
+        self.board.rewind(length)
+        del self.values[length:], self.reach[length:], self.plans[length:]
+        self.lines.rewind(length)
 
     def _try(self, op: Primitive, args: tuple[Mark, ...], params: Mapping[str, Any], truth: Any,
              form: str, allowed: float) -> Attempt | None:
@@ -199,8 +212,8 @@ class Expander:
                 return None
             drawn = range(before, len(self.board.steps))
             made = {index: self._made[index] for index in drawn if index in self._made}
-            return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:], made,
-                           board.letters)
+            return Attempt(rating, out, self.board.marks[before:], self.values[before:], self.reach[before:],
+                           self.plans[before:], self.lines.since(before), made, board.letters)
         except (Undrawable, ZeroDivisionError):
             return None
         except Outdone:
@@ -209,8 +222,7 @@ class Expander:
             self._limit = limit
             for index in range(before, len(self.board.steps)):
                 self._made.pop(index, None)
-            self.board.rewind(before)
-            del self.values[before:], self.reach[before:]
+            self._rewind(before)
 
     def _reach(self, step: Step) -> float:
         """The largest number that a mark is made from; of lines elsewhere nothing but their directions counts.

@@ -17,7 +17,7 @@ Heading = tuple[int, int]
 def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
     """The heading of what an operation makes of marks with these headings: of a line at this place its own, but for
     one that is drawn by another line."""
-    along, turns = _followed(op)
+    along, turns = followed(op)
     if along is None:
         return place, 0
     base, ahead = read[along]
@@ -25,7 +25,7 @@ def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
 
 
 @cache
-def _followed(op: Primitive) -> tuple[int | None, int]:
+def followed(op: Primitive) -> tuple[int | None, int]:
     """The operand whose direction a line takes, if it does, and by how many quarter turns it is ahead."""
     found = [(place, turns) for turns, claim in enumerate(("parallel", "perpendicular")) for place in op.claimed(claim)
              if op.gives == LINE]

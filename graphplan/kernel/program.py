@@ -104,6 +104,18 @@ class Step:
         return step
 
 
+def plan_of(step: Step, steps: Sequence[Step], found: Sequence[Panel]) -> Panel:
+    """The plan on which a step lies, from those `found` of the steps before: its own if something it reads lies there,
+    else where what it reads lies.
+
+    A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is.
+    """
+    if not step.args:
+        return step.begins
+    read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
+    return next((home for home in reversed(read) if home.whole == step.panel), read[0])
+
+
 def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[Any, ...]:
     """What an operation draws, whatever it is called: the operands of a symmetric one have no order."""
     return op.name, tuple(sorted(args)) if op.symmetric else args, tuple(sorted(params.items())) if params else ()
@@ -112,14 +124,20 @@ def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[
 class Mark:
     """A mark on the board while the construction is recorded.
 
-    `heading` is that of a line; `keys` are those under which the board finds it, and lines on which it lies.
+    `heading` is that of a line; `keys` are those under which the board finds it, and lines on which it lies. A mark
+    that is `against` stands for a line that is drawn the other way.
     """
 
-    __slots__ = ("board", "heading", "keys", "step")
+    __slots__ = ("against", "board", "heading", "keys", "step")
 
-    def __init__(self, board: Board, step: Step, heading: Heading):
-        self.board, self.step, self.heading = board, step, heading
+    def __init__(self, board: Board, step: Step, heading: Heading, against: bool = False):
+        self.board, self.step, self.heading, self.against = board, step, heading, against
         self.keys: dict[tuple[Any, ...], Mark] = {}
+
+    @property
+    def reversed(self) -> Mark:
+        """The same line, run the other way."""
+        return Mark(self.board, self.step, self.heading, not self.against)
 
     @property
     def kind(self) -> str:
@@ -188,13 +206,16 @@ class Board(Verbs):
             raise TypeError(f"{op.name} takes the parameters {op.params}, was given {tuple(params)}")
         if [arg for arg in args if arg.board is not self]:
             raise ValueError(f"{op.name} was given a mark of another board")
+        against = sum([arg.against for arg in args])
+        if against and op.reversal and args[0].against:
+            params = op.reversed(params)
         places = tuple([step.index for step in read])
         heading = bearing(op, [arg.heading for arg in args], len(self.steps))
         set_square = op.movement is Movement.PARALLEL or op.movement is Movement.PERPENDICULAR
         key = (*heading, places[1]) if set_square else _key(op, places, params)
         same = self._drawn.get(key)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
-            return self.named(same, name)
+            return self._faced(self.named(same, name), against)
         panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {},
                     None, quantity)
@@ -202,18 +223,25 @@ class Board(Verbs):
         self.steps.append(step)
         self.marks.append(mark)
         self._enter(mark, key, args)
-        return self.named(mark, name)
+        return self._faced(self.named(mark, name), against)
+
+    def _faced(self, mark: Mark, against: int) -> Mark:
+        """What is drawn by so many lines that are drawn the other way: a line then is, too."""
+        return mark.reversed if against % 2 and mark.kind == LINE else mark
 
     def _enter(self, mark: Mark, key: tuple[Any, ...], args: tuple[Mark, ...]) -> None:
         """Find a mark under its key, and a line by its heading and each point that lies on it by construction."""
-        pairs = [(mark, args[place]) if mark.kind == LINE else (args[place], mark) for place in incident(mark.step.op)]
-        found = {key: mark} | {(*line.heading, point.step.index): line for line, point in pairs}
-        mark.keys = {key: line for key, line in found.items() if key not in self._drawn}
-        self._drawn |= mark.keys
+        found = {key: mark}
+        for place in incident(mark.step.op):
+            line, point = (mark, args[place]) if mark.kind == LINE else (args[place], mark)
+            found[*line.heading, point.step.index] = line
+        for key, line in found.items():
+            if key not in self._drawn:
+                self._drawn[key] = mark.keys[key] = line
 
     def named(self, mark: Mark, name: str) -> Mark:
         """The same mark, bearing this letter if it has none yet, with a prime where the letter is taken."""
-        if name and not mark.step.name:
+        if name and not self.steps[mark.step.index].name:
             while name in self._names:
                 name += "'"
             self._names.add(name)

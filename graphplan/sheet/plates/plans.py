@@ -10,8 +10,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
-from graphplan.kernel.program import Panel, Step
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
+from graphplan.kernel.program import Panel, Step, plan_of
 from graphplan.methods.construction import Construction, DrawnVector
 from graphplan.methods.panels import MECHANISM, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
@@ -55,24 +55,16 @@ class Plans:
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:
-        """The plan of every step: its own if something it reads lies there, else where what it reads lies.
+        """The plan of every step, see :func:`graphplan.kernel.program.plan_of`.
 
-        A semicircle on the mechanism serves a vector of the N-plan; it is drawn where its link is. Compasses alone
-        cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
+        Compasses alone cannot carry a direction from plan to plan: in a strict drawing all plans lie as one.
         """
         if self.drawing.strict:
             return [MECHANISM] * len(self.drawing.drawn)
         out: list[Panel] = []
         for step in self.drawing.drawn.steps:
-            out.append(self._home(step, out))
+            out.append(plan_of(step, self.drawing.drawn.steps, out))
         return out
-
-    def _home(self, step: Step, found: Sequence[Panel]) -> Panel:
-        if not step.args:
-            return step.begins
-        steps = self.drawing.drawn.steps
-        read = [found[arg] for arg in step.args if steps[arg].op.gives != OPENING] or [found[step.args[0]]]
-        return next((home for home in reversed(read) if home.whole == step.panel), read[0])
 
     @cached_property
     def panels(self) -> list[Panel]:

@@ -1,0 +1,96 @@
+"""Lines of the drawn pose that fall on one another: where one lies already no pencil draws a second.
+
+A line is as true as the points that it passes through, and its direction as the points that set it lie far apart.
+"""
+
+from __future__ import annotations
+
+import math
+from bisect import bisect_left
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from graphplan.kernel.incidence import followed, incident
+from graphplan.kernel.kinds import Movement
+from graphplan.kernel.program import Panel, Step
+
+ROUNDED = 1e-12  # beside the largest numbers that a mark was made from: what differs by less is one
+
+
+class LyingLine(NamedTuple):
+    """A line on a plan: its step, its equation with a unit normal, the largest number that it was made from, and how
+    many times worse than to rounding its direction is known."""
+
+    step: int
+    plan: Panel
+    normal: tuple[float, float]
+    offset: float
+    reach: float
+    swing: float
+
+    def holds(self, point: tuple[float, float], reach: float) -> bool:
+        """Whether a point, made from numbers as large as `reach`, lies on it."""
+        (a, b), (x, y) = self.normal, point
+        return abs(a * x + b * y + self.offset) <= ROUNDED * self.swing * max(self.reach, reach)
+
+    def along(self, other: LyingLine) -> bool:
+        """Whether another line has its direction."""
+        (a, b), (c, d) = self.normal, other.normal
+        return abs(a * d - b * c) <= ROUNDED * (self.swing + other.swing)
+
+    @property
+    def drawer(self) -> tuple[str, float]:
+        """Where lines of its plan and of about its direction are kept."""
+        return self.plan, round(self.normal[0] * self.normal[0], 3)
+
+
+@dataclass
+class LyingLines:
+    """The lines that are drawn, in drawing order; `values`, `reach` and `plans` are those of all steps by now."""
+
+    values: Sequence[Any]
+    reach: Sequence[float]
+    plans: Sequence[Panel]
+    lines: list[LyingLine] = field(default_factory=list)
+    _drawers: dict[tuple[str, float], list[LyingLine]] = field(default_factory=dict)
+    _swings: dict[int, float] = field(default_factory=dict)
+
+    def fallen(self, step: Step) -> int | None:
+        """Enter a line that is drawn; if one lies there already its step is given instead."""
+        line = self._lying(step)
+        ends = [(self.values[place][:2], self.reach[place]) for place in map(step.args.__getitem__, incident(step.op))]
+        part, spread = line.normal[0] * line.normal[0], 4 * ROUNDED * line.swing
+        for direction in {round(part - spread, 3), round(part + spread, 3)}:
+            for old in self._drawers.get((line.plan, direction), ()):
+                if ends and old.along(line) and all(old.holds(*end) for end in ends):
+                    return old.step
+        self.lay([line])
+        return None
+
+    def lay(self, lines: Sequence[LyingLine]) -> None:
+        """Enter lines that were drawn before, or one that is drawn now."""
+        self.lines += lines
+        for line in lines:
+            self._swings[line.step] = line.swing
+            self._drawers.setdefault(line.drawer, []).append(line)
+
+    def _lying(self, step: Step) -> LyingLine:
+        a, b, c = self.values[step.index]
+        n = math.hypot(a, b)
+        base, _ = followed(step.op)
+        swing = 1.0
+        if step.op.movement is Movement.RULED:
+            swing = max(1.0, *(self.reach[arg] / n for arg in step.args))
+        elif base is not None:
+            swing = self._swings[step.args[base]]
+        return LyingLine(step.index, self.plans[step.index], (a / n, b / n), c / n, self.reach[step.index], swing)
+
+    def since(self, length: int) -> list[LyingLine]:
+        """The lines of the steps after the first `length`."""
+        return self.lines[bisect_left(self.lines, length, key=lambda line: line.step):]
+
+    def rewind(self, length: int) -> None:
+        """Take back the lines of all steps after the first `length`."""
+        while self.lines and self.lines[-1].step >= length:
+            self._drawers[self.lines.pop().drawer].pop()

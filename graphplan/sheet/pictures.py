@@ -8,7 +8,7 @@ used on both sides.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, groupby, pairwise
@@ -24,6 +24,7 @@ from graphplan.sheet.words.protocol import Entry, Passage, Protocol
 
 MARK, STEP, STAGE = CUTS = "mark", "step", "stage"
 MOST = {MARK: 12, STEP: 1, STAGE: 14}  # movements in a picture
+LEAST = 3  # movements up to a mark, where more follow in their stage
 SHORT = 6  # movements of stages that stand together
 PARTED = 2.0  # the price of a further picture, in helping marks that are used in both
 
@@ -105,17 +106,18 @@ class Picture:
             yield replace(self, parts=parts)
 
 
-def pictures(protocol: Protocol, cut: str, room: tuple[float, float]) -> list[Picture]:
-    """The pictures of a construction, each no larger than its room, width and height in mm."""
+def pictures(protocol: Protocol, cut: str, room: tuple[float, float],
+             fits: Callable[[Picture], bool]) -> list[Picture]:
+    """The pictures of a construction, each no larger than its room, width and height in mm, and so that it `fits`."""
     ways = {MARK: _by_marks, STEP: _by_steps, STAGE: _by_stages}
-    return [one for parts in ways[cut](protocol) for one in _uncrowded(Picture(protocol, tuple(parts), room))]
+    return [one for parts in ways[cut](protocol) for one in _parted(Picture(protocol, tuple(parts), room), fits)]
 
 
-def _uncrowded(one: Picture) -> Iterator[Picture]:
-    """A picture, or as many as it takes for letters to stand apart."""
-    if len(one.steps) > 1 and one.crowded:
+def _parted(one: Picture, fits: Callable[[Picture], bool]) -> Iterator[Picture]:
+    """A picture, or as many as it takes for each to fit, and for its letters to stand apart."""
+    if len(one.steps) > 1 and not (fits(one) and not one.crowded):
         for half in one.halves():
-            yield from _uncrowded(half)
+            yield from _parted(half, fits)
     else:
         yield one
 
@@ -136,7 +138,7 @@ def _by_steps(protocol: Protocol) -> Iterator[list[Part]]:
 
 
 def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
-    """A picture up to each entry that gives a point with a letter; with the beginning of a plan what is drawn next."""
+    """A picture up to each entry that gives a point with a letter, with some before it; with an origin what follows."""
     begun = list[Part]()
     for part in _parts(protocol):
         if len(part.steps) == 1 and part.steps[0].op.free:
@@ -146,7 +148,8 @@ def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
         for entry in part.entries:
             steps = [one.step for one in entry.movements]
             group += steps
-            if (steps[-1].name and steps[-1].op.gives == POINT) or len(group) >= MOST[MARK]:
+            marked = steps[-1].name and steps[-1].op.gives == POINT and len(group) >= LEAST
+            if marked or len(group) >= MOST[MARK]:
                 runs, group = [*runs, group], []
         for one in part.cut([*runs, *([group] if group else [])]):
             yield [*begun, one]

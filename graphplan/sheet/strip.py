@@ -13,12 +13,12 @@ from functools import cached_property
 from graphplan.errors import Refused
 from graphplan.phrases import arranged, said
 from graphplan.sheet.frames.frame import frame_of
-from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page
+from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page, TitleBlock
 from graphplan.sheet.layout.composition import Composition, with_results_alone
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import SIZE, letter_sizes, sentence_runs, width, wrap
 from graphplan.sheet.pictures import MARK, STAGE, STEP, Part, Picture, pictures
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, moved
@@ -65,9 +65,10 @@ class Strip:
 
     @classmethod
     def of(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
-        """The strip of a composed construction."""
+        """The strip of a composed construction; by stages an A4 stands upright, as words are beside the pictures."""
         plans = composition.plans
         named = paper or plans.drawing.scene.sheet.paper or USUAL
+        named = f"{named} portrait" if cut == STAGE and named == "A4" else named
         return cls(Protocol(plans, composition.scales), cut, frame_of(plans.drawing.scene).paper(named))
 
     @property
@@ -79,6 +80,17 @@ class Strip:
         """Width and height of a sheet."""
         return sheet_size(self.paper)
 
+    @property
+    def times(self) -> float:
+        """How many times as large as they are set pictures and words are on this paper."""
+        return letter_sizes(self.paper).times
+
+    @cached_property
+    def title(self) -> TitleBlock:
+        """The title block in the letters of this paper."""
+        scene = self.plans.drawing.scene
+        return frame_of(scene).block(scene, self.plans.tongue).on(self.paper)
+
     @cached_property
     def frame(self) -> Rect:
         return frame_of(self.plans.drawing.scene).space(*self.size)
@@ -86,22 +98,27 @@ class Strip:
     @cached_property
     def block(self) -> Rect:
         """Where the title block is."""
-        scene = self.plans.drawing.scene
-        return lower_right(self.frame, COLUMN, frame_of(scene).block(scene, self.plans.tongue))
+        return lower_right(self.frame, self.times * COLUMN, self.title)
 
     @cached_property
     def columns(self) -> list[Rect]:
-        """The columns of a page, those over the title block ending above it."""
-        count = max(1, round((self.frame.width - GAP) / (WANTED[self.cut] + GAP)))
-        pitch = (self.frame.width - GAP) / count
-        lefts = [self.frame.left + GAP + i * pitch for i in range(count)]
-        feet = [self.block.top if left + pitch - GAP > self.block.left else self.frame.bottom for left in lefts]
-        return [Rect(left, foot + 2.0, left + pitch - GAP, self.frame.top - 2.0)
+        """The columns of a page as they are set, those over the title block ending above it."""
+        frame, block = self.frame.times(1 / self.times), self.block.times(1 / self.times)
+        count = max(1, round((frame.width - GAP) / (WANTED[self.cut] + GAP)))
+        pitch = (frame.width - GAP) / count
+        lefts = [frame.left + GAP + i * pitch for i in range(count)]
+        feet = [block.top if left + pitch - GAP > block.left else frame.bottom for left in lefts]
+        return [Rect(left, foot + 2.0, left + pitch - GAP, frame.top - 2.0)
                 for left, foot in zip(lefts, feet, strict=True)]
 
     @cached_property
     def pictures(self) -> list[Picture]:
-        return pictures(self.protocol, self.cut, (self.wide, HIGH * self.wide))
+        tallest = max(column.height for column in self.columns)
+        found = pictures(self.protocol, self.cut, (self.wide, HIGH * self.wide),
+                         lambda one: self._height(one) <= tallest)
+        if max(map(self._height, found), default=0.0) > tallest:
+            raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
+        return found
 
     @property
     def wide(self) -> float:
@@ -131,10 +148,8 @@ class Strip:
     def _pages(self) -> Iterator[list[tuple[int, Spot]]]:
         page, places = list[tuple[int, Spot]](), list[Rect]()
         place, y = Rect(0.0, 0.0, 0.0, 0.0), 0.0
-        for number in range(len(self.pictures)):
-            high = self._height(number)
-            if high > max(column.height for column in self.columns):
-                raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")
+        for number, one in enumerate(self.pictures):
+            high = self._height(one)
             while y - high < place.bottom:
                 if not places and page:
                     yield page
@@ -150,9 +165,9 @@ class Strip:
         drawing, say = self.plans.drawing, self.plans.tongue
         scene, style = drawing.scene, frame_of(drawing.scene)
         document = CONSTRUCTION if self.cut == STAGE else STRIP
-        title = style.block(scene, say).items(self.block, Page(document, self.paper, NO_SCALE, number, of))
+        title = self.title.items(self.block, Page(document, self.paper, NO_SCALE, number, of))
         items = [*style.items(self.paper, self.frame, say), *title]
-        items += [item for place, corner in page for item in self._cell(place, corner)]
+        items += [moved(item, 0.0, 0.0, self.times) for place, corner in page for item in self._cell(place, corner)]
         told = said("Film strip of a graphical construction: {0} steps in {1} pictures.",
                     len(drawing.drawn) - drawing.drawn.givens, len(self.pictures))
         return Sheet(*self.size, self.frame, {}, tuple(items), scene.title, say(told), tuple(self.plans.sentences),
@@ -162,7 +177,7 @@ class Strip:
         """A picture with its heading above and its words below."""
         one, (x, y) = self.pictures[number], corner
         rect = one.excerpt.view.rect
-        heads, told = self._rows(number)
+        heads, told = self._rows(one, number)
         y -= sum(row.height for row in heads)
         yield from _down(heads, x, corner[1])
         yield Outline(pens.BORDER, "paper", None, tuple((u + x, v + y - rect.height) for u, v in rect.corners),
@@ -172,15 +187,14 @@ class Strip:
         below = (0.0, rect.height + UNDER) if self.cut != STAGE else (rect.width + GAP, 0.0)
         yield from _down(told, x + below[0], y - below[1])
 
-    def _height(self, number: int) -> float:
+    def _height(self, one: Picture) -> float:
         """How far down a picture reaches with its words."""
-        (heads, told), high = self._rows(number), self.pictures[number].excerpt.view.rect.height
+        (heads, told), high = self._rows(one), one.excerpt.view.rect.height
         words = sum(row.height + row.gap for row in told)
         return sum(row.height for row in heads) + (max(high, words) if self.cut == STAGE else high + UNDER + words)
 
-    def _rows(self, number: int) -> tuple[list[TextRow], list[TextRow]]:
+    def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""
-        one = self.pictures[number]
         heading = self._paragraph(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width, bold=True)
         return [*heading], [row for part in one.parts for row in self._told(part, len(one.parts) > 1)]
 

@@ -62,7 +62,7 @@ def test_steps_that_are_not_there_are_refused(text: str) -> None:
         numbered(drawing_of("four-bar").drawn, text)
 
 
-@pytest.mark.parametrize("name", SCENES[::3])
+@pytest.mark.parametrize("name", SCENES[::6])
 def test_the_strip_shows_every_step_once(name: str) -> None:
     """The pictures' steps are all steps in order, each picture's on one plan, its words below it inside the frame."""
     drawing = drawing_of(name)
@@ -80,7 +80,7 @@ def test_the_strip_shows_every_step_once(name: str) -> None:
         assert not [item for page in film.sheets for item in outside(page)]
 
 
-@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10", "alt-eight-link"])
+@pytest.mark.parametrize("name", ["four-bar", "slotted-link", "jaanimets-10"])
 def test_letters_of_a_strip_stand_apart(name: str) -> None:
     """No letter of a picture covers another, nor a word below it."""
     composition = compose(drawing_of(name))

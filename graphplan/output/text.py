@@ -18,6 +18,8 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
 from graphplan.sheet.words.protocol import Passage, Protocol, measured
+from graphplan.sheet.words.readings import Readings
+from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
 
 WIDTH = 110
@@ -37,7 +39,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     lines += [say(said("Structure: {0}", line)) for line in structure]
     lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrapped(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
-        "locus is.")), ""), *_passages(told.passages, say, movements)]
+        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(Words(plans), told, say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]
     if drawing.forms:
@@ -101,6 +103,20 @@ def _underlines(equation: Equation) -> str:
     return "".join(line).rstrip()
 
 
+def _results(words: Words, told: Protocol, say: Tongue) -> Iterator[str]:
+    """What is read off the sheet, each beside the computed value, and the results in tables."""
+    read = list(Readings(told, words.values))
+    yield from ("", say(said("Measured on the sheet")) + ":") if read else ()
+    for one in read:
+        yield from _wrapped(say(one.told), "  ")
+    for number, table in enumerate(words.result_tables()):
+        yield from ("",) if number else ("", say(said("Results")) + ":")
+        cells = [["".join(f"_{run.text}" if run.level else run.text for run in runs) for runs in row] for row in table]
+        wide = [max(map(len, column)) for column in zip(*cells, strict=True)]
+        yield from ("  " + "  ".join(cell.rjust(room) if place else cell.ljust(room) for place, (cell, room) in
+                                     enumerate(zip(row, wide, strict=True))) for row in cells)
+
+
 def _numbered(number: str, sentence: str, indent: int = 0) -> list[str]:
     """A sentence that hangs from its number."""
     return textwrap.wrap(sentence, WIDTH, initial_indent=f"{' ' * indent}{number:>{HANGING - 2}}. ",
@@ -155,6 +171,9 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
                      "sentence": say(entry.sentence), "why": say(entry.why),
                      "lengths": _measures(entry.lengths)}
                     for passage in told.passages for entry in passage.entries],
+        "readings": [{"kind": one.kind, "of": one.of, "said": say(one.told), "value": one.value,
+                      "computed": one.computed, "lengths": _measures([one.length])}
+                     for one in Readings(told, Words(composition.plans).values)],
         "steps": entries,
     }
 

@@ -70,12 +70,12 @@ class Lengths:
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 # the velocity, as it is carried to the link
                 speed = Measure(self.mm(m, w) * self.per_mm(w) / self.per_mm(A), (m, w))
-                arm, found = self._between(K, A), self._between(E, A)
-                told = arranged("v²/{0} = {1}² : {2} = {3}", self._side(K, A), tenths(speed.mm), tenths(arm.mm),
+                arm, found = self.between(K, A), self.between(E, A)
+                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), tenths(speed.mm), tenths(arm.mm),
                                 found.told)
                 return (Length(told, (speed, arm, found)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
-                half = self._between(K, B)
+                half = self.between(K, B)
                 return (Length(half.told, (half,)),)
         return ()
 
@@ -87,17 +87,17 @@ class Lengths:
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
-        return math.hypot(*self._vector(P, Q)) / self.per_mm(Q)
+        return math.hypot(*self.vector(P, Q)) / self.per_mm(Q)
 
-    def _between(self, P: int, Q: int) -> Measure:
+    def between(self, P: int, Q: int) -> Measure:
         return Measure(self.mm(P, Q), (P, Q))
 
-    def _arm(self, Y: int, C: int, p: int, q: int) -> Measure:
+    def arm(self, Y: int, C: int, p: int, q: int) -> Measure:
         """The arm about Y of a force at C, as from p to q, which may be marks of another plan."""
-        (x, y), (u, v) = self._vector(p, q), self._vector(Y, C)
+        (x, y), (u, v) = self.vector(p, q), self.vector(Y, C)
         return Measure(abs(u * y - v * x) / (math.hypot(x, y) or 1.0) / self.per_mm(C), (Y, C, p, q))
 
-    def _vector(self, P: int, Q: int) -> tuple[float, float]:
+    def vector(self, P: int, Q: int) -> tuple[float, float]:
         (x, y), (u, v) = self.values[P][:2], self.values[Q][:2]
         return float(u - x), float(v - y)
 
@@ -108,7 +108,7 @@ class Lengths:
         if op.sizing:
             yield WORKED_OUT[op.sizing](self, step)
         elif op.movement is Movement.OPENED:
-            yield Length((wide := self._between(*args)).told, (wide,))
+            yield Length((wide := self.between(*args)).told, (wide,))
         elif op.gives == OPENING:
             wide = Measure(math.sqrt(self.values[out][0]) / self.per_mm(out), (out, out))
             yield Length(self._given(step.quantity or LENGTH, wide, out), (wide,))
@@ -117,21 +117,21 @@ class Lengths:
             taken = Measure(math.sqrt(self.values[args[1]][0]) / self.per_mm(args[1]), (args[1], args[1]))
             yield from () if self._alike(taken, wide) else (self._carried(taken, wide),)
         elif op.movement is Movement.PICKED and self.plan(args[1]) == self.plan(out):
-            away = self._between(args[1], out)
+            away = self.between(args[1], out)
             yield Length(said("Here {0} from {1}", away.told, self.program.text(args[1])), (away,))
         elif op.root is not None and op.movement in LAID and op.movement is not Movement.DROPPED:
-            yield self._laid(step, self._between(args[op.root], out))
+            yield self._laid(step, self.between(args[op.root], out))
 
     def _laid(self, step: Step, laid: Measure) -> Length:
         """A vector: a given one with its components, or one that is drawn on this plan or another, and how often."""
         if step.op.movement in COMPONENTS:
             told = self._given(step.quantity or LENGTH, laid, step.index)
-            parts = (tenths(part / self.per_mm(step.index)) for part in self._vector(*laid.marks))
+            parts = (tenths(part / self.per_mm(step.index)) for part in self.vector(*laid.marks))
             return Length(said("{0} (x {1}, y {2})", told, *parts), (laid,))
         if step.quantity:
             found = Length(self._given(step.quantity, laid, step.index), (laid,))
         else:
-            found = self._carried(self._between(*step.args[:2]), laid)
+            found = self._carried(self.between(*step.args[:2]), laid)
         against = step.params.get("ratio", 1) < 0
         return found._replace(told=said("{0}, against that vector", found.told)) if against else found
 
@@ -160,7 +160,7 @@ class Lengths:
                 "acceleration": (scales.acceleration(plan), f"{scales.length}/s²"),
                 "force": (scales.force(plan), scales.unit)}.get(kind, (scales.of(plan), scales.length))
 
-    def _side(self, P: int, Q: int) -> Said:
+    def side(self, P: int, Q: int) -> Said:
         """The distance of two points by their letters."""
         names = [self.program.steps[index].name for index in (P, Q)]
         return arranged("{0}{1}", *names) if all(names) else arranged("{0}", "r")
@@ -170,10 +170,10 @@ class Lengths:
     def _moments(self, step: Step) -> Length:
         """A force from the moment of another about a point."""
         Y, X, C, p, q, m = step.args
-        force, lever, arm = self._between(p, q), self._arm(Y, C, p, q), self._between(Y, X)
-        found = self._between(m, step.index)
+        force, lever, arm = self.between(p, q), self.arm(Y, C, p, q), self.between(Y, X)
+        found = self.between(m, step.index)
         per, symbol = self.scale("force", step.index)
-        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self._side(Y, X), *map(tenths, (
+        told = arranged("P·h/{0} = {1} · {2} : {3} = {4} ({5})", self.side(Y, X), *map(tenths, (
             force.mm, lever.mm, arm.mm)), found.told, joined((digits(found.mm * per), unit(symbol)), " "))
         return Length(told, (force, lever, arm, found))
 
@@ -188,33 +188,33 @@ class Lengths:
     def _inertia(self, step: Step) -> Length:
         """A force whose pair is the couple of inertia."""
         P, R, a, b, m = step.args
-        u, v = self._vector(P, R), self._vector(a, b)
+        u, v = self.vector(P, R), self.vector(a, b)
         part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (math.hypot(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
         found = self._paired(step, P, R, m)
         return Length(said("tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
 
     def _paired(self, step: Step, P: int, R: int, m: int) -> Length:
         """The force of a couple's pair, by the distance of its points."""
-        arm, found, names = self._between(P, R), self._between(m, step.index), self._side(P, R)
+        arm, found, names = self.between(P, R), self.between(m, step.index), self.side(P, R)
         force = found.told if step.quantity is None else self._given(
             Quantity(arranged("{0}/{1}", step.quantity.written, names), "force"), found, step.index)
         return Length(arranged("{0} = {1}, {2}", names, arm.told, force), (arm, found))
 
     def _friction(self, step: Step) -> Length:
         """The radius of a friction circle."""
-        radius = self._between(step.args[0], step.index)
+        radius = self.between(step.args[0], step.index)
         return Length(self._given(Quantity("r", "length"), radius, step.index), (radius,))
 
     def _shifted(self, step: Step) -> Length:
         """How far a couple shifts a force."""
         C, p, q, P, R, a, b = step.args
-        measures = self._between(a, b), self._arm(P, R, a, b), self._between(p, q), self._between(C, step.index)
+        measures = self.between(a, b), self.arm(P, R, a, b), self.between(p, q), self.between(C, step.index)
         told = arranged("{0} · {1} : {2} = {3}", *(tenths(one.mm) for one in measures[:3]), measures[3].told)
         return Length(told, measures)
 
     def _whole(self, step: Step) -> Length:
         """What was found beforehand, as it is laid off here."""
-        whole = self._between(step.args[4], step.index)
+        whole = self.between(step.args[4], step.index)
         return Length(whole.told, (whole,))
 
 

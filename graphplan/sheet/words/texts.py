@@ -17,6 +17,7 @@ from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol
+from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
 
@@ -38,7 +39,7 @@ class Words:
 
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
-    _set: dict[float, tuple[Scales, list[TextRow], list[TextRow]]] = field(default_factory=dict)
+    _set: dict[float, tuple[Scales, list[TextRow], list[TextRow], list[TextRow]]] = field(default_factory=dict)
     indent: ClassVar[float] = 11.0  # mm: of what hangs from a number
     unfolded: ClassVar[bool] = False  # whether what takes several movements has them below it
 
@@ -59,9 +60,10 @@ class Words:
     def rows(self, wide: float, scales: Scales, pencil: Deviations) -> list[TextRow]:
         """Everything, for a column of this width; `pencil` are the expected drawing errors where they are told."""
         if wide not in self._set or self._set[wide][0] != scales:
-            self._set[wide] = scales, [*self._steps(wide, scales)], [*self._check(wide), *self._forms(wide)]
-        _, before, after = self._set[wide]
-        found = [*self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
+            self._set[wide] = (scales, [*self._steps(wide, scales)], [*self._readings(wide, scales)],
+                               [*self._check(wide), *self._forms(wide)])
+        _, before, read, after = self._set[wide]
+        found = [*read, *self._results(wide, pencil), *self._errors(wide, pencil.told), *after]
         return [*before, *(replace(row, layer=RESULTS) for row in found)]
 
     def _runs(self, text: str) -> Runs:
@@ -139,6 +141,13 @@ class Words:
         yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index)
         for one in entry.movements:
             yield from self._hung(self._runs(one.sentence), wide, one.index, str(one.number))
+
+    def _readings(self, wide: float, scales: Scales) -> Iterator[TextRow]:
+        """What is measured on the finished sheet, and what it means."""
+        found = list(Readings(Protocol(self.plans, scales), self.values))
+        yield from [self._heading(said("Measured on the sheet"))] if found else []
+        for reading in found:
+            yield from self.paragraph(reading.told, wide)
 
     def _results(self, wide: float, pencil: Deviations) -> Iterator[TextRow]:
         yield self._heading(said("Results"))

@@ -113,6 +113,12 @@ class Plans:
         """The vectors drawn on a plan; one that begins on another plan cannot be."""
         return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
 
+    @cached_property
+    def lengths(self) -> list[tuple[str, Panel, float]]:
+        """The vectors that are drawn: each with its kind, its plan, and its length there."""
+        return [(vector.kind, panel, math.dist(self.spot(vector.start), self.spot(vector.end)))
+                for panel in self.panels for vector in self.vectors(panel)]
+
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
         lever = {"velocity"} if panel == LeverPlan.of() and self._moves else set()

@@ -215,6 +215,10 @@ class Matching:
         spots = self.sheet.spots(step.index, self.traces[place])
         found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]
         fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in found]
+        if not any(fits) and (told := self._as_told(step)):
+            asked.append(told)
+            found.append(self.sheet.residual(step, told[0], spots, told[1]))
+            fits.append(found[-1].fits(self.chance))
         state = WRONG if not any(fits) else FOLLOWS if not fits[-1] else RIGHT
         by = fits.index(True) if any(fits) else 0
         seen = self.sheet.seen(step, own, spots, steady=state == WRONG or not self.traces[place].blur)
@@ -223,6 +227,16 @@ class Matching:
             weight = -math.inf
         return self._go_on(Match(step, state, asked[by][0], place, found[by], weight=weight),
                            seen, seen if fits[-1] else mended)
+
+    def _as_told(self, step: Step) -> tuple[Any, Sequence[Any]] | None:
+        """Where the length leads that the protocol tells for a step, laid off from the student's own mark."""
+        if step.op.gives != POINT or step.op.root is None:
+            return None
+        root, drawn = step.args[step.op.root], list(self.sheet.drawing.values)
+        drawn[root] = self.own[root]
+        with suppress(Undrawable):
+            return self.sheet.expected(step, drawn), drawn
+        return None
 
     def mistake(self, mistake: Mistake) -> Matching:
         """Take a mistake for what was done at the next step: what is drawn where it leads, or a mark that is not to be

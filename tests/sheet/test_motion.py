@@ -90,7 +90,7 @@ def test_students_are_not_given_the_motion() -> None:
     """The solution shows what is asked for; the page to draw on does not."""
     composition = composed("four-bar", ("M",), 6)
     solved = solution(composition)
-    pages = solved[0], task(solved[0], composition)[0]
+    pages = solved[0], task(composition)[0]
     assert [any(item.layer == LAYER for item in page.items) for page in pages] == [True, False]
 
 

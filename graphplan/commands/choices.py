@@ -55,7 +55,8 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
         "(default), shifted so that they need none, or at two points that replace the link")
     add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
         help="draw N rounds of the friction iteration; without it until the forces no longer change")
-    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto")
+    command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto",
+                         curves="", faint=None)
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 
@@ -71,23 +72,23 @@ def add_paper(command: argparse.ArgumentParser, told: str) -> None:
     command.add_argument("--paper", choices=tuple(SIZES), help=told)
 
 
-def add_sheet(command: argparse.ArgumentParser) -> None:
-    """The options that say what the sheet looks like; without them the scene has a say in it."""
+def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> None:
+    """The options that say what the sheet looks like; without them the scene has a say in it.
+
+    The option of `positions` is left to a command to which they mean something else.
+    """
     add_paper(command, "the sheet; without it the scene's, or the smallest that will do")
     command.add_argument("--frame", choices=FRAMES, help="frame and title block after ISO 5457 and 7200, or GOST "
                          "2.301 and 2.104; without it the scene's, or iso")
     command.add_argument("--protocol", choices=PROTOCOLS, default="auto", help="where the words stand: aside, in "
                          "columns beside the plans; on pages of their own; nowhere; or aside where the plans keep "
                          "most of the page, else on pages (auto, the default)")
-    add_language(command)
-
-
-def add_motion(command: argparse.ArgumentParser) -> None:
-    """The options that show the motion on the plan of the mechanism; without them the scene has a say in it."""
     command.add_argument("--curves", metavar="POINTS",
                          help="the paths of these points over the motion, such as M,C, or of all")
-    command.add_argument("--positions", type=count("--positions", 1, MOST_POSITIONS), metavar="N",
-                         help="so many positions of the mechanism in faint lines")
+    if positions:
+        command.add_argument("--positions", type=count("--positions", 1, MOST_POSITIONS), metavar="N", dest="faint",
+                             help="so many positions of the mechanism in faint lines")
+    add_language(command)
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
@@ -129,10 +130,10 @@ def presented(options: argparse.Namespace) -> Scene:
 
     scene = given(options)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
-    if getattr(options, "curves", None):
+    if options.curves:
         said["curves"] = _movable(scene, options.curves)
-    if getattr(options, "positions", None):
-        said["positions"] = options.positions
+    if options.faint:
+        said["positions"] = options.faint
     sheet = replace(scene.sheet, **said)
     return replace(scene, sheet=sheet, title=tongue(sheet.language).title(scene.title))
 

@@ -22,16 +22,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import (
-    add_choices,
-    add_motion,
-    add_preference,
-    add_sheet,
-    count,
-    on_paper,
-    presented,
-    reported,
-)
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper, presented, reported
 from graphplan.commands.output import kind, paged, write, write_all
 from graphplan.errors import Refused
 from graphplan.output import back_end
@@ -61,7 +52,6 @@ def options(command: argparse.ArgumentParser) -> None:
                             "equation and law; --strict draws by stages unless the sheet is asked for")
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
-    add_motion(command)
     add_choices(command, strict=True)
     add_preference(command)
 

@@ -36,7 +36,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--only", choices=PARTS, help="this part of a .pdf alone")
     command.add_argument("--positions", type=count("--positions", 0), metavar="N",
                          help=f"how many poses of the cycle a .html shows ({POSITIONS}); 0 for the given one alone")
-    add_sheet(command)
+    add_sheet(command, positions=False)
     add_choices(command, strict=True)
     add_preference(command)
 

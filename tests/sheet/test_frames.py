@@ -251,7 +251,7 @@ def test_every_page_says_which_document_and_page_it_is() -> None:
 def test_the_command_line_has_the_last_word(tmp_path: Path) -> None:
     """Options win over the scene's sheet, and the sheet over what is usual."""
     wishes = '[sheet]\npaper = "A2"\nframe = "gost"\nlanguage = "ru"\n[points]'
-    text = gp.load("four-bar").text.replace("[points]", wishes, 1)
+    text = gp.load("five-bar").text.replace("[points]", wishes, 1)
     scene, out = tmp_path / "scene.toml", tmp_path / "sheet.svg"
     scene.write_text(text)
 

@@ -51,13 +51,14 @@ def test_marks_are_told_where_they_are_drawn(name: str, plan: str) -> None:
             assert any(lies == pytest.approx(place, abs=OFF) for place in ends[label]), label
 
 
-@pytest.mark.parametrize("how", ["", "--paper A2 --frame gost --language de --plan polar", "--strict --prefer quick"])
+@pytest.mark.parametrize("how", ["", "--paper A2 --frame gost --language de --plan polar", "--strict --prefer quick",
+                                 "--curves all --positions 4"])
 def test_steps_speak_of_the_sheet_that_the_same_options_draw(how: str, tmp_path: Path,
                                                              capsys: pytest.CaptureFixture[str]) -> None:
     """`steps --json` takes the options of `draw` that change the sheet, and tells where that has each mark; both speak
     the scene's language where none is named."""
     scene, sheet = tmp_path / "scene.toml", tmp_path / "sheet.svg"
-    scene.write_text(gp.load("four-bar").text + '[sheet]\nlanguage = "lv"\n', encoding="utf-8")
+    scene.write_text(gp.load("five-bar").text + '\n[sheet]\nlanguage = "lv"\n', encoding="utf-8")
     assert main(["draw", str(scene), "-o", str(sheet), *how.split()]) == 0
     assert main(["steps", str(scene), "--json", *how.split()]) == 0
     told = json.loads(capsys.readouterr().out)

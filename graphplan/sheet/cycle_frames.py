@@ -20,8 +20,8 @@ from graphplan.mechanism.model import Pair, Scene, Slide
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.divisions import MARGIN
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.layout.paper import MARGIN
 from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
 from graphplan.sheet.plates.plans import Plans, around, grown

@@ -14,7 +14,6 @@ from graphplan.kernel.program import Panel
 from graphplan.mechanism.model import Slide
 from graphplan.methods.panels import MECHANISM, N_PLAN, VELOCITY_PLAN, ForcePlan, JointForce, LeverPlan, listed
 from graphplan.phrases import digits
-from graphplan.sheet.layout.paper import divisions
 from graphplan.sheet.layout.scales import Scales, ratio, round_up
 from graphplan.sheet.lettering.label_candidates import Wish, candidates
 from graphplan.sheet.lettering.labels import placed
@@ -180,26 +179,6 @@ def test_columns_fill_one_after_the_other() -> None:
     assert placed_rows is not None
     assert [x for _, x, _ in placed_rows] == [0, 0, 60, 60, 60]
     assert fill(rows * 2, columns) is None
-
-
-@given(st.dictionaries(st.text("abcdefghijk", min_size=1), st.floats(1.0, 8.0), min_size=1, max_size=9))
-def test_plans_share_their_region_without_a_rest(needs: dict[str, float]) -> None:
-    """Every division gives each plan a panel, and the panels fill the region; the first has half of it or more."""
-    for division in divisions(SQUARE, needs):
-        assert list(division) == list(needs)
-        assert sum(rect.area for rect in division.values()) == pytest.approx(SQUARE.area)
-        rects = [rect.inset(1e-6, 1e-6, 1e-6, 1e-6) for rect in division.values()]
-        assert not any(rects[i].meets(rects[j]) for i in range(len(rects)) for j in range(i))
-        assert rects[0].area >= 0.499 * SQUARE.area
-
-
-def test_two_other_plans_share_evenly_and_more_by_need() -> None:
-    """Two others have equal panels whatever they need; of four the needy one has the larger."""
-    assert all(len({round(rect.area) for rect in list(division.values())[1:]}) == 1
-               for division in divisions(SQUARE, {"a": 5.0, "b": 1.0, "c": 4.0}))  # fmt: skip
-    four = list(divisions(SQUARE, {"a": 9.0, "b": 1.0, "c": 4.0, "d": 1.0, "e": 2.0}))
-    assert all(division["c"].area >= division["b"].area for division in four)
-    assert len({tuple(division.values()) for division in four}) > 30
 
 
 def test_the_head_of_an_arrow_ends_at_its_tip() -> None:

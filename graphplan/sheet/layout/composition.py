@@ -3,20 +3,23 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.program import Panel
+from graphplan.mechanism.model import Number
 from graphplan.mechanism.presentation import ASIDE, PROTOCOLS
 from graphplan.methods.construction import Construction
-from graphplan.methods.panels import MECHANISM, ForcePlan
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import digits
 from graphplan.sheet.frames.frame import Frame, frame_of
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.divisions import SIDE, Demand, divided
+from graphplan.sheet.layout.given_scales import FREE, ROUNDING, GivenScales, given_scales
 from graphplan.sheet.layout.paper import (
     MOST_OF_PAGE,
     Arrangement,
@@ -29,28 +32,27 @@ from graphplan.sheet.layout.paper import (
     sheet_size,
     words_page,
 )
-from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales, lengths_of, ratio, round_up
+from graphplan.sheet.layout.scales import Scales, lengths_of, ratio, round_up
+from graphplan.sheet.lettering.labels import Lettering
+from graphplan.sheet.lettering.lettering import folded, letter_sizes, sentence_runs
+from graphplan.sheet.lettering.letters import pictured
 from graphplan.sheet.plates.display import Rect
-from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
 from graphplan.sheet.plates.traced_motion import TracedMotion
-from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, whole
+from graphplan.sheet.plates.view import COARSER, MUCH_COARSER, View, least, plan_box, plan_scale, view, wanted, whole
 from graphplan.sheet.words.rows import Placed, TextRow
 from graphplan.sheet.words.tables import Deviations
 from graphplan.sheet.words.texts import RESULTS, Words
 from graphplan.words.tongue import Tongue
 from graphplan.words.tongue import tongue as tongue_of
 
-SMALLEST = (115.0, 90.0), (85.0, 75.0), (60.0, 55.0)  # the mechanism's panel, any other, and one of few marks
 USUAL = 200.0, 150.0  # mm: a panel as there are many
-TIGHTEST = 32.0  # mm: each way of any panel on paper that is named; in less a caption and letters have no room
-FEW = 3.0  # the need of a plan from which on it is not small
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
-MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; and what beside the largest is nothing
-SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
+POOR = {"A4": 0.05, "A3": 0.07, "A2": 0.1, "A1": 1.0, "A0": 1.0}  # of all letters may stand on lines or other marks
+UNREADABLE = 0.4  # of them, on paper that is named
 LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
 
@@ -78,26 +80,36 @@ class Composition:
         """What is drawn, where it lies on the page."""
         return Plates(self.plans, self.views, self.arrangement.letters)
 
+    @cached_property
+    def pictures(self) -> dict[Panel, Lettering]:
+        """The plans with their letters."""
+        return {plate.panel: pictured(plate) for plate in self.plates}
+
+    @property
+    def poor(self) -> float:
+        """The part of the letters that can hardly be read."""
+        found = self.pictures.values()
+        return sum(one.poor for one in found) / max(1, sum(one.wished for one in found))
+
+    def worded(self, **words: Any) -> Composition:
+        """The same plans with other words: their letters stand where they stood."""
+        found = replace(self, **words)
+        found.__dict__.update({name: self.__dict__[name] for name in ("plates", "pictures") if name in self.__dict__})
+        return found
+
     @property
     def score(self) -> tuple[float, float]:
         """How large the plans are, and among equals how large the smallest is beside its need.
 
         The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
-        plan without marks, as where nothing is asked, needs nothing. What cannot be measured counts against it.
+        plan without marks, as where nothing is asked, needs nothing.
         """
         marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
-        return round(large - SHORT * self.short, 9), min(shown, default=0.0)
-
-    @property
-    def short(self) -> int:
-        """How many vectors are too short for a ruler; those that are next to nothing beside their kind are left out."""
-        drawn = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
-        largest = dict(sorted(drawn))
-        return sum(NOTHING * largest[kind] <= length < MEASURED for kind, length in drawn)
+        return round(large, 9), min(shown, default=0.0)
 
     @property
     def oversized(self) -> dict[str, float]:
@@ -130,24 +142,31 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
     needs: dict[str, float] = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
     frame, given = frame_of(plans.drawing.scene), given_scales(plans)
-    best: Composition | None = None
     tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
-        for words in _ways(protocol, rows):
-            found = list(arrangements(name, needs, words, frame, title))
+        for words in (ways := _ways(protocol, rows)):
+            wants = [_demands(plans, extents, scales, name) for scales in ((given, FREE) if given[0] else (FREE,))]
+            found = list(arrangements(name, partial(_divided, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
                 found = [arrangement for arrangement in found if arrangement.share >= MOST_OF_PAGE]
-            good = [a for a in found if _roomy(a, needs)] or [a for a in found if paper and _open(a)]
-            tried = [_windows(a, extents, needs, plans, given) for a in good] or tried
+            tried = [_windows(arrangement, extents, needs, plans, given) for arrangement in found] or tried
             fitting = [composition for composition in tried if not composition.oversized]
-            if good and fitting:
-                best = max(fitting, key=lambda c: c.score)
-                if given[0] or _legible(plans, best.views, name):
-                    return best
-    if best is None:
-        raise _too_large(tried) if tried else Refused(
-            f"paper {paper}", "words and plans do not fit on it legibly", "a larger sheet, or no name")
-    return best
+            if not (found and fitting):
+                continue
+            best, asked = max(fitting, key=lambda c: c.score), given[0] or (paper and words is ways[-1])
+            if best.poor <= UNREADABLE if asked else _legible(plans, best.views, name) and best.poor <= POOR[name[:2]]:
+                return best
+    if any(composition.oversized for composition in tried):
+        raise _too_large(tried)
+    larger = composed(plans, rows, title, None, protocol).arrangement.paper if paper else "other scales"
+    raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
+
+
+def _divided(wants: Sequence[Mapping[str, Demand]], plans: Plans, region: Rect,
+             block: Rect | None) -> dict[str, Rect] | None:
+    """The panels in a region by the first demands for which there is room."""
+    found = (divided(region, block, demands, plans.twins) for demands in wants)
+    return next(filter(None, found), None)
 
 
 def _ways(protocol: str, rows: Measure[Sequence[TextRow]]) -> Sequence[Measure[Sequence[TextRow]] | None]:
@@ -182,15 +201,22 @@ def _too_large(tried: Sequence[Composition]) -> Refused:
                    f"{most}, or a larger sheet")  # fmt: skip
 
 
-def _roomy(arrangement: Arrangement, needs: Mapping[str, float]) -> bool:
-    """Whether every panel has its least size."""
-    least = {panel: SMALLEST[0 if panel == MECHANISM else 1 if need > FEW else 2] for panel, need in needs.items()}
-    return all(rect.width >= least[p][0] and rect.height >= least[p][1] for p, rect in arrangement.panels.items())
+def _demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, paper: str) -> dict[str, Demand]:
+    """What each plan wants of its panel on a paper."""
+    found, (k_s, multiples), size = dict[str, Demand](), given, letter_sizes(paper).text
+    for panel in plans.panels:
+        head = sentence_runs(plans.tongue(panel.caption(plans.kinds(panel))))
+        box = wanted(extents[panel], COARSER if panel == MECHANISM else MUCH_COARSER)
+        scale = k_s if panel == MECHANISM else k_s / float(multiples[panel]) if k_s and panel in multiples else None
+        found[panel] = Demand(box.width, box.height, max(1, len(plans.points(panel))), _lengths(plans, panel),
+                              folded(head, size) + 2 * SIDE, scale)
+    return found
 
 
-def _open(arrangement: Arrangement) -> bool:
-    """Whether every panel has room for its caption and a figure, however small."""
-    return all(min(rect.width, rect.height) >= TIGHTEST for rect in arrangement.panels.values())
+def _lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
+    """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
+    drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
+    return [*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)] or (1,)
 
 
 def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
@@ -206,17 +232,14 @@ def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Map
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
     """The scales, round if they are not given, for so much room for the marks of each plan; twins have one."""
     drawing, names, (k_s, told) = plans.drawing, plans.drawing.scene.units, given
-    kappa, phi = drawing.tempo.kappa, drawing.phi
-    kinds = 1, *lengths_of(plans.kinds(MECHANISM), kappa, phi)
-    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, kinds))
+    own = Fraction(k_s or plan_scale(extents[MECHANISM], rooms[MECHANISM], COARSER, _lengths(plans, MECHANISM)))
     most: dict[str, Fraction] = {}
     for panel in plans.panels[1:]:
         twin = plans.twins[panel]
-        lengths = lengths_of(plans.kinds(panel) | plans.kinds(twin), kappa, phi) or (1,)
-        scale = plan_scale(extents[panel], rooms[panel], MUCH_COARSER, lengths)
+        scale = plan_scale(extents[panel], rooms[panel], MUCH_COARSER, _lengths(plans, panel))
         most[twin] = max(scale, most.get(twin, scale))
     multiples: dict[str, Fraction] = {panel: own / most[plans.twins[panel]] for panel in plans.panels[1:]}
-    return Scales(float(own), drawing.kappa, names.length, multiples | told, float(phi), names.force,
+    return Scales(float(own), drawing.kappa, names.length, multiples | told, float(drawing.phi), names.force,
                   drawing.scene.sheet.convention)
 
 
@@ -236,63 +259,6 @@ def _shortest(plans: Plans) -> float:
     links = plans.drawing.scene.links.values()
     apart = (math.dist(plans.place(p), plans.place(q)) for names in links for p in names for q in names)
     return min((distance for distance in apart if distance > 0), default=math.inf)
-
-
-ROUNDING = 1e-9  # of a scale: closer than this two are one
-GivenScales = tuple[float | None, dict[str, Fraction]]
-
-
-# ---- scales that the scene gives: they hold whatever room there is, or are refused ----------------------------------
-
-
-def given_scales(plans: Plans) -> GivenScales:
-    """The mechanism plan's scale in lengths per mm, where it is given, and the multiples of the plans that have one.
-
-    All plans are constructed in lengths of the mechanism plan, so one scale of any kind fixes that of the mechanism
-    plan, and its kind of plan has no multiple but a given one. Fails with `Refused` where scales do not go together.
-    """
-    k_s = _mechanism_scale(plans.drawing)
-    multiples = {panel: _multiple(plans, panel) for panel in plans.panels if panel != MECHANISM}
-    _check_force_plans(plans)
-    return k_s, {panel: multiple for panel, multiple in multiples.items() if multiple is not None}
-
-
-def _mechanism_scale(drawing: Construction) -> float | None:
-    """The one scale of the mechanism plan that all given scales lead to; none where none is given."""
-    first: float | None = None
-    for name, scale, lengths in _given(drawing):
-        if first is not None and not math.isclose(scale * lengths, first, rel_tol=ROUNDING):
-            raise Refused(f"sheet.{name} = {scale:g}", "the other scales of the scene's sheet do not go with it",
-                          f"{name} = {first / lengths:.6g}, or leave one of them out")  # fmt: skip
-        first = first or scale * lengths
-    return first
-
-
-def _given(drawing: Construction) -> Iterator[tuple[str, float, float]]:
-    """The given scales: each with its name, and how many lengths one of its kind is drawn long."""
-    sheet = drawing.scene.sheet
-    if sheet.k_F and drawing.scene.loads is None:
-        raise Refused("sheet.k_F", "the scene has no forces to draw", "leave it out")
-    kinds = (("k_s", sheet.k_s, 1.0), ("k_v", sheet.k_v, drawing.kappa), ("k_a", sheet.k_a, drawing.kappa**2),
-             ("k_F", sheet.k_F, float(drawing.phi)))  # fmt: skip
-    yield from ((name, float(scale), lengths) for name, scale, lengths in kinds if scale is not None)
-
-
-def _multiple(plans: Plans, panel: Panel) -> Fraction | None:
-    """The multiple given for a plan, or 1 where a scale of its vectors is given."""
-    sheet, kinds = plans.drawing.scene.sheet, plans.kinds(panel)
-    plan = panel.whole
-    told = sheet.multiples.get(plan, sheet.multiples.get(plan.twin))
-    scaled = ((sheet.k_v, VELOCITIES), (sheet.k_a, ACCELERATIONS), (sheet.k_F, FORCES))
-    return told or (Fraction(1) if any(scale and kinds & of for scale, of in scaled) else None)
-
-
-def _check_force_plans(plans: Plans) -> None:
-    """Every force plan that is spoken of is one that is drawn, unless none is."""
-    drawn = [panel for panel in plans.panels if isinstance(panel, ForcePlan)]
-    for plan in plans.drawing.scene.sheet.multiples:
-        if drawn and ForcePlan.names(plan) and plan not in drawn:
-            raise Refused(f"sheet.multiples.{plan}", "there is no such plan", f"one of {', '.join(drawn)}")
 
 
 def compose(drawing: Construction, paper: str | None = None, check: Mapping[str, Any] | None = None,
@@ -360,16 +326,16 @@ class Composer:
         """The composition with its words, beside the plans or on pages of their own."""
         arrangement = composition.arrangement
         if arrangement.columns:
-            return replace(composition, arrangement=replace(arrangement, rows=arrangement.set(rows)))
+            return composition.worded(arrangement=replace(arrangement, rows=arrangement.set(rows)))
         pages = () if self.protocol == "none" else protocol_pages(arrangement.paper, rows, self.frame, self.title)
-        return replace(composition, protocol=pages)
+        return composition.worded(protocol=pages)
 
 
 def with_results_alone(composition: Composition) -> Composition:
     """The composition whose pages of words have no steps, which are told elsewhere."""
     rows = [row for _, placed in composition.protocol for row, _, _ in placed if row.layer == RESULTS]
     pages = ((page, placed) for page, _ in composition.protocol[:1] for placed in paged(rows, page))
-    return replace(composition, protocol=tuple(pages))
+    return composition.worded(protocol=tuple(pages))
 
 
 def _alike(one: Sequence[TextRow], other: Sequence[TextRow]) -> bool:

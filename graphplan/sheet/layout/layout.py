@@ -11,8 +11,8 @@ from graphplan.phrases import Said, joined, said
 from graphplan.sheet.frames.frame import BORDER, frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, Page
 from graphplan.sheet.layout.composition import Composition, compose
+from graphplan.sheet.layout.divisions import SIDE
 from graphplan.sheet.lettering.lettering import CAPS, HEADING, sentence_runs, width, wrap
-from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
@@ -34,8 +34,8 @@ def layout(drawing: Construction, paper: str | None = None, check: Mapping[str, 
     """
     composition = composition or compose(drawing, paper, check, tongue=tongue)
     items = [*framed(composition), *captions(composition)]
-    for plate in composition.plates:
-        items += picture(plate)
+    for drawn in composition.pictures.values():
+        items += drawn.items
     return sheet(composition, items, document)
 
 
@@ -95,7 +95,7 @@ def _description(composition: Composition, plans: Plans) -> str:
     return plans.tongue(said("Graphical construction in {0} steps. Scales: {1}.", steps, joined(told, "; ")))
 
 
-TOP, APART, SIDE = 1.3, 1.2, 2.5  # mm over a caption, between its lines, and beside them
+TOP, APART = 1.3, 1.2  # mm over a caption, and between its lines
 
 
 def captions(composition: Composition) -> Iterator[Text]:

@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import math
 from bisect import bisect_right
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import TypeVar
 
@@ -15,14 +15,13 @@ from graphplan.errors import Refused
 from graphplan.mechanism.presentation import SIZES
 from graphplan.sheet.frames.frame import Frame
 from graphplan.sheet.frames.title import TitleBlock
+from graphplan.sheet.layout.divisions import CAPTION, EDGE, MARGIN, SLACK
 from graphplan.sheet.lettering.lettering import LetterSizes, letter_sizes
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.rows import Placed, TextRow, fill
 from graphplan.sheet.words.tables import tightened
 
 GUTTER, COLUMN = 5.0, 96.0
-SLACK = 1e-6  # mm by which edges that should be one may differ
-CAPTION, MARGIN = 11.0, 9.0  # a panel's caption strip, and what is kept free for letters around its figure
 
 T = TypeVar("T")
 Measure = Callable[[float], T]  # what something becomes for a width
@@ -73,7 +72,7 @@ def enlarged(words: Measure[Sequence[TextRow]], times: float) -> Measure[tuple[T
 
 def room(panel: Rect) -> Rect:
     """Where a panel's figure may lie: below the caption."""
-    return panel.inset(0.5, 0.5, 0.5, CAPTION)
+    return panel.inset(EDGE, EDGE, EDGE, CAPTION)
 
 
 def inside(room: Rect) -> Rect:
@@ -93,12 +92,14 @@ def sheet_size(paper: str) -> tuple[float, float]:
 MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
 
 
-def arrangements(
-    paper: str, needs: Mapping[str, float], rows: Measure[Sequence[TextRow]] | None, frame: Frame, title: TitleBlock
-) -> Iterator[Arrangement]:
+MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
+
+
+def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: Frame,
+                 title: TitleBlock) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.
 
-    `needs` says how much room plans want beside each other.
+    `divide` gives the panels in a region, of which the title block may take a corner.
     """
     wide, high = sheet_size(paper)
     space, title, times = frame.space(wide, high), title.on(paper), letter_sizes(paper).times
@@ -106,9 +107,9 @@ def arrangements(
     found = (*_beside(space, words, title, times * COLUMN), *_below(space, words, title, times * COLUMN)) if words \
         else _alone(space, title, times * COLUMN)
     for plans, columns, block in found:
-        for division in divisions(plans, needs):
+        if panels := divide(plans, None if columns else block):
             filled = words(columns[0].width) if words else ()
-            yield Arrangement(paper, wide, high, space, division, columns, block, filled)
+            yield Arrangement(paper, wide, high, space, panels, columns, block, filled)
 
 
 def words_page(paper: str, frame: Frame, title: TitleBlock) -> Arrangement:
@@ -120,14 +121,13 @@ def words_page(paper: str, frame: Frame, title: TitleBlock) -> Arrangement:
 
 
 Division = tuple[Rect, tuple[Rect, ...], Rect]
+Divide = Callable[[Rect, Rect | None], dict[str, Rect] | None]
 
 
 def _alone(space: Rect, title: TitleBlock, column: float) -> Iterator[Division]:
-    """Plans alone: above the title block, or to its left."""
-    block = lower_right(space, column + GUTTER, title)
-    yield Rect(space.left, block.top, space.right, space.top), (), block
-    if block.left > space.centre[0]:
-        yield Rect(space.left, space.bottom, block.left, space.top), (), block
+    """Plans alone, with a title block as wide as a column, or as wide as it can be."""
+    for block in dict.fromkeys(lower_right(space, pitch, title) for pitch in (column + GUTTER, space.width)):
+        yield space, (), block
 
 
 def _beside(space: Rect, rows: Measure[tuple[TextRow, ...]], title: TitleBlock, column: float) -> Iterator[Division]:
@@ -176,72 +176,6 @@ def _columns(region: Rect, count: int, block: Rect, wide: float | None = None) -
     slots = [Rect(left, foot, left + pitch, region.top) for left, foot in zip(lefts, feet, strict=True)]
     spare = pitch - GUTTER - wide if wide else 0.0
     return tuple(slot.inset(GUTTER / 2, 2.0, GUTTER / 2 + spare, 2.0) for slot in slots)
-
-
-SHARES = (0.5, 0.55, 0.6, 0.66)
-
-
-# ---- how the plans share their part: the first has the larger share, the others stand beside or under it ------------
-
-
-def divisions(plans: Rect, needs: Mapping[str, float]) -> Iterator[dict[str, Rect]]:
-    """The ways to divide a region; `needs` says how much room each plan wants beside the others, in drawing order."""
-    first, *rest = needs
-    if not rest:
-        yield {first: plans}
-        return
-    left, bottom, right, top = plans.left, plans.bottom, plans.right, plans.top
-    others = {panel: needs[panel] for panel in rest}
-    for share in SHARES:
-        x, y = left + share * plans.width, bottom + (1 - share) * plans.height
-        for division in _shared(Rect(x, bottom, right, top), others, len(rest)):
-            yield {first: Rect(left, bottom, x, top), **division}
-        for division in _shared(Rect(left, bottom, right, y), others, 1):
-            yield {first: Rect(left, y, right, top), **division}
-
-
-def _shared(region: Rect, needs: Mapping[str, float], few: int) -> Iterator[dict[str, Rect]]:
-    """The ways in which plans share a region: one or two evenly in `few` rows, more in rows or columns."""
-    if len(needs) < 3:
-        yield _grid(region, dict.fromkeys(needs, 1.0), few)
-        return
-    for count in range(1, len(needs) + 1):
-        yield _grid(region, needs, count)
-        yield _grid(region, needs, count, even=True)
-        yield {panel: _turned(rect) for panel, rect in _grid(_turned(region), needs, count).items()}
-
-
-def _grid(region: Rect, needs: Mapping[str, float], count: int, even: bool = False) -> dict[str, Rect]:
-    """Rows from the top, plans from the left: areas are as the needs, or the rows are of even height."""
-    total, found, top = sum(needs.values()), dict[str, Rect](), region.top
-    for row in _rows(needs, count):
-        need, left = sum(needs[panel] for panel in row), region.left
-        share = 1 / count if even else need / total
-        bottom = region.bottom if len(found) + len(row) == len(needs) else top - region.height * share
-        for panel in row:
-            right = region.right if panel == row[-1] else left + region.width * needs[panel] / need
-            found[panel] = Rect(left, bottom, right, top)
-            left = right
-        top = bottom
-    return found
-
-
-def _rows(needs: Mapping[str, float], count: int) -> Sequence[Sequence[str]]:
-    """The plans in so many rows of about the same need, none of them empty."""
-    rows: list[list[str]] = [[]]
-    total, filled = sum(needs.values()), 0.0
-    for i, (panel, need) in enumerate(needs.items()):
-        due = len(needs) - i <= count - len(rows)  # each row left gets a plan of its own
-        if rows[-1] and len(rows) < count and (due or (filled + need / 2) * count / total > len(rows)):
-            rows.append([])
-        rows[-1].append(panel)
-        filled += need
-    return rows
-
-
-def _turned(rect: Rect) -> Rect:
-    """Right and down exchanged: what were rows are columns. Turned twice, a rectangle is as before."""
-    return Rect(-rect.top, -rect.right, -rect.bottom, -rect.left)
 
 
 # ---- words that run from one page to the next -----------------------------------------------------------------------

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
 from itertools import pairwise
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 import shapely
@@ -23,6 +23,7 @@ from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Po
 CLASH = 400.0  # the price of standing on another letter, and of each mm^2 of that
 NEXT = 1.5  # a place dearer by no more than this is a choice as well
 SWEEPS = 8
+POOR = 2.0  # the price of what a letter covers, from which on it can hardly be read
 
 
 class Prices:
@@ -65,12 +66,30 @@ class Prices:
 def placed(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
            letters: LetterSizes = SMALL_SHEET) -> list[Item]:
     """The letters in their places and sizes, with leaders where they had to go far."""
+    return lettering(wishes, items, marks, rect, letters).items
+
+
+class Lettering(NamedTuple):
+    """Letters in their places: how many wishes there are, and how many of them had to stand on a line or another mark.
+    """
+
+    items: list[Item]
+    wished: int = 0
+    poor: int = 0
+
+
+def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,
+              letters: LetterSizes = SMALL_SHEET) -> Lettering:
+    """The same, and how well they stand."""
     if not wishes:
-        return []
+        return Lettering([])
     wishes = [replace(wish, letters=letters) for wish in wishes]
     found = candidates(wishes, rect)
-    choice = _chosen(Prices(found, (Lines(items), Marks(marks), Surfaces(items))), len(wishes))
-    return [item for wish, place in zip(wishes, choice, strict=True) for item in wish.items(found[place])]
+    prices = Prices(found, (Lines(items), Marks(marks), Surfaces(items)))
+    choice = _chosen(prices, len(wishes))
+    poor = int((prices.cost[choice] - found.cost[choice] > POOR).sum())
+    placed = [item for wish, place in zip(wishes, choice, strict=True) for item in wish.items(found[place])]
+    return Lettering(placed, len(wishes), poor)
 
 
 def _chosen(prices: Prices, count: int) -> Array:

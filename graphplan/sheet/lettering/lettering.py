@@ -179,6 +179,12 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
     return [*lines, _joined(line)] if line else lines
 
 
+def folded(runs: Runs, size: float) -> float:
+    """How wide bold lettering is at least on two lines."""
+    long = width(runs, size, bold=True)
+    return next((part * long for part in (0.55, 0.65, 0.8) if len(wrap(runs, size, part * long, bold=True)) <= 2), long)
+
+
 def plain(runs: Runs) -> str:
     """The lettering without levels."""
     return "".join(run.text for run in runs)

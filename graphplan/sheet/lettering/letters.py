@@ -12,7 +12,7 @@ from graphplan.kernel.program import Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
-from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.labels import Lettering, lettering
 from graphplan.sheet.lettering.lettering import listed, name_runs, sentence_runs
 from graphplan.sheet.plates import clip, pens
 from graphplan.sheet.plates.display import Item, Rect, Spot
@@ -35,6 +35,11 @@ Span = tuple[Spot, Spot]
 
 def picture(plate: Plate) -> list[Item]:
     """The items of a plan, with the mechanism if it is its plan, and the letters that avoid them; in no order."""
+    return pictured(plate).items
+
+
+def pictured(plate: Plate) -> Lettering:
+    """The same, and how well the letters stand."""
     items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
@@ -42,8 +47,8 @@ def picture(plate: Plate) -> list[Item]:
         wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
         marks += list(mechanism.shown.values())
     rect = plate.view.rect
-    letters = placed([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
-    return [*items, *letters, *plate.positions(letters)]
+    found = lettering([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
+    return found._replace(items=[*items, *found.items, *plate.positions(found.items)])
 
 
 def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:

@@ -48,6 +48,12 @@ def _box(extent: Extent, room: Rect, most: float, nice: bool = False) -> Rect:
     return box
 
 
+def wanted(extent: Extent, coarser: float) -> Rect:
+    """The box of what a plan shows if its shape is not told: auxiliary marks that make it not too much larger."""
+    most = coarser * max(extent.core.width, extent.core.height) or math.inf
+    return _box(extent, Rect(0.0, 0.0, 1.0, 1.0), most)
+
+
 def whole(extent: Extent, room: Rect) -> float:
     """The mm per unit at which all the marks of a plan just fit."""
     return 1 / (least(_box(extent, room, math.inf), room) or 1e-9)

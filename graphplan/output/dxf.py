@@ -179,11 +179,11 @@ def _layers(sheet: Sheet) -> dict[str, Pen]:
 
 
 def _numbered(sheet: Sheet) -> Iterator[tuple[str, int]]:
-    """The names of the groups: steps by the numbers that the sheet prints, and what is given."""
-    printed = sorted({item.step for item in sheet.items if item.layer == "text" and item.step is not None})
-    given = sorted({item.step for item in sheet.items if item.step is not None} - {*printed})
+    """The names of the groups: what is given, and steps by their numbers; those without ink have none."""
+    drawn = sorted({item.step for item in sheet.items if item.step is not None})
+    given = [step for step in drawn if step < sheet.givens]
     yield from ((f"GIVEN_{number}", step) for number, step in enumerate(given, 1))
-    yield from ((f"STEP_{number}", step) for number, step in enumerate(printed, 1))
+    yield from ((f"STEP_{step + 1 - sheet.givens}", step) for step in drawn[len(given) :])
 
 
 def _colour(colour: str) -> dict[str, int]:

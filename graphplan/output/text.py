@@ -17,7 +17,7 @@ from graphplan.phrases import arranged, coordinates, joined, said
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.words.lengths import Length, Lengths
-from graphplan.sheet.words.protocol import Passage, Protocol, measured
+from graphplan.sheet.words.protocol import Passage, Protocol, lengths_of, measured
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.texts import Words
 from graphplan.words.tongue import Tongue
@@ -39,7 +39,7 @@ def protocol(composition: Composition, structure: Iterable[str] = (), drafting: 
     lines += [say(said("Structure: {0}", line)) for line in structure]
     lines += ["", *_scales(composition), *_pose(drawing.scene, composition.scales, say), "", *_wrapped(say(said(
         "Vectors are underlined twice of which magnitude and direction are known, once where one of the two or a "
-        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(Words(plans), told, say)]
+        "locus is.")), ""), *_passages(told.passages, say, movements), *_results(Words(plans), composition.scales, say)]
     lines += ["", say(said("Cost: {0}.", counts(drawing.drawn).told))]
     lines += [line for told in drafting for line in _wrapped(say(told), "")]
     if drawing.forms:
@@ -103,9 +103,9 @@ def _underlines(equation: Equation) -> str:
     return "".join(line).rstrip()
 
 
-def _results(words: Words, told: Protocol, say: Tongue) -> Iterator[str]:
+def _results(words: Words, scales: Scales, say: Tongue) -> Iterator[str]:
     """What is read off the sheet, each beside the computed value, and the results in tables."""
-    read = list(Readings(told, words.values))
+    read = list(Readings(words.drawing, lengths_of(words.plans, scales), words.values))
     yield from ("", say(said("Measured on the sheet")) + ":") if read else ()
     for one in read:
         yield from _wrapped(say(one.told), "  ")
@@ -173,7 +173,8 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
                     for passage in told.passages for entry in passage.entries],
         "readings": [{"kind": one.kind, "of": one.of, "said": say(one.told), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}
-                     for one in Readings(told, Words(composition.plans).values)],
+                     for one in Readings(drawing, lengths_of(composition.plans, composition.scales),
+                                         Words(composition.plans).values)],
         "steps": entries,
     }
 

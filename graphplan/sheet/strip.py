@@ -69,7 +69,7 @@ class Strip:
         plans = composition.plans
         named = paper or plans.drawing.scene.sheet.paper or USUAL
         named = f"{named} portrait" if cut == STAGE and named == "A4" else named
-        return cls(Protocol(plans, composition.scales), cut, frame_of(plans.drawing.scene).paper(named))
+        return cls(Protocol(plans), cut, frame_of(plans.drawing.scene).paper(named))
 
     @property
     def plans(self) -> Plans:

@@ -17,6 +17,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Sheet, Text
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
+from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
@@ -43,11 +44,12 @@ def sheet(composition: Composition, items: Iterable[Item], document: Said) -> Sh
     """The first sheet of a composition: these items, the words for which there is room, and the title block."""
     arrangement, plans = composition.arrangement, composition.plans
     drawing, scales = plans.drawing, composition.scales
+    sentences = tuple(map(plans.tongue, Protocol(plans, scales).sentences))
     items = [*items, *lettered(fill(arrangement.rows, arrangement.columns) or []),
              *titled(composition, document, 1, composition.page_count)]
     return Sheet(
         arrangement.width, arrangement.height, arrangement.frame, arrangement.panels, tuple(stacked(items)),
-        drawing.scene.title, _description(composition, plans), tuple(map(plans.tongue, drawing.sentences())), scales,
+        drawing.scene.title, _description(composition, plans), sentences, scales,
         plans.tongue.code, drawing.scene.text, drawing.drawn.givens,
     )  # fmt: skip
 

@@ -3,7 +3,7 @@
 The one model of what is told of the drawing: text, sheet, handout, strip, stepper and data read it. Values in drawing
 order, in English that knows its words in other languages:
 
-    protocol = Protocol(plans, scales)
+    protocol = Protocol(plans, scales)      # lengths are those of a sheet at these scales
     for passage in protocol.passages:       # what is drawn in one go on one plan in one stage
         passage.plan, passage.title, passage.stage, passage.law, passage.again
         for entry in passage.entries:       # one movement, or a compound as one step in the source's words
@@ -70,7 +70,7 @@ class Entry:
     @property
     def told(self) -> Said:
         """Its sentence, with its reason where it has one."""
-        return arranged("{0} ({1:capital}.)", self.sentence, self.why) if self.why else self.sentence
+        return reasoned(self.sentence, self.why)
 
 
 @dataclass(frozen=True)
@@ -98,10 +98,10 @@ class Passage:
 
 @dataclass(frozen=True)
 class Protocol:
-    """A construction told step by step, as it is drawn at these scales."""
+    """A construction told step by step, as it is drawn at these scales; without them no lengths are told."""
 
     plans: Plans
-    scales: Scales
+    scales: Scales | None = None
 
     @property
     def _drawn(self) -> Program:
@@ -112,15 +112,22 @@ class Protocol:
         """Every step, in drawing order."""
         drawn, found = self._drawn, list[SpokenStep]()
         for step in drawn.steps[drawn.givens :]:
-            lengths = self.lengths.of(step)
+            lengths = self.lengths.of(step) if self.lengths else ()
             told = measured(drawn.sentence(step.index), lengths)
             found.append(SpokenStep(step, drawn.number(step.index), told, step.why, lengths))
         return tuple(found)
 
+    @property
+    def sentences(self) -> Iterator[Said]:
+        """Every step of the program in a sentence, with its reason; those that are given first."""
+        drawn = self._drawn
+        yield from (drawn.told(index) for index in range(drawn.givens))
+        yield from (reasoned(one.sentence, one.why) for one in self.steps)
+
     @cached_property
-    def lengths(self) -> Lengths:
+    def lengths(self) -> Lengths | None:
         """The lengths of paper."""
-        return Lengths(self._drawn, self.plans.drawing.values, self.plans.plan_of_step.__getitem__, self.scales)
+        return lengths_of(self.plans, self.scales) if self.scales else None
 
     @cached_property
     def stages(self) -> tuple[tuple[Stage, ...], Mapping[int, int]]:
@@ -162,8 +169,19 @@ class Protocol:
     def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, tuple[Length, ...]] | None:
         """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
         if movements[-1].index == compound.step.index:
-            return compound.sentence, self.lengths.of(compound.step)
-        return (compound.before, self.lengths.before(compound)) if compound.before else None
+            return compound.sentence, self.lengths.of(compound.step) if self.lengths else ()
+        lengths = self.lengths.before(compound) if self.lengths else ()
+        return (compound.before, lengths) if compound.before else None
+
+
+def lengths_of(plans: Plans, scales: Scales) -> Lengths:
+    """The lengths of a construction on its plans at some scales."""
+    return Lengths(plans.drawing.drawn, plans.drawing.values, plans.plan_of_step.__getitem__, scales)
+
+
+def reasoned(sentence: Said, why: str) -> Said:
+    """A sentence with its reason where it has one."""
+    return arranged("{0} ({1:capital}.)", sentence, why) if why else sentence
 
 
 def measured(sentence: Said, lengths: Sequence[Length]) -> Said:

@@ -11,12 +11,12 @@ from graphplan.kernel.kinds import LINE
 from graphplan.mechanism import units
 from graphplan.mechanism.units import Dimension
 from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, tenths
-from graphplan.sheet.words.protocol import Protocol
 
 VECTORS = units.SPEED, units.ACCELERATING, units.FORCE, units.LENGTH
 
@@ -41,31 +41,27 @@ class Measured(NamedTuple):
 
 @dataclass(frozen=True)
 class Readings:
-    """What is read off a construction at the scales of its protocol."""
+    """What is read off a construction whose lengths on paper are these; `values` are its readings by kind and name."""
 
-    protocol: Protocol
+    drawing: Construction
+    lengths: Lengths
     values: Mapping[str, Mapping[str, Any]]
 
     def __iter__(self) -> Iterator[Measured]:
         """Every result that is drawn, in the order of the construction; none that is given or nothing."""
-        drawing = self.protocol.plans.drawing
-        for reading in drawing.readings:
-            marks = [drawing.drawn.wanted[position] for position in reading.marks]
+        for reading in self.drawing.readings:
+            marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
             value = self.values[reading.kind][reading.of]
             computed = math.hypot(*value) if isinstance(value, tuple) else float(value)
             if reading.given is None and marks:
                 yield from self._measured(reading, marks, computed)
 
-    @property
-    def _lengths(self) -> Lengths:
-        return self.protocol.lengths
-
     def _measured(self, reading: Reading, marks: Sequence[int], computed: float) -> Iterator[Measured]:
         kind, dimension = reading.kind, reading.kind.dimension
         if dimension in VECTORS:
             start, end = marks[-2:]
-            steps = self._lengths.program.steps
-            if steps[start].op.gives == LINE or (long := self._lengths.mm(start, end)) < NOTHING:
+            steps = self.lengths.program.steps
+            if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < NOTHING:
                 return
             found = self._vector(dimension, Measure(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
@@ -73,7 +69,7 @@ class Readings:
         else:
             found = self._turning(reading, marks)
         length, read = found
-        symbol = unit(dimension.unit(self.protocol.plans.drawing.scene.units).replace("^2", "²").replace("*", "·"))
+        symbol = unit(dimension.unit(self.drawing.scene.units).replace("^2", "²").replace("*", "·"))
         told = said("{0}: {1} = {2}; computed {3}", self._name(kind, reading.of), length.told,
                     joined((digits(read), symbol), " "), digits(computed))
         yield Measured(kind, reading.of, length._replace(told=told), read, computed)
@@ -81,15 +77,15 @@ class Readings:
     def _name(self, kind: ResultKind, of: str) -> Said:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""
         if kind.pair or kind.group == kinds.FORCES:
-            return said("{0} of {1}", kind.words, thing_named(self.protocol.plans.drawing.scene, kind, of))
+            return said("{0} of {1}", kind.words, thing_named(self.drawing.scene, kind, of))
         return arranged("{0}_{1}", kind.dimension.letter, of)
 
     def _vector(self, dimension: Dimension, length: Measure, group: str) -> tuple[Length, float]:
         """A vector, by the scale of its plan."""
         start, end = length.marks
         group = group if dimension != units.LENGTH else "length"
-        per, _ = self._lengths.scale(group, end)
-        read, text = round(length.mm, 1) * per, self._lengths.program.text
+        per, _ = self.lengths.scale(group, end)
+        read, text = round(length.mm, 1) * per, self.lengths.program.text
         told = arranged("{0} · {1}", said("from {0} to {1} {2}", text(start), text(end), length.told), digits(per))
         return Length(told, (length,)), read
 
@@ -99,7 +95,7 @@ class Readings:
         Where orthogonal velocities begin at their points, it is the part by which the image is shorter than the link.
         """
         P, R, p0, p1, r0, r1 = marks
-        drawing, lengths = self.protocol.plans.drawing, self._lengths
+        drawing, lengths = self.drawing, self.lengths
         u, side, excess = lengths.vector(P, R), lengths.between(P, R), float(reading.excess)
         tempo, names = float(drawing.tempo.unit), lengths.side(P, R)
         if drawing.turned and reading.kind == kinds.OMEGA and (p0, r0) == (P, R):
@@ -127,14 +123,14 @@ class Readings:
     def _moment(self, marks: Sequence[int]) -> tuple[Length, float]:
         """The moment of forces about a point, each in mm times its arm."""
         pole, *rest = marks
-        lengths, total = self._lengths, 0.0
+        lengths, total = self.lengths, 0.0
         terms, measures = list[Said](), list[Measure]()
         per = math.nan
         for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
             force, arm = lengths.between(tail, head), lengths.arm(pole, C, tail, head)
             (x, y), (u, v) = lengths.vector(pole, C), lengths.vector(tail, head)
             sign = math.copysign(1.0, x * v - y * u)
-            metre = float(units.metre(self.protocol.plans.drawing.scene.units))
+            metre = float(units.metre(self.drawing.scene.units))
             per = lengths.scale(kinds.FORCES, head)[0] * lengths.per_mm(C) / metre
             total += sign * round(force.mm, 1) * round(arm.mm, 1) * per
             terms.append(arranged("−{0} · {1}" if sign < 0 else "{0} · {1}" if not terms else "+{0} · {1}",

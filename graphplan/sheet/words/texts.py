@@ -16,7 +16,7 @@ from graphplan.phrases import Said, arranged, digits, joined, said, unit
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import HEADING, SIZE, Runs, equation_runs, sentence_runs, width, wrap
 from graphplan.sheet.plates.plans import Plans
-from graphplan.sheet.words.protocol import Entry, Passage, Protocol
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
 from graphplan.sheet.words.readings import Readings
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import ROUNDING, Deviations, Table, joined_tables, narrow, rows, scalars, vectors
@@ -134,17 +134,14 @@ class Words:
 
     def _entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
         """One step as the textbook tells it, unfolded with its movements below it."""
-        whole = self.unfolded and entry.folded
-        if not whole:
-            yield from self._hung(self._runs(entry.told), wide, entry.movements[-1].index, entry.number)
-            return
-        yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index)
-        for one in entry.movements:
+        apart = self.unfolded and entry.folded
+        yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index, "" if apart else entry.number)
+        for one in entry.movements if apart else ():
             yield from self._hung(self._runs(one.sentence), wide, one.index, str(one.number))
 
     def _readings(self, wide: float, scales: Scales) -> Iterator[TextRow]:
         """What is measured on the finished sheet, and what it means."""
-        found = list(Readings(Protocol(self.plans, scales), self.values))
+        found = list(Readings(self.drawing, lengths_of(self.plans, scales), self.values))
         yield from [self._heading(said("Measured on the sheet"))] if found else []
         for reading in found:
             yield from self.paragraph(reading.told, wide)

@@ -1,4 +1,5 @@
-"""What lies where by construction, in every pose: lines that run alike through one point are one line.
+"""What lies where by construction, in every pose: lines that run alike through one point are one line, and a point
+from which a vector is laid off and back is itself.
 
 A line's heading is the line that its direction was taken from, by its place, and how many quarter turns it runs ahead
 of that one. A point lies on a line that was drawn through it, and on one by which it was marked.
@@ -12,6 +13,7 @@ from functools import cache
 from graphplan.kernel.kinds import LINE, POINT, Primitive
 
 Heading = tuple[int, int]
+Total = tuple[tuple[int, int], ...]  # marks by their places, each with how many times it counts
 
 
 def bearing(op: Primitive, read: Sequence[Heading], place: int) -> Heading:
@@ -37,3 +39,12 @@ def incident(op: Primitive) -> tuple[int, ...]:
     """The points that a line is drawn through, or the lines that a point is marked by, among the operands."""
     other = {LINE: POINT, POINT: LINE}.get(op.gives, "")
     return tuple(place for place in op.claimed("on") if op.reads[place] == other)
+
+
+def laid_off(P: Total, Q: Total, R: Total) -> Total:
+    """Where the vector PQ leads that is laid off from R, as a sum of marks."""
+    counts: dict[int, int] = {}
+    for terms, times in ((R, 1), (Q, 1), (P, -1)):
+        for mark, count in terms:
+            counts[mark] = counts.get(mark, 0) + times * count
+    return tuple(sorted((mark, count) for mark, count in counts.items() if count))

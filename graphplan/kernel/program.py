@@ -14,7 +14,7 @@ from typing import Any, NoReturn, Self, cast
 
 from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel import kinds
-from graphplan.kernel.incidence import Heading, bearing, incident
+from graphplan.kernel.incidence import Heading, Total, bearing, incident, laid_off
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, worded
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.stages import Stage, Teller, staged
@@ -124,15 +124,16 @@ def _key(op: Primitive, args: tuple[int, ...], params: dict[str, Any]) -> tuple[
 class Mark:
     """A mark on the board while the construction is recorded.
 
-    `heading` is that of a line; `keys` are those under which the board finds it, and lines on which it lies. A mark
-    that is `against` stands for a line that is drawn the other way.
+    `heading` is that of a line, `total` the sum of marks that a point is; `keys` are those under which the board finds
+    it, and lines on which it lies. A mark that is `against` stands for a line that is drawn the other way.
     """
 
-    __slots__ = ("against", "board", "heading", "keys", "step")
+    __slots__ = ("against", "board", "heading", "keys", "step", "total")
 
     def __init__(self, board: Board, step: Step, heading: Heading, against: bool = False):
         self.board, self.step, self.heading, self.against = board, step, heading, against
         self.keys: dict[tuple[Any, ...], Mark] = {}
+        self.total: Total = ((step.index, 1),)
 
     @property
     def reversed(self) -> Mark:
@@ -172,9 +173,10 @@ class Verbs:
 class Board(Verbs):
     """Records drawing steps; its methods are the primitives of the table.
 
-    The same operation on the same marks is drawn once, and so is the line that runs one way through one point. A step
-    is drawn on the plan of the mark that it is drawn at; :meth:`on` says on which plan points are given, of which links
-    the steps speak, and which stage they are a part of.
+    The same operation on the same marks is drawn once, and so is the line that runs one way through one point; a vector
+    that is laid off and straight back leads to where it began. A step is drawn on the plan of the mark that it is drawn
+    at; :meth:`on` says on which plan points are given, of which links the steps speak, and which stage they are a part
+    of.
     """
 
     def __init__(self) -> None:
@@ -213,17 +215,28 @@ class Board(Verbs):
         heading = bearing(op, [arg.heading for arg in args], len(self.steps))
         set_square = op.movement is Movement.PARALLEL or op.movement is Movement.PERPENDICULAR
         key = (*heading, places[1]) if set_square else _key(op, places, params)
-        same = self._drawn.get(key)
+        total = laid_off(*(arg.total for arg in args)) if op.movement is Movement.LAID_OFF and not params else None
+        if total is not None:
+            key = (read[op.where].panel, *total)
+        same = self._drawn[key] if key in self._drawn else self._back(key, total)
         if same is not None and op.movement is not Movement.GIVEN:  # coincident points of the pose stay apart
             return self._faced(self.named(same, name), against)
         panel = read[op.where].panel if read else self._panel
         step = Step(len(self.steps), "", op, places, params, panel, why, self._links, self._stage, names or {},
                     None, quantity)
         mark = Mark(self, step, heading)
+        mark.total = total or mark.total
         self.steps.append(step)
         self.marks.append(mark)
         self._enter(mark, key, args)
         return self._faced(self.named(mark, name), against)
+
+    def _back(self, key: tuple[Any, ...], total: Total | None) -> Mark | None:
+        """The mark that a sum of marks is, if it is one of the same plan."""
+        if total is None or len(total) > 1 or total[0][1] != 1:
+            return None
+        mark = self.marks[total[0][0]]
+        return mark if mark.step.panel == key[0] else None
 
     def _faced(self, mark: Mark, against: int) -> Mark:
         """What is drawn by so many lines that are drawn the other way: a line then is, too."""

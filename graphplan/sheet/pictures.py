@@ -20,7 +20,7 @@ from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates.display import Item, Text
 from graphplan.sheet.plates.excerpt import Excerpt, excerpt
-from graphplan.sheet.words.protocol import Entry, Passage, Protocol
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep
 
 MARK, STEP, STAGE = CUTS = "mark", "step", "stage"
 MOST = {MARK: 12, STEP: 1, STAGE: 14}  # movements in a picture
@@ -47,12 +47,12 @@ class Part:
         return replace(self.passage, again=self.passage.again or not self.begins).title or self.passage.plan.words
 
     @property
-    def entries(self) -> Iterator[Entry]:
-        """The entries of its steps, as far as these go."""
+    def entries(self) -> Iterator[tuple[Entry, list[SpokenStep]]]:
+        """The entries of its steps, each with those of its movements that are among these."""
         own = {step.index for step in self.steps}
         for entry in self.passage.entries:
-            if movements := tuple(one for one in entry.movements if one.index in own):
-                yield replace(entry, movements=movements)
+            if movements := [one for one in entry.movements if one.index in own]:
+                yield entry, movements
 
     def cut(self, runs: Iterable[Sequence[Step]]) -> Iterator[Part]:
         """The same in parts."""
@@ -145,8 +145,8 @@ def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
             begun.append(part)
             continue
         group, runs = list[Step](), list[list[Step]]()
-        for entry in part.entries:
-            steps = [one.step for one in entry.movements]
+        for _, movements in part.entries:
+            steps = [one.step for one in movements]
             group += steps
             marked = steps[-1].name and steps[-1].op.gives == POINT and len(group) >= LEAST
             if marked or len(group) >= MOST[MARK]:

@@ -11,20 +11,21 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.errors import Refused
-from graphplan.phrases import arranged, said
+from graphplan.phrases import Said, arranged, said
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import CONSTRUCTION, STRIP, Page, TitleBlock
 from graphplan.sheet.layout.composition import Composition, with_results_alone
 from graphplan.sheet.layout.layout import pages
 from graphplan.sheet.layout.paper import COLUMN, lower_right, sheet_size
 from graphplan.sheet.layout.scales import Scales
-from graphplan.sheet.lettering.lettering import SIZE, letter_sizes, sentence_runs, width, wrap
+from graphplan.sheet.lettering.lettering import SIZE, letter_sizes, sentence_runs, wrap
 from graphplan.sheet.pictures import MARK, STAGE, STEP, Part, Picture, pictures
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Item, Outline, Rect, Sheet, Spot, moved
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.rows import LEADING, Cell, TextRow, lettered
+from graphplan.sheet.words.texts import Words
 
 WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
 BESIDE = 0.58  # of a column has a picture that has its words beside it
@@ -65,8 +66,9 @@ class Strip:
 
     @classmethod
     def of(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
-        """The strip of a composed construction; by stages an A4 stands upright, as words are beside the pictures."""
-        plans = composition.plans
+        """The strip of a composed construction, in its pose alone; by stages an A4 stands upright, as words are beside
+        the pictures."""
+        plans = replace(composition.plans, motion=None)
         named = paper or plans.drawing.scene.sheet.paper or USUAL
         named = f"{named} portrait" if cut == STAGE and named == "A4" else named
         return cls(Protocol(plans), cut, frame_of(plans.drawing.scene).paper(named))
@@ -195,45 +197,47 @@ class Strip:
 
     def _rows(self, one: Picture, number: int = 99) -> tuple[list[TextRow], list[TextRow]]:
         """What stands above a picture and below it: by stages also what these are."""
-        heading = self._paragraph(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width, bold=True)
+        heading = self._title(arranged("{0}. {1}", number + 1, one.heading), self.columns[0].width)
         return [*heading], [row for part in one.parts for row in self._told(part, len(one.parts) > 1)]
 
     def _told(self, part: Part, titled: bool) -> Iterator[TextRow]:
-        """A part in words."""
-        stage = part.passage.stage
+        """A part in words; what of a compound is in several pictures is told by its movements."""
+        words, wide, stage, first = self.words, self.words_wide, part.passage.stage, part.steps[0].index
         if titled:
-            yield from self._paragraph(part.title, self.words_wide, bold=True)
+            yield from self._title(part.title, wide)
         if stage and self.cut == STAGE and part.begins and not part.passage.again:
-            for text in (stage.equation, arranged("{0:capital}.", stage.law)):
-                yield from self._paragraph(text, self.words_wide)
-        for entry in part.entries:
-            single = not entry.folded or self.cut == STEP
-            if not single:
-                yield from self._paragraph(entry.told, self.words_wide, step=entry.movements[-1].index,
-                                           number="" if self.cut == STAGE else entry.number)
-            for one in entry.movements if single or self.cut == STAGE else ():
-                yield from self._paragraph(one.sentence, self.words_wide, number=str(one.number), step=one.index)
+            for equation in stage.equations:
+                yield from words.equation(equation, wide - words.indent, first)
+            yield from words.paragraph(arranged("{0:capital}.", stage.law), wide, first)
+        for entry, movements in part.entries:
+            if len(movements) == len(entry.movements) and self.cut != STEP:
+                yield from words.entry(entry, wide)
+                continue
+            if words.unfolded:
+                yield from words.paragraph(entry.told, wide, movements[0].index)
+            for one in movements:
+                yield from words.paragraph(one.sentence, wide, one.index, str(one.number))
 
-    def _paragraph(self, text: str, wide: float, *, bold: bool = False, number: str = "",
-                   step: int | None = None) -> Iterator[TextRow]:
-        """A text, hanging from its number where it has one."""
-        indent = self.indent if number else 0.0
-        lines = wrap(sentence_runs(self.plans.tongue(text), self.names), SIZE, wide - indent, bold)
-        for i, line in enumerate(lines):
-            label = (Cell(indent - SIZE / 2, sentence_runs(number), "end"),) if number and not i else ()
-            yield TextRow((*label, Cell(indent, line, bold=bold)), step=step)
+    def _title(self, text: Said, wide: float) -> Iterator[TextRow]:
+        """What stands over a picture or a part, in as many lines as it takes."""
+        for runs in wrap(sentence_runs(self.plans.tongue(text), self.words.names), SIZE, wide, bold=True):
+            yield TextRow((Cell(0.0, runs, bold=True),))
 
     @cached_property
-    def indent(self) -> float:
-        """How far words hang from the longest number."""
-        entries = [entry for passage in self.protocol.passages for entry in passage.entries]
-        numbers = [entry.number if self.cut == MARK else str(entry.movements[-1].number) for entry in entries]
-        return SIZE / 2 + max((width(sentence_runs(number), SIZE) for number in numbers), default=0.0)
+    def words(self) -> Words:
+        return (_StageWords if self.cut == STAGE else _PictureWords)(self.plans)
 
-    @cached_property
-    def names(self) -> tuple[str, ...]:
-        """The letters that may stand in a sentence."""
-        return tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
+
+class _PictureWords(Words):
+    """Entries that hang from the numbers of their first and their last movement."""
+
+    indent = 12.5
+
+
+class _StageWords(Words):
+    """Entries with their movements, which hang from their numbers."""
+
+    indent, unfolded = 8.5, True
 
 
 def _down(rows: Sequence[TextRow], x: float, y: float) -> Iterator[Item]:

@@ -22,6 +22,7 @@ from typing import Any
 import numpy as np
 from inked_sheet import InkedSheet
 from numpy.typing import NDArray
+from spoken import misspoken
 
 import graphplan as gp
 from graphplan.accuracy.drafted import drafted
@@ -59,9 +60,14 @@ class DrawnScene:
         return InkedSheet.of(gp.sheet.svg(self.composition.plans.drawing, composition=self.composition))
 
     @cached_property
+    def told(self) -> dict[str, Any]:
+        """The protocol as data."""
+        return steps(self.composition)
+
+    @property
     def steps(self) -> list[Step]:
         """The list of steps."""
-        return list(steps(self.composition)["steps"])
+        return list(self.told["steps"])
 
     @property
     def task_on_a4(self) -> bool:
@@ -142,6 +148,7 @@ MEASURES = (
     Measure("plans of page", lambda one: one.sheet.plans_of_page, least=0.6, form=".0%", typical=True),
     Measure("ink of panels", lambda one: one.sheet.ink_of_panels, least=0.4, form=".0%", typical=True),
     Measure("odd scales", lambda one: one.sheet.odd_scales, most=0),
+    Measure("lengths spoken wrong", lambda one: misspoken(one.told, one.sheet), most=0),
     Measure("steps without a reason", lambda one: without_reason(one.steps), most=0),
     Measure("lines drawn twice", lambda one: drawn_twice(one.steps), most=0),
     Measure("task on A4", lambda one: float(one.task_on_a4), least=1),

@@ -122,9 +122,9 @@ BALANCES: list[tuple[str, Any]] = [
     ("jaanimets-10", (-121.6268907563, 91.2201680672)),
     ("jaanimets-11", -21.963809523809523),
     ("kinytskyi", 5.7291762),
-    ("rosenauer-loaded", 9.309675958),
-    ("triad-loaded", -8.375886047),
-    ("class-four-loaded", -3.176528155),
+    ("rosenauer-loaded", 15.633755315),
+    ("triad-loaded", -9.914604055),
+    ("class-four-loaded", -4.757507467),
     ("walschaerts-loaded", 16.688195223),
 ]
 
@@ -143,9 +143,9 @@ REACTIONS = [
     ("jaanimets-11", "3 at B", (400, -289.396825)),
     ("jaanimets-11", "3 along frame", (0, 289.396825)),
     ("ozols-9-1", "2 at A", (-10193.9362, 498.6736)),
-    ("rosenauer-loaded", "7 at D", (-69.092493, -65.479889)),
-    ("triad-loaded", "5 at G", (92.696509, -17.134290)),
-    ("class-four-loaded", "frame at B", (70.469614, -16.016506)),
+    ("rosenauer-loaded", "7 at D", (-71.650883, -106.414128)),
+    ("triad-loaded", "5 at G", (94.971581, -27.372117)),
+    ("class-four-loaded", "frame at B", (78.598117, 3.190875)),
     ("walschaerts-loaded", "9 at D", (-33.463763, 133.855051)),
 ]
 

@@ -49,6 +49,8 @@ from graphplan.words.tongue import tongue as tongue_of
 
 USUAL = 200.0, 150.0  # mm: a panel as there are many
 SHORTEST = 4.5  # mm: a link shorter than this has no room for letters
+MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; and what beside the largest is nothing
+SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
 POOR = {"A4": 0.05, "A3": 0.07, "A2": 0.1, "A1": 1.0, "A0": 1.0}  # of all letters may stand on lines or other marks
@@ -102,14 +104,21 @@ class Composition:
         """How large the plans are, and among equals how large the smallest is beside its need.
 
         The mechanism counts most, each other plan one half or, of more than two, as many of their marks as it has. A
-        plan without marks, as where nothing is asked, needs nothing.
+        plan without marks, as where nothing is asked, needs nothing. What cannot be measured counts against it.
         """
         marks = {panel: need**2 for panel, need in self.needs.items() if panel != MECHANISM}
         weights = {panel: count / sum(marks.values()) if len(marks) > 2 else 0.5 for panel, count in marks.items()}
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
-        return round(large, 9), min(shown, default=0.0)
+        return round(large - SHORT * self.short, 9), min(shown, default=0.0)
+
+    @property
+    def short(self) -> int:
+        """How many vectors are too short for a ruler; those that are next to nothing beside their kind are left out."""
+        drawn = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
+        largest = dict(sorted(drawn))
+        return sum(NOTHING * largest[kind] <= length < MEASURED for kind, length in drawn)
 
     @property
     def oversized(self) -> dict[str, float]:

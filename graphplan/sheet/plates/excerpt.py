@@ -123,7 +123,8 @@ def excerpt(plans: Plans, own: Collection[int], wide: float, high: float) -> Exc
 
 def _box(plans: Plans, panel: Panel, own: Collection[int], before: Collection[int]) -> Rect:
     """What of a plan a picture shows, in units of the plan."""
-    core = around(_spots(plans, panel, {*own, *before}) or [plans.extent(panel).core.centre])
+    halves = [spot for index, spot in plans.apexes(panel).items() if index in own]
+    core = around([*_spots(plans, panel, {*own, *before}), *halves] or [plans.extent(panel).core.centre])
     whole = plans.extent(panel).core
     size = max(whole.width, whole.height)
     box = _at_least(core, CONTEXT * size or 1.0)

@@ -113,6 +113,12 @@ class Plans:
         """The vectors drawn on a plan; one that begins on another plan cannot be."""
         return [v for v in self.drawing.arrows if self.plan_of_step[v.start] == self.plan_of_step[v.end] == panel]
 
+    @cached_property
+    def lengths(self) -> list[tuple[str, Panel, float]]:
+        """The vectors that are drawn: each with its kind, its plan, and its length there."""
+        return [(vector.kind, panel, math.dist(self.spot(vector.start), self.spot(vector.end)))
+                for panel in self.panels for vector in self.vectors(panel)]
+
     def kinds(self, panel: str) -> set[str]:
         """The kinds of vector drawn on a plan; a lever is made of velocities, and bears only those of its scene."""
         lever = {"velocity"} if panel == LeverPlan.of() and self._moves else set()
@@ -131,14 +137,14 @@ class Plans:
             return next((arg for arg in opening.args if arg in centre.args), None)
         return None
 
-    def _apexes(self, panel: str) -> list[Spot]:
-        """The highest points of the half circles on a plan."""
-        found = []
+    def apexes(self, panel: str) -> dict[int, Spot]:
+        """The highest points of the half circles on a plan, by step."""
+        found = {}
         for step in self.drawing.drawn.steps:
             if step.op.gives == CIRCLE and self.plan_of_step[step.index] == panel:
                 end, crossings = self.diameter(step), self.marks_on[step.index]
                 if end is not None and crossings:
-                    found.append(_apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0])))
+                    found[step.index] = _apex(self.spot(step.args[0]), self.spot(end), self.spot(crossings[0]))
         return found
 
     def extent(self, panel: str) -> Extent:
@@ -150,7 +156,7 @@ class Plans:
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         motion = self.motion if panel == MECHANISM else None
         path, poses = (motion.path_ends, motion.position_ends) if motion else ((), ())
-        return Extent(box, tuple(spot for far, spot in extra if far > 0), (*self._apexes(panel), *poses), path)
+        return Extent(box, tuple(spot for far, spot in extra if far > 0), (*self.apexes(panel).values(), *poses), path)
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

@@ -68,11 +68,10 @@ class Lengths:
         """What of a compound is laid off later, as its part on another plan has found it."""
         match compound.step.op.sizing, compound.step.args, dict(compound.inner):
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
-                # the velocity, as it is carried to the link
-                speed = Measure(self.mm(m, w) * self.per_mm(w) / self.per_mm(A), (m, w))
-                arm, found = self.between(K, A), self.between(E, A)
-                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), tenths(speed.mm), tenths(arm.mm),
-                                found.told)
+                speed, arm, found = self.between(m, w), self.between(K, A), self.between(E, A)
+                times, v = self.per_mm(w) / self.per_mm(A), tenths(speed.mm)
+                v = v if math.isclose(times, 1, rel_tol=SAME) else arranged("({0} · {1})", v, digits(times))
+                told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, tenths(arm.mm), found.told)
                 return (Length(told, (speed, arm, found)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
                 half = self.between(K, B)

@@ -86,7 +86,7 @@ class Readings:
         group = group if dimension != units.LENGTH else "length"
         per, _ = self.lengths.scale(group, end)
         read, text = round(length.mm, 1) * per, self.lengths.program.text
-        told = arranged("{0} · {1}", said("from {0} to {1} {2}", text(start), text(end), length.told), digits(per))
+        told = arranged("{0} · {1}", said("from {0} to {1}: {2}", text(start), text(end), length.told), digits(per))
         return Length(told, (length,)), read
 
     def _turning(self, reading: Reading, marks: Sequence[int]) -> tuple[Length, float]:
@@ -104,7 +104,7 @@ class Readings:
             sign = 1 if x * u[0] + y * u[1] >= 0 else -1
             read = (1 - sign * round(image.mm, 1) / round(side.mm, 1)) * tempo
             ratio = arranged("(1 − {0}/{1})" if sign > 0 else "(1 + {0}/{1})", tenths(image.mm), tenths(side.mm))
-            told = said("from {0} to {1} {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
+            told = said("from {0} to {1}: {2}, {3} = {4}: {5}", lengths.program.text(p1), lengths.program.text(r1),
                         image.told, names, side.told, arranged("{0} · {1}", ratio, digits(tempo)))
             return Length(_more(told, excess), (image, side)), read + excess
         one, two = lengths.vector(p0, p1), lengths.vector(r0, r1)

@@ -104,7 +104,7 @@ class Words:
                 yield from self._title(said("On the {0}", passage.plan.words), wide, first, PLAN * SIZE, 2.4)
             yield from self._stage(passage, wide, first)
             for entry in passage.entries:
-                yield from self._entry(entry, wide)
+                yield from self.entry(entry, wide)
 
     def _stage(self, passage: Passage, wide: float, step: int) -> Iterator[TextRow]:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""
@@ -112,7 +112,7 @@ class Words:
             return
         yield from self._title(arranged("{0:capital}", passage.title), wide, step)
         for equation in () if passage.again else passage.stage.equations:
-            yield from self._equation(equation, wide - self.indent, step)
+            yield from self.equation(equation, wide - self.indent, step)
         if passage.law:
             law = self._hung(self._runs(arranged("{0:capital}.", passage.law)), wide, step)
             yield from (replace(row, keep=row.keep + 1) for row in law)
@@ -122,7 +122,7 @@ class Words:
         for i, runs in enumerate(wrap(self._runs(text), size, wide, bold=True)):
             yield TextRow((Cell(0.0, runs, bold=True),), size=size, gap=0.0 if i else gap, step=step, keep=2)
 
-    def _equation(self, equation: Equation, wide: float, step: int) -> Iterator[TextRow]:
+    def equation(self, equation: Equation, wide: float, step: int) -> Iterator[TextRow]:
         """An equation with its vectors underlined as often as is known of them; a long one is broken, and bare."""
         runs, lettered = equation_runs(equation.text), equation.text
         if width(runs, SIZE) > wide:
@@ -132,7 +132,7 @@ class Words:
                       for start, end, times in equation.underlined if times)
         yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1, tall=TALL * SIZE)
 
-    def _entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
+    def entry(self, entry: Entry, wide: float) -> Iterator[TextRow]:
         """One step as the textbook tells it, unfolded with its movements below it."""
         apart = self.unfolded and entry.folded
         yield from self._hung(self._runs(entry.told), wide, entry.movements[0].index, "" if apart else entry.number)

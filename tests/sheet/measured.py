@@ -24,7 +24,6 @@ from inked_sheet import InkedSheet
 from numpy.typing import NDArray
 from spoken import misspoken
 
-import graphplan as gp
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import Pencil
 from graphplan.check.trusted import report
@@ -32,8 +31,10 @@ from graphplan.commands import main as command
 from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged
+from graphplan.output.svg import svg
 from graphplan.output.text import steps
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import pages
 
 SAME = 1e-9  # of a line, beside its distance from the origin
 SLACK = 0.005  # of a bound: sizes of letters are written to a hundredth
@@ -55,9 +56,14 @@ class DrawnScene:
         return cls(scene, drafted(found.drawing, Pencil(), check=found.check).composition)
 
     @cached_property
+    def pages(self) -> list[InkedSheet]:
+        """The pages of the sheet."""
+        return [InkedSheet.of(svg(page)) for page in pages(self.composition)]
+
+    @property
     def sheet(self) -> InkedSheet:
-        """The first page."""
-        return InkedSheet.of(gp.sheet.svg(self.composition.plans.drawing, composition=self.composition))
+        """The first page, with the plans."""
+        return self.pages[0]
 
     @cached_property
     def told(self) -> dict[str, Any]:
@@ -139,8 +145,9 @@ MEASURES = (
     Measure("labels on labels", lambda one: one.sheet.labels_on_labels, most=0),
     Measure("lines through labels", lambda one: one.sheet.lines_through_labels, most=0),
     Measure("labels nearer to others", lambda one: one.sheet.labels_nearer_to_others, most=0),
-    Measure("smallest letters mm", lambda one: one.sheet.smallest_letters, least=1.8, form=".2f"),
-    Measure("smallest subscripts mm", lambda one: one.sheet.smallest_subscripts, least=1.8, form=".2f"),
+    Measure("smallest letters mm", lambda one: min(page.smallest_letters for page in one.pages), least=1.8, form=".2f"),
+    Measure("smallest subscripts mm", lambda one: min(page.smallest_subscripts for page in one.pages), least=1.8,
+            form=".2f"),
     Measure("vectors too short", lambda one: one.sheet.short_vectors, most=0),
     Measure("vectors on vectors mm", lambda one: one.sheet.vectors_on_vectors),
     Measure("vectors on links mm", lambda one: one.sheet.vectors_on_links),

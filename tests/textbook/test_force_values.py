@@ -125,7 +125,7 @@ BALANCES: list[tuple[str, Any]] = [
     ("rosenauer-loaded", 15.633755315),
     ("triad-loaded", -9.914604055),
     ("class-four-loaded", -4.757507467),
-    ("walschaerts-loaded", 16.688195223),
+    ("walschaerts-loaded", 9.427740267),
 ]
 
 
@@ -146,7 +146,7 @@ REACTIONS = [
     ("rosenauer-loaded", "7 at D", (-71.650883, -106.414128)),
     ("triad-loaded", "5 at G", (94.971581, -27.372117)),
     ("class-four-loaded", "frame at B", (78.598117, 3.190875)),
-    ("walschaerts-loaded", "9 at D", (-33.463763, 133.855051)),
+    ("walschaerts-loaded", "9 at D", (-4.898628, 19.594511)),
 ]
 
 

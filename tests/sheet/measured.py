@@ -10,13 +10,10 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import redirect_stderr
 from dataclasses import dataclass
 from functools import cached_property
-from io import StringIO
 from pathlib import Path
 from statistics import median
-from tempfile import TemporaryDirectory
 from typing import Any
 
 import numpy as np
@@ -27,16 +24,18 @@ from spoken import misspoken
 from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.pencil import Pencil
 from graphplan.check.trusted import report
-from graphplan.commands import main as command
-from graphplan.errors import GraphplanError
+from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import load, packaged
+from graphplan.methods.panels import MECHANISM
 from graphplan.output.svg import svg
 from graphplan.output.text import steps
+from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import pages
 
 SAME = 1e-9  # of a line, beside its distance from the origin
+LONG_ENOUGH, WIDE_ENOUGH = 60.0, 35.0  # mm of A4: of the mechanism, and of each plan's panel either way
 SLACK = 0.005  # of a bound: sizes of letters are written to a hundredth
 
 Step = dict[str, Any]
@@ -77,11 +76,15 @@ class DrawnScene:
 
     @property
     def task_on_a4(self) -> bool:
-        """Whether the page that a student fills can be had on A4."""
-        with TemporaryDirectory() as folder, redirect_stderr(StringIO()):
-            file = Path(folder, "scene.toml")
-            file.write_text(self.scene.text)
-            return command(["handout", str(file), "--only", "task", "--paper", "A4", "-o", f"{folder}/task.pdf"]) == 0
+        """Whether a student can draw on A4: the mechanism is long enough, and no plan is a mere strip."""
+        try:
+            composition = drafted(self.composition.plans.drawing, Pencil(), paper="A4").composition
+        except Refused:
+            return False
+        page, view = task(composition)[0], composition.views[MECHANISM]
+        spots = np.array([view(composition.plans.place(point)) for point in self.scene.points])
+        sides = [side for panel in page.panels.values() for side in (panel.width, panel.height)]
+        return bool(np.ptp(spots, axis=0).max() >= LONG_ENOUGH - SLACK and min(sides) >= WIDE_ENOUGH)
 
 
 # ---- the list of steps -----------------------------------------------------------------------------------------------

@@ -73,7 +73,7 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
     column = next(places, None)
     y = column.top if column else 0.0
     for i, row in enumerate(rows):
-        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : i + 1 + row.keep])
+        block = row.height + sum(follower.gap + follower.height for follower in rows[i + 1 : _kept(rows, i)])
         while column is not None and y - _gap(row, y, column) - block < column.bottom:
             column = next(places, None)
             y = column.top if column else 0.0
@@ -82,6 +82,14 @@ def fill(rows: Sequence[TextRow], columns: Sequence[Rect]) -> list[Placed] | Non
         y -= _gap(row, y, column) + row.height
         placed.append((row, column.left, y + row.size * (LEADING - 1)))
     return placed
+
+
+def _kept(rows: Sequence[TextRow], first: int) -> int:
+    """Where the rows end that must stand in one column with a row, as they or others of them say."""
+    end = i = first
+    while i <= end and i < len(rows):
+        end, i = max(end, i + rows[i].keep), i + 1
+    return end + 1
 
 
 def _gap(row: TextRow, y: float, column: Rect) -> float:

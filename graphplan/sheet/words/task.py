@@ -46,7 +46,7 @@ class Task(Words):
         yield from self.paragraph(scene.source, wide) if scene.source else ()
         yield self._heading(said("Given"))
         for sentence in data(scene):
-            yield from self.paragraph(sentence, wide)
+            yield from self._hung(sentence_runs(self.plans.tongue(sentence)), wide)  # alpha_1 is no locus alpha
         yield from rows(self._masses())
         asked = list(question(scene, self.values))
         yield from [self._heading(said("To find"))] if asked else []

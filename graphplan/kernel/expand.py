@@ -187,7 +187,8 @@ class Expander:
             if op.gives == LINE and (lying := self.lines.fallen(step)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)
-                return self._along(run, self.board.marks[lying])
+                old = self.board.marks[lying]
+                return self._along(run, Mark(self.board, old.step, old.heading, fallen=op.movement is Movement.RULED))
             if len(self.values) > self._limit:
                 raise Outdone
         return mark

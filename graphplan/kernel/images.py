@@ -39,8 +39,8 @@ def _on_the_link(way: str, s: Any, A: Any, B: Any, C: Any, P: Any, Q: Any) -> An
         return None
     ray = s.perpendicular(s.side(A, B), A)
     Q1 = s.line_meets_circle(ray, s.circle(A, s.opening(P, Q)), way="on")
-    P1 = s.meet(s.parallel(s.side(B, Q1), C), ray)
-    return s.line_meets_circle(s.line(P, Q), s.circle(P, s.opening(A, P1)), way=way)
+    P1, PQ = s.meet(s.parallel(s.side(B, Q1), C), ray), s.line(P, Q)
+    return None if PQ.fallen else s.line_meets_circle(PQ, s.circle(P, s.opening(A, P1)), way=way)
 
 
 @primitive((POINT, POINT, POINT, POINT, POINT), POINT, SET_SQUARES,

@@ -131,7 +131,11 @@ class _Model:
 
     def _arrow(self, arrow: Arrow, look: dict[str, Any]) -> Iterator[Any]:
         """The shaft ends in the head, so that the tip is sharp; the extended data keep the true ends."""
-        strokes = [self.space.add_solid(arrow.barbs, dxfattribs=look)]
+        strokes: list[Any] = []
+        for spots, fill in arrow.figures:
+            corners = (*spots[:2], *reversed(spots[2:]))  # of a solid the last two come the other way round
+            strokes += (self._filled(spots, arrow.pen.filled(fill), look) if fill == PAPER
+                        else [self.space.add_solid(corners, dxfattribs=look)])
         strokes += [self.space.add_line(*shaft, dxfattribs=look) for shaft in arrow.shaft]
         for stroke in strokes:
             stroke.set_xdata(NAME, [(1000, arrow.label), (1011, (*arrow.start, 0.0)), (1011, (*arrow.end, 0.0))])

@@ -115,7 +115,8 @@ class _Painter:
         """The shaft ends in the head, so that the tip is sharp."""
         for shaft in arrow.shaft:
             self._stroke(arrow.pen, Path(shaft))
-        self._stroke(Pen(0.0), Path([*arrow.barbs, arrow.end], closed=True), arrow.pen.colour)
+        for spots, fill in arrow.figures:
+            self._stroke(Pen(0.0), Path([*spots, spots[0]], closed=True), fill)
 
     def _stroke(self, pen: Pen, path: Path, fill: str = "none") -> None:
         """A path in mm, drawn with a pen and filled."""

@@ -127,7 +127,8 @@ class _SheetWriter:
         made = MAKE.g(class_="vector", data_from=f"{x} {y}", data_to=f"{u} {v}", data_vector=arrow.label or None)
         for shaft in arrow.shaft:
             made.add(self._line(shaft, arrow.pen))
-        made.add(MAKE.polygon(self._spots(arrow.barbs), fill=arrow.pen.colour))
+        for spots, fill in arrow.figures:
+            made.add(MAKE.polygon(self._spots(spots), fill=fill))
         return made
 
     def _text(self, text: Text) -> Element:

@@ -99,7 +99,7 @@ def test_vectors_are_those_of_the_display_list(name: str) -> None:
     heads = [(entity.dxf.vtx0, entity.get_xdata(NAME)) for entity in read(name).modelspace().query("SOLID")]
     found = [(data[0].value, tuple(data[1].value), tuple(data[2].value), tuple(tip)) for tip, data in heads]
     vectors = [(arrow.label, (*arrow.start, 0.0), (*arrow.end, 0.0), (*arrow.end, 0.0)) for arrow in items(name, Arrow)]
-    assert found == vectors
+    assert list(dict.fromkeys(found)) == vectors
 
 
 @pytest.mark.parametrize("name", SCENES)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import pickle
+from dataclasses import replace
 from fractions import Fraction
 
 import pytest
@@ -186,6 +187,26 @@ def test_the_head_of_an_arrow_ends_at_its_tip() -> None:
     tip, left, right = Arrow(pens.THIN, "vectors", 0, (0, 0), (30, 40), 4.0).barbs
     assert tip == (30, 40)
     assert math.dist(left, right) < 4.0 / 2
+
+
+@pytest.mark.parametrize(("tip", "fills"), [
+    (pens.FILLED, [pens.BLUE]), (pens.OPEN, [pens.BLUE] * 2), (pens.WHITE, [pens.BLUE, pens.PAPER])])
+def test_heads_are_told_apart_without_colour(tip: str, fills: list[str]) -> None:
+    """A head is full, two barbs or white inside; it begins at the tip, and the shaft ends within it."""
+    arrow = Arrow(replace(pens.VECTORS["velocity"], tip=tip), "vectors", 0, (0, 0), (30, 40), 4.0)
+    figures = list(arrow.figures)
+    assert [fill for _, fill in figures] == fills
+    assert figures[0][0][0] == (30, 40)
+    assert all(math.dist(spot, (30, 40)) < 4.5 for spots, _ in figures for spot in spots)
+    (_, end), = arrow.shaft
+    assert 0 < math.dist(end, (30, 40)) <= 4.0 + 1e-9
+
+
+def test_kinds_of_line_have_pens_of_their_own() -> None:
+    """Without colour no two of velocity, acceleration, load, reaction, locus, produced and constructed lines agree."""
+    kinds = *(pens.VECTORS[kind] for kind in ("velocity", "acceleration", "load", "reaction", "part", "relative")), \
+        pens.LOCUS, pens.PRODUCED, pens.THIN
+    assert len({(pen.width, pen.dash, pen.tip) for pen in kinds}) == len(kinds)
 
 
 def test_a_bent_link_is_a_plate_and_a_straight_one_a_bar() -> None:

@@ -13,7 +13,7 @@ from shapely import LinearRing, LineString
 
 from graphplan.marking.scans.image import Light
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
-from graphplan.sheet.plates.pens import rgb
+from graphplan.sheet.plates.pens import Pen, rgb
 
 SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
 SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
@@ -74,8 +74,11 @@ def _draw(canvas: NDArray[np.uint8], item: Item, height: float, scale: float) ->
             pass
         case Arc():
             spots = item.spots()
-        case Arrow(start=start, end=end):
-            spots, filled, fill = (start, end), item.barbs, item.pen.colour
+        case Arrow():
+            for part in (*(Polyline(item.pen, item.layer, item.step, shaft) for shaft in item.shaft),
+                         *(Polygon(Pen(0.0, fill=of), item.layer, item.step, figure) for figure, of in item.figures)):
+                _draw(canvas, part, height, scale)
+            return
         case _:
             return
     if filled and fill != "none":

@@ -53,6 +53,7 @@ STYLES: dict[str, Pen] = {
     **{f"given {kind}": pen.filled("none") for kind, pen in pens.GIVEN.items()},
     **{kind: pen.filled("none") for kind, pen in pens.VECTORS.items()},
 }  # fmt: skip
+HEADS = {pens.FILLED: "head", pens.WHITE: "white head", pens.OPEN: "open head"}
 NAMES = {pen: name for name, pen in reversed(STYLES.items())}
 
 # What makes a mark, from its operands' names; {A}, {B} are the ends of its first operand, {C}, {D} of its second.
@@ -211,7 +212,8 @@ class TikzWriter(Source):
 
     def stroke(self, stroke: Stroke) -> None:
         """By parts of the way between two marks, or from one the way that a line runs."""
-        style = NAMES[stroke.pen.filled("none")] + (f", head={stroke.head:.3g}" if stroke.head else "")
+        head = f", {HEADS[stroke.pen.tip]}={stroke.head:.3g}" if stroke.head else ""
+        style = NAMES[stroke.pen.filled("none")] + head
         start, end, parts = self.names[stroke.start], self.names[stroke.end], (stroke.low, stroke.high)
         if self.lost.intersection((stroke.of, stroke.start, stroke.end)):
             self._path(style, map(spot, stroke.ends))
@@ -278,6 +280,8 @@ def _styles() -> str:
     found = [rf"\definecolor{{ink{colour[1:]}}}{{HTML}}{{{colour[1:].upper()}}}" for colour in colours]
     found += [r"\tikzset{", "  drawing/.style={x=1mm, y=1mm, line cap=round, line join=round},",
               "  head/.style={-{Triangle[length=#1mm, width={#1mm/3}]}, line cap=butt},",
+              "  white head/.style={-{Triangle[length=#1mm, width={#1mm/2}, open, fill=white]}, line cap=butt},",
+              "  open head/.style={-{Straight Barb[length=#1mm, width={#1mm/2}]}, line cap=butt},",
               r"  letter/.style={anchor=base, inner sep=0pt, font=\fontsize{7}{8}\selectfont},",
               rf"  number/.style={{letter, text=ink{pens.GREY[1:]}, font=\fontsize{{5.5}}{{6}}\selectfont}},",
               r"  caption/.style={anchor=south west, inner sep=0pt, font=\bfseries\fontsize{9}{10}\selectfont},"]

@@ -7,14 +7,16 @@ step that an item belongs to, so that a stepper can show or light up one movemen
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.lettering.lettering import ANCHORS, CAPS, DEPTH, Run, width
-from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.pens import FILLED, OPEN, PAPER, WHITE, Pen
 
 Spot = tuple[float, float]
+SLIM = {FILLED: 6.0, WHITE: 4.5, OPEN: 4.5}  # how many times as long as half its width a head is
+BARB, WALL = 1.2, 0.25  # mm: of an open head along the vector, and about the middle of a white one
 EDGE = 0.01  # mm by which what is on an edge may be beyond it
 
 
@@ -132,21 +134,44 @@ class Arrow(Item):
     label: str = ""
 
     @property
-    def barbs(self) -> tuple[Spot, Spot, Spot]:
-        """The slim triangle of the head: its tip and its two rear corners."""
+    def along(self) -> Spot:
+        """One mm its way."""
         dx, dy = self.end[0] - self.start[0], self.end[1] - self.start[1]
         length = math.hypot(dx, dy) or 1.0
-        ux, uy = dx / length * self.head, dy / length * self.head
-        x, y = self.end[0] - ux, self.end[1] - uy
-        return self.end, (x - uy / 6, y + ux / 6), (x + uy / 6, y - ux / 6)
+        return dx / length, dy / length
 
+    @property
+    def barbs(self) -> tuple[Spot, Spot, Spot]:
+        """The slim triangle of the head: its tip and its two rear corners."""
+        half = self.head / SLIM[self.pen.tip]
+        return self.end, self._spot(self.head, half), self._spot(self.head, -half)
+
+    def _spot(self, back: float, aside: float = 0.0) -> Spot:
+        """So many mm back from the tip, and to the left."""
+        ux, uy = self.along
+        return self.end[0] - back * ux - aside * uy, self.end[1] - back * uy + aside * ux
+
+    @property
+    def figures(self) -> Iterator[tuple[tuple[Spot, ...], str]]:
+        """What its head is: outlines, the first from its tip, and what fills each."""
+        half, barb = self.head / SLIM[self.pen.tip], min(BARB, self.head / 2)
+        if self.pen.tip == OPEN:
+            for side in (half, -half):
+                yield (self.end, self._spot(self.head - barb, side), self._spot(self.head, side), self._spot(barb)), \
+                    self.pen.colour
+            return
+        yield self.barbs, self.pen.colour
+        radius = half * self.head / (half + math.hypot(half, self.head))  # of the circle inside
+        part = 1 - WALL / radius if self.pen.tip == WHITE else 0.0
+        if part > 0:
+            middle = self._spot(self.head - radius)
+            yield tuple((x + part * (u - x), y + part * (v - y)) for u, v in self.barbs for x, y in (middle,)), PAPER
 
     @property
     def shaft(self) -> tuple[tuple[Spot, Spot], ...]:
         """The stroke that ends in the head, so that the tip is sharp; none where the vector is all head."""
-        _, left, right = self.barbs
-        neck = (left[0] + right[0]) / 2, (left[1] + right[1]) / 2
-        return ((self.start, neck),) if math.dist(self.start, neck) > 0.01 else ()
+        neck = self._spot(min(BARB, self.head / 2) if self.pen.tip == OPEN else self.head)
+        return ((self.start, neck),) if math.dist(self.start, self.end) > math.dist(neck, self.end) + 0.01 else ()
 
 
 @dataclass(frozen=True)

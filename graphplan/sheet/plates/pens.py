@@ -1,7 +1,8 @@
 """The pens: line widths and types after ISO 128-2, chosen to be told apart in black and white.
 
 Widths go in the steps of the standard (0.18, 0.25, 0.35, 0.5, 0.7 mm): links are wide, vectors middling, everything
-constructed is thin. Dashes carry meaning too; colours only help.
+constructed is thin. Velocities have filled heads, accelerations open ones and forces white ones; loci have long
+dashes, lines produced dots between them. Colours only help.
 """
 
 from __future__ import annotations
@@ -11,16 +12,19 @@ from dataclasses import dataclass, replace
 INK, GREY, BLUE, RED, GREEN, TINT = "#000000", "#555555", "#0b3c8c", "#a3151b", "#1c6b3a", "#e9eef2"
 BROWN, VIOLET = "#4a2c0a", "#6a1b8a"
 PAPER = "#ffffff"
+FILLED, OPEN, WHITE = "filled", "open", "white"  # heads of vectors: of velocities, accelerations and forces
 
 
 @dataclass(frozen=True)
 class Pen:
-    """How a stroke looks: its width in mm, colour, dashes in mm, and what fills a closed figure (or nothing)."""
+    """How a stroke looks: its width in mm, colour, dashes in mm, what fills a closed figure (or nothing), and the tip
+    that a vector has."""
 
     width: float
     colour: str = INK
     dash: tuple[float, ...] = ()
     fill: str = "none"
+    tip: str = FILLED
 
     def filled(self, fill: str) -> Pen:
         """The same pen with a filling."""
@@ -53,7 +57,7 @@ POSITION = Pen(0.13, "#9a9a9a")
 THIN = Pen(0.18, GREY)
 PRODUCED = Pen(0.18, GREY, (4.0, 0.9, 0.5, 0.9))
 NORMAL = Pen(0.35)
-LOCUS = Pen(0.25, GREEN)
+LOCUS = Pen(0.25, GREEN, (5.0, 1.0))
 ARC = Pen(0.18, GREY)
 DOT = Pen(0.2, fill=PAPER)
 ORIGIN = Pen(0.2, fill=INK)
@@ -61,16 +65,16 @@ LEADER = Pen(0.13, GREY)
 
 VECTORS = {
     "velocity": Pen(0.5, BLUE, fill=BLUE),
-    "acceleration": Pen(0.5, RED, fill=RED),
-    "normal": Pen(0.35, INK, fill=INK),
+    "acceleration": Pen(0.5, RED, fill=RED, tip=OPEN),
+    "normal": Pen(0.35, INK, fill=INK, tip=OPEN),
     "relative": Pen(0.35, BLUE, (2.4, 1.0), fill=BLUE),
-    "load": Pen(0.7, BROWN, fill=BROWN),
-    "reaction": Pen(0.35, VIOLET, fill=VIOLET),
-    "part": Pen(0.25, VIOLET, (2.0, 1.0), fill=VIOLET),
-    "balance": Pen(1.0, GREEN, fill=GREEN),
+    "load": Pen(0.7, BROWN, fill=BROWN, tip=WHITE),
+    "reaction": Pen(0.35, VIOLET, fill=VIOLET, tip=WHITE),
+    "part": Pen(0.25, VIOLET, (2.0, 1.0), fill=VIOLET, tip=WHITE),
+    "balance": Pen(1.0, GREEN, fill=GREEN, tip=WHITE),
 }
 FORCES = frozenset({"load", "reaction", "part", "balance"})  # the kinds of vector that are forces
-GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED)}
+GIVEN = {"velocity": Pen(0.35, BLUE, fill=BLUE), "acceleration": Pen(0.35, RED, fill=RED, tip=OPEN)}
 HEADS = {
     "velocity": 4.0, "acceleration": 4.0, "normal": 2.4, "relative": 2.4,
     "load": 5.0, "reaction": 4.0, "part": 2.4, "balance": 6.5,

@@ -13,10 +13,14 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations, groupby, pairwise
 
+import shapely
+
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, arranged
 from graphplan.sheet.layout.layout import stacked
+from graphplan.sheet.lettering.label_candidates import AIR
+from graphplan.sheet.lettering.labels import strokes
 from graphplan.sheet.lettering.letters import picture
 from graphplan.sheet.plates.display import Item, Text
 from graphplan.sheet.plates.excerpt import Excerpt, excerpt
@@ -90,7 +94,7 @@ class Picture:
 
     @property
     def crowded(self) -> bool:
-        """Whether letters stand on each other."""
+        """Whether its letters cannot all be read."""
         return crowded(self.items)
 
     def halves(self) -> Iterator[Picture]:
@@ -192,6 +196,13 @@ def parted(program: Program, steps: Sequence[Step], most: int) -> list[Sequence[
 
 
 def crowded(items: Iterable[Item]) -> bool:
-    """Whether letters stand on each other."""
-    boxes = [item.box for item in items if isinstance(item, Text)]
-    return any(one.meets(other) for one, other in combinations(boxes, 2))
+    """Whether letters stand on each other, or a thin line of another step goes through them."""
+    drawn = list(items)
+    letters = [item for item in drawn if isinstance(item, Text)]
+    if any(one.box.meets(other.box) for one, other in combinations(letters, 2)):
+        return True
+    lines = [(item.step, shapely.linestrings(chain)) for item in drawn for chain, _ in strokes([item])]
+    tree = shapely.STRtree([line for _, line in lines])
+    boxes = [(one.step, one.box.inset(AIR, AIR, AIR, AIR)) for one in letters]
+    return any(lines[k][0] != step for step, box in boxes if box.width > 0 < box.height for k in tree.query(
+        shapely.box(box.left, box.bottom, box.right, box.top), predicate="intersects"))

@@ -29,7 +29,7 @@ from graphplan.sheet.words.texts import Words
 
 WANTED = {MARK: 84.0, STEP: 84.0, STAGE: 176.0}  # mm: about how wide columns are
 BESIDE = 0.58  # of a column has a picture that has its words beside it
-HIGH = 0.7  # of its width: no picture is higher
+HIGH = {MARK: 0.7, STEP: 0.7, STAGE: 0.63}  # of its width: no picture is higher
 GAP, UNDER, BELOW = 4.0, 1.2, 5.0  # mm: beside pictures, above words and below them
 USUAL = "A3"  # paper
 NO_SCALE = "—"  # of a sheet with pictures in scales of their own
@@ -116,7 +116,7 @@ class Strip:
     @cached_property
     def pictures(self) -> list[Picture]:
         tallest = max(column.height for column in self.columns)
-        found = pictures(self.protocol, self.cut, (self.wide, HIGH * self.wide),
+        found = pictures(self.protocol, self.cut, (self.wide, HIGH[self.cut] * self.wide),
                          lambda one: self._height(one) <= tallest)
         if max(map(self._height, found), default=0.0) > tallest:
             raise Refused("film strip", "a picture with its words is larger than the sheet", "a larger --paper")

@@ -16,7 +16,7 @@ from graphplan.sheet.plates.display import Arrow, Text
 from graphplan.sheet.plates.excerpt import used
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.selection import numbered, selected
-from graphplan.sheet.strip import Strip, by_stages, strip
+from graphplan.sheet.strip import HIGH, Strip, by_stages, strip
 from graphplan.sheet.words.texts import RESULTS
 
 
@@ -136,7 +136,7 @@ def test_long_stages_are_cut_where_little_is_carried_over() -> None:
 
 def test_a_strip_that_does_not_fit_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     """Where one picture with its words is larger than the sheet, a larger one is advised."""
-    monkeypatch.setattr("graphplan.sheet.strip.HIGH", 4.0)
+    monkeypatch.setitem(HIGH, MARK, 4.0)
     monkeypatch.setattr("graphplan.sheet.plates.excerpt.FLAT", 3.0)
     with pytest.raises(Refused, match="larger --paper"):
         strip(compose(drawing_of("four-bar")), "A4")

@@ -15,7 +15,7 @@ from itertools import combinations, groupby, pairwise
 
 import shapely
 
-from graphplan.kernel.kinds import POINT
+from graphplan.kernel.kinds import OPENING, POINT
 from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, arranged
 from graphplan.sheet.layout.layout import stacked
@@ -142,10 +142,13 @@ def _by_steps(protocol: Protocol) -> Iterator[list[Part]]:
 
 
 def _by_marks(protocol: Protocol) -> Iterator[list[Part]]:
-    """A picture up to each entry that gives a point with a letter, with some before it; with an origin what follows."""
-    begun = list[Part]()
+    """A picture up to each entry that gives a point with a letter; what leaves no line stands with what follows."""
+    begun, plan_of_step = list[Part](), protocol.plans.plan_of_step
     for part in _parts(protocol):
-        if len(part.steps) == 1 and part.steps[0].op.free:
+        if begun and plan_of_step[begun[-1].steps[0].index] != plan_of_step[part.steps[0].index]:
+            yield begun
+            begun = []
+        if all(step.op.free or step.op.gives == OPENING for step in part.steps):
             begun.append(part)
             continue
         group, runs = list[Step](), list[list[Step]]()

@@ -27,7 +27,7 @@ def test_words_stand_where_they_are_wanted(protocol: str, names: list[str], tmp_
 
 
 @pytest.mark.parametrize(("arguments", "names"), [
-    (["--by", "stages", "--paper", "A3"], ["sheet-protocol.svg", "sheet-stages-2.svg", "sheet-stages.svg", "sheet.svg"]),
+    (["--by", "stages", "--protocol", "none"], ["sheet-stages-2.svg", "sheet-stages.svg", "sheet.svg"]),
     (["--by", "sheet", "--strict", "--protocol", "aside"], ["sheet.svg"]),
     (["--strip", "--paper", "A4"], ["sheet-2.svg", "sheet.svg"]),
 ])

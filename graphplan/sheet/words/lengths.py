@@ -190,7 +190,7 @@ class Lengths:
         u, v = self.vector(P, R), self.vector(a, b)
         part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (math.hypot(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
         found = self._paired(step, P, R, m)
-        return Length(said("tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
+        return Length(said("Tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
 
     def _paired(self, step: Step, P: int, R: int, m: int) -> Length:
         """The force of a couple's pair, by the distance of its points."""

@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from fractions import Fraction
 from functools import cache
 from pathlib import Path
 
@@ -60,10 +61,15 @@ def test_positions_move_no_letter() -> None:
     assert told[0] == told[1]
 
 
-def test_a_path_costs_the_scale_but_a_bit() -> None:
-    """With the path of its coupler point a four-bar is drawn no more than a third smaller."""
-    scales = [composed("four-bar", curves).scales.k_s for curves in ((), ("M",))]
-    assert scales[0] <= scales[1] <= 1.3 * scales[0] + 1e-9
+def test_a_path_is_whole_where_that_costs_a_bit() -> None:
+    """The coupler curve of a four-bar is whole on paper; at a given scale it is cut off at its panel."""
+    free = composed("four-bar", ("M",))
+    scene = replace(free.plans.drawing.scene, sheet=replace(free.plans.drawing.scene.sheet, k_s=Fraction(5, 2)))
+    given = compose(gp.construct(scene), "A4", motion=free.plans.motion)
+    for composition, whole in ((free, True), (given, False)):
+        view = composition.views[MECHANISM]
+        spots = [view(spot) for path in composition.plans.motion.paths for spot in path.spots]
+        assert all(map(view.rect.holds, spots)) == whole
 
 
 def test_a_path_that_goes_back_on_itself_is_drawn_once() -> None:

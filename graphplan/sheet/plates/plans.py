@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, reduce
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step, plan_of
@@ -20,6 +20,8 @@ from graphplan.sheet.plates.symbols import off, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.words.tongue import ENGLISH, Tongue
 
+A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its points
+
 
 def corner(step: Step) -> bool:
     """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
@@ -30,14 +32,12 @@ def corner(step: Step) -> bool:
 class Extent:
     """The size of what a plan shows: `core` must be on paper, `extra` should be if it does not cost too much.
 
-    `path` is how far paths of points reach, which may cost a bit; `nice` is room for half circles and positions, taken
-    where it costs nothing.
+    `nice` is room for half circles, and for what is shown of the motion, taken where it costs nothing.
     """
 
     core: Rect
     extra: tuple[Spot, ...]
     nice: tuple[Spot, ...] = ()
-    path: tuple[Spot, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -153,10 +153,18 @@ class Plans:
         marks = [self.spot(i) for i in self.points(panel)]
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
+        nice = list(self.apexes(panel).values())
+        if self.motion and panel == MECHANISM:
+            box = self._with_paths(box, self.motion)
+            nice += [*self.motion.path_ends, *self.motion.position_ends]
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        motion = self.motion if panel == MECHANISM else None
-        path, poses = (motion.path_ends, motion.position_ends) if motion else ((), ())
-        return Extent(box, tuple(spot for far, spot in extra if far > 0), (*self.apexes(panel).values(), *poses), path)
+        return Extent(box, tuple(spot for far, spot in extra if far > 0), tuple(nice))
+
+    def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
+        """The box with the paths of points, where that makes it but a bit larger and no scale is given."""
+        sheet, larger = self.drawing.scene.sheet, reduce(grown, motion.path_ends, box)
+        given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
+        return box if given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
 
     def _ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""

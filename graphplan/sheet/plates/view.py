@@ -6,7 +6,6 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import reduce
 
 from graphplan.mechanism.model import Number
 from graphplan.sheet.layout.scales import round_up
@@ -14,7 +13,6 @@ from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.plans import Extent, grown
 
 COARSER, MUCH_COARSER = 2.05, 4.1  # how much smaller the mechanism, and any other plan, may be for auxiliary marks
-A_BIT = 1.3  # the same of the mechanism for the paths of its points
 
 
 @dataclass(frozen=True)
@@ -41,7 +39,7 @@ def least(box: Rect, room: Rect) -> float:
 def _box(extent: Extent, room: Rect, most: float, nice: bool = False) -> Rect:
     """The core's box, made larger mark by mark as long as it does not need more than `most` units per mm."""
     box = extent.core
-    for spot in (*extent.extra, *((*extent.path, *extent.nice) if nice else ())):
+    for spot in (*extent.extra, *(extent.nice if nice else ())):
         larger = grown(box, spot)
         if least(larger, room) <= most:
             box = larger
@@ -64,8 +62,7 @@ def plan_scale(extent: Extent, room: Rect, coarser: float, lengths: Sequence[Num
     quantities that are so many `lengths` long."""
     core = round_up(least(extent.core, room), lengths)
     box = _box(extent, room, float(core) * coarser if extent.core.width or extent.core.height else math.inf)
-    scale, with_path = (round_up(least(shown, room), lengths) for shown in (box, reduce(grown, extent.path, box)))
-    return with_path if with_path <= A_BIT * scale else scale
+    return round_up(least(box, room), lengths)
 
 
 def plan_box(extent: Extent, room: Rect, units_per_mm: float) -> Rect:

@@ -1,4 +1,4 @@
-"""The construction in pictures on pages: the film strip, and the pages by stages.
+"""The construction in pictures on pages: the film strip, and the pages by stages, which follow the sheet.
 
 What is new in a picture is in ink, what it uses of before is in grey, and its steps stand below in words. Pictures run
 down the columns of a page. Pages by stages have larger ones, each with the equation and the law of its stage.
@@ -38,8 +38,8 @@ NO_SCALE = "—"  # of a sheet with pictures in scales of their own
 def strip(composition: Composition, paper: str | None = None, *, cut: str = MARK) -> list[Sheet]:
     """The film strip of a composed construction, page by page, with a picture for every lettered `mark`, or `step`.
 
-    It is on the paper named, or that of the scene's sheet, else A3; lengths are those of the composition. Fails with
-    `Refused` where a picture with its words is larger than the paper.
+    It is on the paper named, or that of the scene's sheet, else A3; its pictures have scales of their own. Fails
+    with `Refused` where a picture with its words is larger than the paper.
     """
     return Strip.of(composition, cut, paper).sheets
 
@@ -66,12 +66,15 @@ class Strip:
 
     @classmethod
     def of(cls, composition: Composition, cut: str, paper: str | None = None) -> Strip:
-        """The strip of a composed construction, in its pose alone; by stages an A4 stands upright, as words are beside
-        the pictures."""
+        """The strip of a composed construction, in its pose alone.
+
+        By stages an A4 stands upright, as words are beside the pictures, and lengths are told: those of the sheet.
+        """
         plans = replace(composition.plans, motion=None)
         named = paper or plans.drawing.scene.sheet.paper or USUAL
         named = f"{named} portrait" if cut == STAGE and named == "A4" else named
-        return cls(Protocol(plans), cut, frame_of(plans.drawing.scene).paper(named))
+        scales = composition.scales if cut == STAGE else None
+        return cls(Protocol(plans, scales), cut, frame_of(plans.drawing.scene).paper(named))
 
     @property
     def plans(self) -> Plans:

@@ -12,7 +12,8 @@ from graphplan.kernel.program import Step
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.scene import packaged
 from graphplan.methods.construction import Construction
-from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
+from graphplan.methods.forces.free_bodies import roman
+from graphplan.methods.motion.acceleration import CORIOLIS, GREEK, NORMAL
 from graphplan.phrases import Phrase
 
 PLANS = "orthogonal", "polar"
@@ -81,3 +82,11 @@ def test_a_vector_is_the_acceleration_that_its_sentence_names(plan: str) -> None
             slides += 1
     assert normals > 100
     assert slides >= 5
+
+
+def test_letters_are_those_of_one_thing() -> None:
+    """No two points' loci have one letter; corners of polygons have numerals, as figures are those of links."""
+    assert len(set(GREEK.values())) == len(GREEK)
+    assert [roman(number) for number in (1, 4, 9, 14, 40, 49, 90, 148)] == [
+        "I", "IV", "IX", "XIV", "XL", "XLIX", "XC", "CXLVIII"]
+    assert not [step.name for step in gp.construct(gp.load("jaanimets-10")).drawn.steps if step.name.isdigit()]

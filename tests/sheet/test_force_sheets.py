@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterator
 from dataclasses import replace
 
@@ -11,6 +12,7 @@ from sheets import LOADED, drawing_of, outside, sheet_of
 
 import graphplan as gp
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.methods.panels import ForcePlan
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.lettering.lettering import plain
 from graphplan.sheet.plates import pens
@@ -134,9 +136,10 @@ def test_no_forces_no_tables() -> None:
 
 @pytest.mark.parametrize("name", LOADED)
 def test_corners_are_told_from_the_numbers_of_steps(name: str) -> None:
-    """The corners of force polygons have bold black figures and no dot; marks without a letter have faint ones."""
+    """The corners of force polygons have bold black numerals and no dot; marks without a letter have faint figures."""
     drawing, sheet = drawing_of(name), sheet_of(name)
-    corners = {step.index for step in drawing.drawn.steps if step.name.isdigit()}
+    corners = {step.index for step in drawing.drawn.steps if re.fullmatch("[IVXLC]+'*", step.name)
+               and isinstance(step.panel, ForcePlan)}
     texts = [item for item in sheet.items if isinstance(item, Text) and item.layer == "letters"]
     assert corners
     assert all(text.bold == (text.step in corners) for text in texts if text.pen == pens.LETTERS and text.step)

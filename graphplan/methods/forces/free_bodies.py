@@ -22,6 +22,16 @@ from graphplan.phrases import said
 
 Span = tuple[Mark, Mark]
 Pair = tuple[Acting, Acting]
+ROMAN = {"C": 100, "XC": 90, "L": 50, "XL": 40, "X": 10, "IX": 9, "V": 5, "IV": 4, "I": 1}
+
+
+def roman(number: int) -> str:
+    """The numeral of a polygon's corner: figures are those of links and steps."""
+    numeral = ""
+    for sign, value in ROMAN.items():
+        numeral += number // value * sign
+        number %= value
+    return numeral
 
 
 def signed(span: Span, sign: int) -> Span:
@@ -131,7 +141,7 @@ class FreeBodies:
         self.seats: dict[UnknownForce, Mark] = {}
         self.chains: dict[str, list[Acting]] = {}
         self.couples: dict[str, list[Pair]] = {}
-        with board.on(self.panel, group.links, begun(str(forces.corners + 1), self.panel.words)):
+        with board.on(self.panel, group.links, begun(roman(forces.corners + 1), self.panel.words)):
             self.origin = self.numbered(board.begin(plan=self.panel))
             self._chain()
         for site in (balance for balance in loading.loads.balances if balance.link in group.links and balance.at):
@@ -147,10 +157,10 @@ class FreeBodies:
                 self.known[slide] = Known(None, line, pose.points[slide.at])
 
     def numbered(self, mark: Mark) -> Mark:
-        """A corner of the polygon, with the next number if it has none."""
+        """A corner of the polygon, with the next numeral if it has none."""
         if not mark.step.name:
             self.forces.corners += 1
-            self.board.named(mark, str(self.forces.corners))
+            self.board.named(mark, roman(self.forces.corners))
         return mark
 
     # ---- loads -------------------------------------------------------------------------------------------------

@@ -25,10 +25,10 @@ from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN
 from graphplan.methods.poses import Pose
 from graphplan.phrases import Said, phrase, said
 
-GREEK = {
-    "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "gamma", "H": "eta",
-    "I": "iota", "K": "kappa", "L": "lambda", "M": "mu", "N": "nu", "O": "omega", "P": "pi", "R": "rho",
-    "S": "sigma", "T": "tau", "U": "upsilon", "V": "psi", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
+GREEK = {  # of loci: no letter is that of two points
+    "A": "alpha", "B": "beta", "C": "gamma", "D": "delta", "E": "epsilon", "F": "phi", "G": "chi", "H": "eta",
+    "I": "iota", "K": "kappa", "L": "lambda", "M": "mu", "N": "nu", "O": "theta", "P": "pi", "R": "rho",
+    "S": "sigma", "T": "tau", "U": "upsilon", "W": "omega", "X": "xi", "Y": "psi", "Z": "zeta",
 }
 
 NORMAL = phrase("the relative normal acceleration of {0} about {1}")

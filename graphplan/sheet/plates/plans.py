@@ -13,7 +13,7 @@ from functools import cached_property, reduce
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step, plan_of
 from graphplan.methods.construction import Construction, DrawnVector
-from graphplan.methods.panels import MECHANISM, LeverPlan
+from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
@@ -24,8 +24,8 @@ A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its po
 
 
 def corner(step: Step) -> bool:
-    """Whether a mark is a corner of a force polygon: those are numbered, apart from the steps."""
-    return step.op.movement is not Movement.GIVEN and step.name.rstrip("'").isdigit()
+    """Whether a mark is a corner of a force polygon: those have numerals, apart from the numbers of steps."""
+    return isinstance(step.panel, ForcePlan) and bool(step.name) and set(step.name) <= set("IVXLC'")
 
 
 @dataclass(frozen=True)

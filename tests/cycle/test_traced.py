@@ -108,7 +108,7 @@ def test_positions_stand_at_equal_travels() -> None:
 
 def test_what_is_not_asked_for_is_not_followed() -> None:
     """A sheet without these wishes shows nothing of the motion."""
-    assert traced(load("four-bar")) is None
+    assert traced(load("five-bar")) is None
 
 
 @pytest.mark.parametrize(("scene", "why"), [

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import measured
 import pytest
 from inked_sheet import InkedSheet, significand
 from measured import Measure, findings, held
+from sheets import SCENES
 
 from graphplan.mechanism.scene import load
 
+TABLE = Path(__file__).parents[2] / "gallery" / "charts" / "sheets.md"
 HEAD = """<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 100 100"><desc>k_s = 2.5 mm/mm, k_v = 3</desc>
 <g class="layer-paper"><rect class="panel" data-plan="N-plan" x="0" y="0" width="80" height="50"/></g>"""
 
@@ -126,3 +130,11 @@ def test_a_scene_is_measured() -> None:
 def test_random_linkages_are_measured() -> None:
     """Linkages that chance makes have rows too, by their seeds."""
     assert [name for name, _ in measured.measured(measured.random_scenes(3, 6))] == ["random 6", "random 7", "random 8"]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_the_gallery_tells_what_sheets_measure(name: str) -> None:
+    """A scene's row in the gallery's table is what its sheet measures now."""
+    told = " | ".join(measured.cells(name, measured.row(measured.DrawnScene.of(load(name)))))
+    rows = TABLE.read_text(encoding="utf-8").splitlines()
+    assert f"| {told} |" in rows, "run python tests/sheet/measured.py -o gallery/charts/sheets.md"

@@ -153,7 +153,7 @@ def test_steps_speak_of_forces(monkeypatch: pytest.MonkeyPatch, capsys: pytest.C
     words = " ".join(capsys.readouterr().out.split())
     for said in (
         "On the force plan of links 2 and 4:", "On the force plan of link 1:", "On the lever:",
-        "Moments of link 2 about B", "P_4, the given force on link 4 at B", "G_2, the weight of link 2",
+        ": moments of link 2 about B", "P_4, the given force on link 4 at B", "G_2, the weight of link 2",
         "J_2, the inertia force of link 2", "The inertia couple of link 2",
     ):
         assert said in words

@@ -24,10 +24,10 @@ from graphplan.kernel.stages import Equation
 from graphplan.output.svg import MAKE, Element, group, inked, parted
 from graphplan.phrases import Said, arranged, digits, joined, said
 from graphplan.sheet.cycle_frames import CycleFrame, CycleFrames
-from graphplan.sheet.lettering.lettering import Runs, sentence_runs
+from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
 from graphplan.sheet.plates.display import Item, Rect, Sheet
 from graphplan.sheet.plates.pens import PAPER
-from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.plans import Plans, around
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol
 from graphplan.sheet.words.tables import Table
 from graphplan.sheet.words.texts import Words
@@ -127,15 +127,10 @@ def _equation(equation: Equation) -> str:
     """An equation whose vectors are underlined as often as numbers of them are known."""
     told, done = "", 0
     for start, end, times in equation.underlined:
-        told += _symbols(equation.text[done:start])
-        told += f'<span class="known-{times}">{_symbols(equation.text[start:end])}</span>'
+        told += _html(equation_runs(equation.text[done:start]))
+        told += f'<span class="known-{times}">{_html(equation_runs(equation.text[start:end]))}</span>'
         done = end
-    return told + _symbols(equation.text[done:])
-
-
-def _symbols(text: str) -> str:
-    """A part of an equation: a_n and a^n as they are written by hand."""
-    return re.sub(r"\^(\w+)", r"<sup>\1</sup>", _html(sentence_runs(text)))
+    return told + _html(equation_runs(equation.text[done:]))
 
 
 def _entries(found: CycleFrames, entries: Iterable[Entry]) -> Iterator[str]:
@@ -170,11 +165,12 @@ def _data(found: CycleFrames, passages: Sequence[Passage]) -> dict[str, Any]:
     """What the page needs to know of the steps, their marks and the panels, with y down as in SVG."""
     drawn, plans, sheet = found.drawing.drawn, found.composition.plans, found.frames[0].sheet
     panels = list(sheet.panels)
-    parts = {one.index: (stage, _whole(found, entry), one.sentence if entry.folded else entry.told)
+    parts = {one.index: (stage, entry.movements[-1].number if entry.folded else 0,
+                         one.sentence if entry.folded else entry.told)
              for stage, passage in enumerate(passages) for entry in passage.entries for one in entry.movements}
     steps = []
     for step in drawn.steps:
-        stage, whole, told = parts.get(step.index, (None, "", ""))
+        stage, whole, told = parts.get(step.index, (None, 0, ""))
         steps.append({
             "name": _set(found, drawn.text(step.index)), "told": _set(found, told), "stage": stage, "whole": whole,
             "plan": panels.index(plans.plan_of_step[step.index]), "reads": list(step.args),
@@ -184,14 +180,28 @@ def _data(found: CycleFrames, passages: Sequence[Passage]) -> dict[str, Any]:
         "givens": drawn.givens, "steps": steps, "words": {name: _say(found, word) for name, word in WORDS.items()},
         "stages": [_head(found, passage) for passage in passages],
         "panels": [_box(sheet, rect) for rect in sheet.panels.values()],
-        "plans": _box(sheet, found.composition.plates.box), "spots": _spots(found.frames[0]),
+        "plans": _box(sheet, around([spot for rect in sheet.panels.values() for spot in rect.corners])),
+        "spots": _spots(found.frames[0]),
         "travels": [_say(found, _degrees(frame.travel)) for frame in found.frames],
     }  # fmt: skip
 
 
-def _whole(found: CycleFrames, entry: Entry) -> str:
-    """What a movement is a part of."""
-    return f"{entry.number}. {_set(found, entry.sentence)}" if entry.folded else ""
+def _sentences(found: CycleFrames, frame: CycleFrame) -> tuple[dict[int, str], dict[int, str]]:
+    """What is told of a pose, whose lengths are its own: of each movement, and of what takes several, by the last."""
+    each, whole = dict[int, str](), dict[int, str]()
+    for passage in Protocol(frame.plans, found.composition.scales).passages:
+        for entry in passage.entries:
+            for one in entry.movements:
+                each[one.number] = _set(found, one.sentence if entry.folded else entry.told)
+            if entry.folded:
+                whole[entry.movements[-1].number] = _set(found, entry.told)
+    return each, whole
+
+
+def _varied(poses: Iterable[dict[int, str]]) -> dict[int, list[str]]:
+    """What is not the same in all poses, pose by pose."""
+    rows = [*poses]
+    return {key: told for key in rows[0] if len(set(told := [row[key] for row in rows])) > 1}
 
 
 def _spots(frame: CycleFrame) -> dict[int, tuple[float, float]]:
@@ -270,8 +280,12 @@ def _packed(found: CycleFrames, poses: list[Groups]) -> str:
     insides = [{key: inside(group) for key, group in pose.items()} for pose in poses]
     keys = dict.fromkeys(key for pose in poses for key in pose)
     varied = {key: [pose.get(key, "") for pose in insides] for key in keys}
-    data = {"groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
-            "spots": list(map(_spots, found.frames)), "results": [_results(frame.plans) for frame in found.frames]}
+    each, wholes = zip(*(_sentences(found, frame) for frame in found.frames), strict=True)
+    data = {
+        "told": _varied(each), "wholes": _varied(wholes), "spots": list(map(_spots, found.frames)),
+        "groups": {key: drawn for key, drawn in varied.items() if len(set(drawn)) > 1},
+        "results": [_results(frame.plans) for frame in found.frames],
+    }  # fmt: skip
     text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
     return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
 

@@ -36,7 +36,8 @@ class Posed(Construction):
     """A construction in another pose: its drawn steps with other values, as a sheet reads it."""
 
     def __init__(self, construction: Construction, scene: Scene, values: list[Any], given: Given):
-        self.__dict__ |= {**construction.__getstate__(), "scene": scene, "_gathered": (construction.drawn, values)}
+        self.__dict__ |= {**construction.__getstate__(), "scene": scene, "_gathered": (construction.drawn, values),
+                          "compounds": construction.compounds}
         self.given = given
 
     def read(self, domain: Domain, *_: Any) -> dict[str, dict[str, Any]]:

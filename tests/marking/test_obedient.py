@@ -66,13 +66,13 @@ def measured(step: Step, value: Any, values: Sequence[Any], told: str, per_mm: f
 
 @pytest.mark.parametrize("name", ["four-bar", "slider-crank", "open-chain", "ozols-5-2", "triad-loaded"])
 def test_who_obeys_the_guided_handout_is_judged_right(name: str) -> None:
-    """Drawn by the spoken lengths, no mark is a fifth of a millimetre off, and the score is 100 of 100."""
+    """Drawn by the spoken lengths, no mark is half a millimetre off, and the score is 100 of 100."""
     composition = drafted(drawing := gp.construct(gp.load(name)), Pencil()).composition
     values = obeyed(composition)
     exact = [step.index for step in drawing.drawn.steps if step.op.gives == POINT]
     off = [math.dist(values[i][:2], map(float, drawing.values[i][:2]))
            / composition.scales.of(composition.plans.plan_of_step[i]) for i in exact]
-    assert 0.0 < max(off) < 0.2
+    assert 0.0 < max(off) < 0.5
     found = judge(drawing, composition, points(Drawn(drawing, values, frames(drawing, composition))), Pencil())
     assert score(found).total == 100
 

@@ -138,6 +138,7 @@ def test_other_poses_have_the_groups_of_the_given_one() -> None:
     assert {"links", "pairs"} <= set(poses["groups"])
     assert "paper" not in poses["groups"]
     assert len(set(poses["results"])) == len(found.frames)
+    assert any(len(set(told)) > 1 and "mm" in told[0] for told in poses["told"].values())  # lengths are of each pose
     assert len(poses["spots"]) == len(found.frames)
 
 

@@ -56,7 +56,8 @@ def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) 
     assert states.count(RIGHT) > len(states) / 3
     assert states.count(MISSING) <= 2
     lines = [trace.spots for trace in found.spare if trace.kind == LINE]
-    assert all(math.dist(*spots[:2]) < 20 for spots in lines)  # what is drawn over print is not spare
+    short = 80 / handout()[1].scales.k_s  # mm on paper of 80 mm of the mechanism
+    assert all(math.dist(*spots[:2]) < short for spots in lines)  # what is drawn over print is not spare
 
 
 def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:

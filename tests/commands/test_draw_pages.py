@@ -16,33 +16,17 @@ def written(folder: Path, *arguments: str) -> list[str]:
     return sorted(path.name for path in folder.iterdir())
 
 
-@pytest.mark.parametrize(("protocol", "names"), [
-    ("none", ["sheet.svg"]), ("pages", ["sheet-protocol.svg", "sheet.svg"]), ("aside", ["sheet.svg"]),
+@pytest.mark.parametrize(("protocol", "apart", "told"), [
+    ("none", False, {"sheet": False}), ("aside", False, {"sheet": True}),
+    ("pages", True, {"sheet": False, "sheet-protocol": True}),
 ])
-def test_words_stand_where_they_are_wanted(protocol: str, names: list[str], tmp_path: Path) -> None:
-    """Aside there is one file with the words, on pages there is one more, and without any no words at all."""
-    assert written(tmp_path, "--protocol", protocol, "-o", str(tmp_path / "sheet.svg")) == names
-    told = [bool(re.search(r"<text[^>]*>[^<]*strike the arc", (tmp_path / name).read_text())) for name in names]
-    assert told == {"none": [False], "pages": [True, False], "aside": [True]}[protocol]
-
-
-@pytest.mark.parametrize(("arguments", "names"), [
-    (["--by", "stages", "--protocol", "none"], ["sheet-stages-2.svg", "sheet-stages.svg", "sheet.svg"]),
-    (["--by", "sheet", "--strict", "--protocol", "aside"], ["sheet.svg"]),
-    (["--strip", "--paper", "A4"], ["sheet-2.svg", "sheet.svg"]),
-])
-def test_stages_and_pictures_have_pages(arguments: list[str], names: list[str], tmp_path: Path) -> None:
-    """Stages follow the sheet under a name of their own, and the pages of a strip are numbered."""
-    assert written(tmp_path, *arguments, "-o", str(tmp_path / "sheet.svg")) == names
-
-
-def test_a_strict_construction_is_told_by_stages(tmp_path: Path) -> None:
-    """With compasses and straightedge alone the stages follow the sheet, and their steps stand with them alone."""
-    names = written(tmp_path, "--strict", "--protocol", "pages", "-o", str(tmp_path / "sheet.svg"))
-    told = {name: (tmp_path / name).read_text() for name in names}
-    assert len([name for name in names if "stages" in name]) > 2
-    assert {name for name, text in told.items() if re.search(r"<text[^>]*>[^<]*strike arc", text)} == {
-        name for name in names if "stages" in name}
+def test_words_stand_where_they_are_wanted(protocol: str, apart: bool, told: dict[str, bool], tmp_path: Path) -> None:
+    """Aside the first page has the words, on pages those that follow, which are numbered; without any none has."""
+    names = written(tmp_path, "--protocol", protocol, "-o", str(tmp_path / "sheet.svg"))
+    assert ("sheet-protocol.svg" in names) == apart
+    assert {re.sub(r"-\d+$", "", name.removesuffix(".svg")) for name in names} == set(told)
+    for name, words in told.items():
+        assert bool(re.search(r"<text[^>]*>[^<]*Draw ", (tmp_path / f"{name}.svg").read_text())) == words
 
 
 def test_a_page_that_cannot_be_written_leaves_all_as_it_was(tmp_path: Path) -> None:
@@ -53,9 +37,10 @@ def test_a_page_that_cannot_be_written_leaves_all_as_it_was(tmp_path: Path) -> N
 
 
 def test_a_pdf_has_all_pages(tmp_path: Path) -> None:
-    """Plans and words are pages of one PDF."""
+    """Plans and words are pages of one PDF, as many as there are files of SVG."""
     assert written(tmp_path, "--protocol", "pages", "-o", str(tmp_path / "sheet.pdf")) == ["sheet.pdf"]
-    assert (tmp_path / "sheet.pdf").read_bytes().count(b"/MediaBox") == 2
+    files = written(tmp_path, "--protocol", "pages", "-o", str(tmp_path / "sheet.svg"))
+    assert (tmp_path / "sheet.pdf").read_bytes().count(b"/MediaBox") == len(files) - 1 > 1
 
 
 def test_standard_output_has_the_first_page(capsysbinary: pytest.CaptureFixture[bytes]) -> None:

@@ -53,17 +53,20 @@ class LyingLines:
     reach: Sequence[float]
     plans: Sequence[Panel]
     lines: list[LyingLine] = field(default_factory=list)
+    fell: bool = False  # whether a line has fallen on another
     _drawers: dict[tuple[str, float], list[LyingLine]] = field(default_factory=dict)
     _swings: dict[int, float] = field(default_factory=dict)
 
-    def fallen(self, step: Step) -> int | None:
-        """Enter a line that is drawn; if one lies there already its step is given instead."""
+    def fallen(self, step: Step, apart: bool = False) -> int | None:
+        """Enter a line that is drawn; if one lies there already its step is given instead, but where lines are drawn
+        apart."""
         line = self._lying(step)
         ends = [(self.values[place][:2], self.reach[place]) for place in map(step.args.__getitem__, incident(step.op))]
         part, spread = line.normal[0] * line.normal[0], 4 * ROUNDED * line.swing
         for direction in {round(part - spread, 3), round(part + spread, 3)}:
             for old in self._drawers.get((line.plan, direction), ()):
-                if ends and old.along(line) and all(old.holds(*end) for end in ends):
+                if not apart and ends and old.along(line) and all(old.holds(*end) for end in ends):
+                    self.fell = True
                     return old.step
         self.lay([line])
         return None

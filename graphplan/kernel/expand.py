@@ -14,7 +14,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
 
-from graphplan.errors import Undrawable
+from graphplan.errors import ConstructionError, Undrawable
 from graphplan.kernel.coincidence import ROUNDED, LyingLine, LyingLines
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, TABLE, Choice, Movement, Primitive, Rating, plain
 from graphplan.kernel.numbers.floats import Floats
@@ -76,8 +76,13 @@ class Expander:
     keep: frozenset[str] = BY_SET_SQUARE
     windows: Mapping[str, Window] = field(default_factory=dict)
     prefer: str = ""
+    _apart: bool = field(default=False, init=False)  # each line is drawn for itself, even where one lies already
 
     def __post_init__(self) -> None:
+        self._begin()
+
+    def _begin(self) -> None:
+        """An empty board."""
         self.board = Board()
         self.values: list[Any] = []
         self.reach: list[float] = []  # the largest number that a mark was made from: its rounding counts beside that
@@ -92,7 +97,17 @@ class Expander:
         self._limit = math.inf  # more steps on the board, and the form that is tried is outdone
 
     def run(self) -> Program:
-        """The expanded program."""
+        """The expanded program. Lines that fall on one another are drawn apart where only so do they cross."""
+        try:
+            return self._drawn()
+        except ConstructionError:
+            if self._apart or not self.lines.fell:
+                raise
+            self._apart = True
+            return self._drawn()
+
+    def _drawn(self) -> Program:
+        self._begin()
         place: list[Mark] = []
         for step in self.program.steps:
             self.panel = step.panel
@@ -184,7 +199,7 @@ class Expander:
             self.values.append(op.rule(FLOATS, *[self.values[arg] for arg in step.args], **step.params))
             self.reach.append(self._reach(step))
             self.plans.append(plan_of(step, self.board.steps, self.plans))
-            if op.gives == LINE and (lying := self.lines.fallen(step)) is not None:
+            if op.gives == LINE and (lying := self.lines.fallen(step, self._apart)) is not None:
                 run = self.value(mark)
                 self._rewind(step.index)
                 old = self.board.marks[lying]

@@ -66,6 +66,8 @@ class Readings:
             found = self._vector(dimension, Measure(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
             found = self._moment(marks)
+        elif self.lengths.mm(*marks[:2]) < NOTHING:
+            return  # no ruler tells how a link turns that is nothing on paper
         else:
             found = self._turning(reading, marks)
         length, read = found

@@ -18,7 +18,7 @@ from ezdxf.enums import TextEntityAlignment
 from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
 from ezdxf.units import MM
 
-from graphplan.sheet.lettering.lettering import CAPS, DROP, SUBSCRIPT, width
+from graphplan.sheet.lettering.lettering import CAPS, DROP, lowered, width
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import INK, LOCUS, NORMAL, PAPER, PRODUCED, Pen
 
@@ -147,7 +147,7 @@ class _Model:
         if len(text.runs) > 1:
             x, anchor = text.box.left, TextEntityAlignment.LEFT
         for run in text.runs:
-            high = CAPS * text.size * (SUBSCRIPT if run.level else 1.0)
+            high = CAPS * (lowered(text.size) if run.level else text.size)
             letters = self.space.add_text(run.text, height=high, dxfattribs=look | {"style": style})
             yield letters.set_placement((x, y + run.level * DROP * text.size), align=anchor)
             x += width((run,), text.size, text.bold)

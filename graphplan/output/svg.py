@@ -14,7 +14,7 @@ from typing import Any
 import svgwrite
 from svgwrite.text import TSpan
 
-from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, SUBSCRIPT, width
+from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, lowered, width
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Outline, Polygon, Polyline, Sheet, Spot, Text
 from graphplan.sheet.plates.pens import PAPER, Pen
 
@@ -144,7 +144,7 @@ class _SheetWriter:
         level = 0
         for run in () if plain else text.runs:
             dy = rounded((level - run.level) * DROP * text.size)
-            size, level = rounded(SUBSCRIPT * text.size) if run.level else None, run.level
+            size, level = rounded(lowered(text.size)) if run.level else None, run.level
             made.add(MAKE.tspan(run.text, font_size=size)).update({"dy": dy or None})
         return made
 

@@ -12,7 +12,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.lettering.lettering import CAPS, DROP, SUBSCRIPT
+from graphplan.sheet.lettering.lettering import CAPS, DROP, lowered
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polyline, Sheet, Text
 
@@ -119,7 +119,7 @@ def test_letters_are_as_high_as_on_the_sheet() -> None:
     """Heights are those of capitals; indices are smaller and hang below the base line."""
     found = [(entity.dxf.text, entity.dxf.height, entity.get_placement()[1].y)
              for entity in read("four-bar").modelspace().query("TEXT")]
-    expected = [(run.text, CAPS * text.size * (SUBSCRIPT if run.level else 1.0),
+    expected = [(run.text, CAPS * (lowered(text.size) if run.level else text.size),
                  text.at[1] + run.level * DROP * text.size)
                 for text in items("four-bar", Text) for run in text.runs]  # fmt: skip
     assert [words for words, *_ in found] == [words for words, *_ in expected]

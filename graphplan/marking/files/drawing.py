@@ -74,7 +74,7 @@ def _link(whole: Lettering, end: float, word: Lettering) -> str | None:
     if abs(end - word.at[0]) > 0.25 * whole.size or abs(drop) > 0.6:
         return None
     if drop > 0.05:
-        return "_" if SUBSCRIPT / 2 < smaller < 1 and "_" not in whole.text.rpartition(",")[2] else None
+        return "_" if SUBSCRIPT / 2 < smaller < 1.05 and "_" not in whole.text.rpartition(",")[2] else None
     return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
 
 

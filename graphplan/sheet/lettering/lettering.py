@@ -149,13 +149,18 @@ def listed(names: Iterable[str], lead: str = "") -> Runs:
 
 def width(runs: Runs, size: float, bold: bool = False) -> float:
     """How long the lettering is, in mm."""
-    return _ems(runs) * size * (_BOLD if bold else 1.0)
+    return _ems(runs, lowered(size) / size) * size * (_BOLD if bold else 1.0)
+
+
+def lowered(size: float) -> float:
+    """The size of subscripts and superscripts: smaller than the letters, but no smaller than words are."""
+    return max(SUBSCRIPT * size, min(size, SIZE))
 
 
 @lru_cache(maxsize=4096)
-def _ems(runs: Runs) -> float:
-    """How long the lettering is, beside its size."""
-    return sum(sum([ADVANCE.get(char, 0.7) for char in run.text]) * (SUBSCRIPT if run.level else 1.0) for run in runs)
+def _ems(runs: Runs, small: float) -> float:
+    """How long the lettering is, beside its size, and with subscripts so much smaller."""
+    return sum(sum([ADVANCE.get(char, 0.7) for char in run.text]) * (small if run.level else 1.0) for run in runs)
 
 
 def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]:
@@ -163,7 +168,7 @@ def wrap(runs: Runs, size: float, room: float, bold: bool = False) -> list[Runs]
     lines: list[Runs] = []
     line: list[Run] = []
     long, space = 0.0, width(SPACE, size, bold)
-    for word, ems in _words(runs):
+    for word, ems in _words(runs, lowered(size) / size):
         wide = ems * size * (_BOLD if bold else 1.0)
         if line and long + space + wide <= room:
             line += (*SPACE, *word)
@@ -191,8 +196,8 @@ def plain(runs: Runs) -> str:
 
 
 @lru_cache(maxsize=1024)
-def _words(runs: Runs) -> list[tuple[Runs, float]]:
-    """The words, each with its length beside the size of the letters."""
+def _words(runs: Runs, small: float) -> list[tuple[Runs, float]]:
+    """The words, each with its length beside the size of the letters, and with subscripts so much smaller."""
     words: list[list[Run]] = [[]]
     for run in runs:
         for i, part in enumerate(run.text.split(" ")):
@@ -200,7 +205,7 @@ def _words(runs: Runs) -> list[tuple[Runs, float]]:
                 words.append([])
             if part:
                 words[-1].append(Run(part, run.level))
-    return [(tuple(word), _ems(tuple(word))) for word in words if word]
+    return [(tuple(word), _ems(tuple(word), small)) for word in words if word]
 
 
 def _flat(runs: Iterable[Run]) -> Runs:

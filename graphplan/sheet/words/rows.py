@@ -16,14 +16,14 @@ BELOW, BETWEEN = 0.36, 0.16  # of the letter size: rules under the base line
 
 @dataclass(frozen=True)
 class Cell:
-    """A piece of a row: `x` is its distance from the column's left edge; `rules` are lines below it, from where to
-    where beside the size of the letters, and how many."""
+    """A piece of a row: `x` is its distance from the column's left edge; `rules` are lines below it: after which and
+    to the end of which of its letters, and how many."""
 
     x: float
     runs: Runs
     anchor: str = "start"
     bold: bool = False
-    rules: tuple[tuple[float, float, int], ...] = ()
+    rules: tuple[tuple[Runs, Runs, int], ...] = ()
 
 
 @dataclass(frozen=True)
@@ -107,8 +107,8 @@ def lettered(placed: Sequence[Placed]) -> Iterator[Item]:
         base = foot + (row.tall - CAPS * row.size) / 2 if row.tall else y
         for cell in row.cells:
             yield Text(LETTERS, row.layer, row.step, (x + cell.x, base), cell.runs, row.size, cell.anchor, cell.bold)
-            for start, end, times in cell.rules:
-                left, right = x + cell.x + start * row.size, x + cell.x + end * row.size
+            for before, through, times in cell.rules:
+                left, right = (x + cell.x + width(runs, row.size, cell.bold) for runs in (before, through))
                 for k in range(times):
                     low = base - (BELOW + k * BETWEEN) * row.size
                     yield Polyline(THIN, row.layer, row.step, ((left, low), (right, low)))

@@ -128,7 +128,7 @@ class Words:
         if width(runs, SIZE) > wide:
             yield from (TextRow((Cell(self.indent, line),), step=step, keep=1) for line in wrap(runs, SIZE, wide))
             return
-        rules = tuple((width(equation_runs(lettered[:start]), 1.0), width(equation_runs(lettered[:end]), 1.0), times)
+        rules = tuple((equation_runs(lettered[:start]), equation_runs(lettered[:end]), times)
                       for start, end, times in equation.underlined if times)
         yield TextRow((Cell(self.indent, runs, rules=rules),), gap=0.3, step=step, keep=1, tall=TALL * SIZE)
 

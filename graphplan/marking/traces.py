@@ -21,8 +21,9 @@ class Trace:
     """One thing on the sheet, in mm, x to the right and y up.
 
     A point has one spot, a line two of its own (the ends that were drawn), a circle three or more of its rim, as far
-    as it was drawn. `label` is what stands beside it, `panel` the plan it is said to lie on, both empty where nobody
-    says; `blur` is the standard deviation, in mm, with which it was read.
+    as it was drawn. `label` is what it is called, `panel` the plan it is said to lie on, both empty where nobody says;
+    `blur` is the standard deviation, in mm, with which it was read. A label that only stands `beside` it may be that of
+    its neighbour.
     """
 
     kind: str
@@ -30,6 +31,7 @@ class Trace:
     label: str = ""
     panel: str = ""
     blur: float = 0.0
+    beside: bool = False
 
     def __post_init__(self) -> None:
         if len(self.spots) < SPOTS[self.kind]:
@@ -87,7 +89,7 @@ class Submission:
     """A drawing as it was handed in; `shows` are the kinds of thing it could show, `frames` those that are known.
 
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
-    they are expected: its `page` is asked for them.
+    they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
     """
 
     name: str
@@ -96,3 +98,4 @@ class Submission:
     shows: frozenset[str] = frozenset()
     frames: Frames = field(default_factory=dict)
     page: Searched | None = None
+    tips: tuple[Spot, ...] = ()

@@ -15,6 +15,7 @@ NEAR = 0.01  # how far spots may lie off a line or circle that they are to show,
 FLAT, FAR_CLOSER = 1e-6, 10  # what bulges less is straight; so many times closer an arc is no line
 ROUND = 12  # straight pieces at least that show a circle
 SHORT = 0.5  # mm: a straight piece shorter than this shows no line
+SHARP = math.radians(45)  # the corner of an outline that is as sharp as a tip
 
 
 def ring(centre: Spot, radius: float) -> tuple[Spot, ...]:
@@ -66,6 +67,15 @@ def curved(spots: Sequence[Spot]) -> Trace | None:
     if found is None or off > NEAR * found[1]:
         return None
     return full(*found) if closed and found[1] < DOT else Trace(CIRCLE, tuple(parts))
+
+
+def tips(corners: Sequence[Spot]) -> Iterator[Spot]:
+    """The sharp corners of an outline, as the tip of an arrow's head is."""
+    spots = [complex(*corner) for corner in corners]
+    for before, here, after in zip([*spots[-1:], *spots], spots, [*spots[1:], *spots[:1]], strict=False):
+        ways = (before - here) * (after - here).conjugate()
+        if ways and abs(cmath.phase(ways)) < SHARP:
+            yield here.real, here.imag
 
 
 def circle(first: Spot, second: Spot, third: Spot) -> tuple[Spot, float] | None:

@@ -96,7 +96,8 @@ def labelled(traces: Sequence[Trace], words: Sequence[Lettering]) -> list[Trace]
                 if word not in placed and (shared or thing not in taken):
                     taken.setdefault(thing, []).extend(named[word][1])
                     placed.add(word)
-    return [replace(trace, label=name) for i, trace in enumerate(traces) for name in taken.get(i, [trace.label])]
+    return [replace(trace, label=name, beside=i in taken) for i, trace in enumerate(traces)
+            for name in taken.get(i, [trace.label])]
 
 
 def _wishes(place: int, word: Lettering, name: str, traces: Sequence[Trace], things: STRtree
@@ -123,7 +124,8 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
     return asked is None or all(math.isclose(*pair, rel_tol=ROUNDED) for pair in zip(size, asked, strict=True))
 
 
-def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames) -> Submission:
+def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
+            tips: Sequence[Spot] = ()) -> Submission:
     """A drawing as it was handed in: what is drawn twice is one thing, and words name what they stand beside.
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
@@ -138,4 +140,6 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
         raise Refused(f"{path}", "nothing is drawn in it, no point, line or circle", "give the drawing itself")
     sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size)]
     found = labelled(once, joined(sound))
-    return Submission(path.name, tuple(found), shows=frozenset({LINE, *(trace.kind for trace in found)}), frames=frames)
+    shows = frozenset({LINE, *(trace.kind for trace in found)})
+    ends = tuple(tip for tip in tips if on_paper(*tip))
+    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends)

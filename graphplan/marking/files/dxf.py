@@ -16,7 +16,7 @@ from ezdxf.units import MM, conversion_factor
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.curves import bow, curved, full, pieces, reach
+from graphplan.marking.files.curves import bow, curved, full, pieces, reach, tips
 from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
@@ -44,7 +44,8 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
-    return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
+    known = frames if reader.own and same_paper(reader.size, size) else {}
+    return drawing(path, reader.traces, reader.words, known, reader.tips)
 
 
 def _document(data: bytes) -> Any:
@@ -78,6 +79,7 @@ class _DxfReader:
         (left, bottom), (right, top) = (self._spot(corner) for corner in corners)
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.traces: list[Trace] = []
+        self.tips: list[Spot] = []
         self.words: list[Lettering] = []
         self.lines: list[tuple[complex, complex]] = []
         self.budget = Budget(path, 2 * TRACES, "entities")
@@ -94,6 +96,9 @@ class _DxfReader:
                 self._block(entity, depth)
             elif entity.dxftype() in ("TEXT", "MTEXT", "ATTRIB"):
                 self._lettered(entity)
+            elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
+                first, second, *last = map(self._spot, entity.vertices())
+                self.tips += tips([first, second, *reversed(last)])
             elif not (self.own and layer.partition("-")[0] in NO_DRAWING):
                 found = list(self._traces(entity))
                 self.budget.spend(len(found))

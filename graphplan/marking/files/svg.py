@@ -20,7 +20,7 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.files.curves import DOT, curved, pieces
+from graphplan.marking.files.curves import DOT, curved, pieces, tips
 from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
@@ -253,7 +253,8 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
     if root.tag != "svg":
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
-    return drawing(path, reader.traces, reader.words, frames if reader.own and same_paper(reader.size, size) else {})
+    known = frames if reader.own and same_paper(reader.size, size) else {}
+    return drawing(path, reader.traces, reader.words, known, reader.tips)
 
 
 @dataclass(frozen=True)
@@ -273,6 +274,7 @@ class _SvgReader:
     def __init__(self, path: File, root: Element):
         self.path = path
         self.traces: list[Trace] = []
+        self.tips: list[Spot] = []
         self.words: list[Lettering] = []
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
         self.looks = Looks(root)
@@ -337,6 +339,10 @@ class _SvgReader:
         """A shape's traces; without a stroke it is no more than a dot. Numerals for too many are not read at all."""
         Budget(self.things.path, TRACES, "things drawn").spend(len(NUMBERS.findall(element.get("d", ""))) // LONGEST)
         stroked = place.look.get("stroke", "none").strip() not in ("none", "transparent")
+        if element.tag == "polygon" and not stroked:
+            corners = Polygon(points=element.get("points", "")).points
+            self.things.spend(len(corners))
+            self.tips += tips([spot(place.onto, corner) for corner in corners])
         for trace in _traces(element, place.onto, place.view):
             self.things.spend()
             if stroked or trace.kind == POINT:

@@ -51,20 +51,32 @@ class Evidence:
         self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
         self._places = {kind: [i for i in places if traces[i].kind == kind] for kind in (POINT, LINE, CIRCLE)}
         self._cached, self._twins = dict[tuple[str, str], Any](), dict[int, set[int]]()
+        ends = [] if submission.page else [spot for trace in submission.traces if trace.kind == LINE
+                                           for spot in trace.spots[:2]]
+        self._ends = np.array([complex(*spot) for spot in (*submission.tips, *ends)])
 
     def weight(self, place: int) -> float:
-        """What a trace weighs at most: less where it was found only by seeking it."""
-        return (self.most if place < self._read else FAINT)[self.traces[place].kind]
+        """What a trace weighs at most."""
+        return self.most[self.traces[place].kind]
 
     def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         """What is there about an expected value, no further off than so many mm."""
         places, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(expected))
         return self.traces[places[off.argmin()]] if off.min(initial=math.inf) < within else None
 
+    def sought(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        """Where a stroke ends about an expected point that has no dot, as corners of force polygons have none."""
+        if step.op.gives != POINT or not len(self._ends):
+            return None
+        off = np.abs(self._ends - self.sheet.frame(step).onto(complex(*plain(expected))))
+        end = self._ends[off.argmin()]
+        return Trace(POINT, ((float(end.real), float(end.imag)),)) if off.min() < within else None
+
     def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At how much of what a step would make something like it is to be seen; None where nothing could be seen."""
         _, off = self.near(step.op.gives, self.sheet.plan_of_step[step.index], plain(value))
-        return float(off.min(initial=math.inf) < NEAR) if step.op.gives in self.shows else None
+        seen = step.op.gives in self.shows and step.index not in self.sheet.hidden
+        return float(off.min(initial=math.inf) < NEAR) if seen else None
 
     def beyond(self, step: Step, value: Any) -> bool:
         """Whether a point would be off its panel, so that nothing can be drawn from it."""
@@ -114,14 +126,21 @@ class ImageSearch(Evidence):
         assert submission.page
         self.page, self.panels, self._found = submission.page, panels, found
 
+    def weight(self, place: int) -> float:
+        """Less where it was found only by seeking it."""
+        return super().weight(place) if place < self._read else FAINT[self.traces[place].kind]
+
     def trace(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
         value, reach = plain(expected), min(within, WIDEST)
         spots = self._held(step, self._spots(step, value, own))
         key = (step.index, *value, *(round(part) for spot in spots for part in spot))
         if key not in self._found:
-            found = self._sought(step, value, spots, reach) if spots else None
+            found = self._near(step, value, spots, reach) if spots else None
             self._found[key] = wobbly(found) if found else None
         return self._found[key]
+
+    def sought(self, step: Step, expected: Any, own: KnownMarks, within: float) -> Trace | None:
+        return self.trace(step, expected, own, within)
 
     def share(self, step: Step, value: Any, own: KnownMarks) -> float | None:
         """At nothing off its panel; None where print hides most, or where it is too small to see."""
@@ -174,7 +193,7 @@ class ImageSearch(Evidence):
         inside = clip.segment(self._panel(step), start, end) or (0.0, 1.0)
         return clip.between(start, end, inside[0]), clip.between(start, end, inside[1])
 
-    def _sought(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
+    def _near(self, step: Step, value: Value, spots: Sequence[Spot], within: float) -> Trace | None:
         if step.op.gives == LINE:
             return self.page.near(spots[0], spots[-1], within)
         if step.op.gives == POINT:

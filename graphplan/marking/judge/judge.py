@@ -48,6 +48,7 @@ class Judge:
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
         self.drawing, self.composition, self.submission, self.pencil = drawing, composition, submission, pencil
         plan_of_step = StudentSheet(drawing, {}, pencil).plan_of_step
+        self.hidden = {drawn.index for plate in composition.plates for drawn in plate.hidden}
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         self.traces = [wobbly(trace) for trace in submission.traces] if submission.page else list(submission.traces)
         self.labels = labelled(drawing.drawn, plan_of_step, submission.traces)
@@ -132,7 +133,7 @@ class Judge:
 
     def _start(self, fits: Mapping[str, Fit]) -> Matching:
         """Before the first step, in these frames."""
-        sheet = StudentSheet(self.drawing, fits, self.pencil)
+        sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden)
         what = sheet, self.submission, self.traces, self.unlabelled
         evidence = ImageSearch(*what, self.composition.arrangement.panels, self.sought) if self.submission.page \
             else Evidence(*what)
@@ -157,11 +158,12 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
                  plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
     """What is said of a drawing by the construction of its task, or by another that it follows better.
 
-    Others are tried only where something is amiss: in the other forms of loci and rings, and unless `plan` names one,
-    on the other plans. Fails as :func:`judge` does.
+    Others are tried only where a mark is wrong or missing: in the other forms of loci and rings, and unless `plan`
+    names one, on the other plans. Fails as :func:`judge` does.
     """
     best = judge(drawing, composition, submission, pencil)
-    for other, sheet in _others(drawing, pencil, plan, inertia, construct) if _amiss(best) else ():
+    lacking = any(verdict.state in (WRONG, MISSING) for verdict in best.verdicts)
+    for other, sheet in _others(drawing, pencil, plan, inertia, construct) if lacking else ():
         try:
             found = judge(other, sheet, submission, pencil)
         except Refused:

@@ -19,7 +19,7 @@ def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Tra
     names = _names(program, plan_of_step)
     found: dict[int, int] = {}
     for place, trace in enumerate(traces):
-        numbered = not sure(trace) and trace.label.isdigit()
+        numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
         step = _step(names, trace) if trace.label and not numbered else None
         if step is not None and program.steps[step].op.gives == trace.kind:
             found.setdefault(step, place)
@@ -27,8 +27,8 @@ def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Tra
 
 
 def sure(trace: Trace) -> bool:
-    """Whether a label is certainly that of its trace: beside a line of a drawing may stand the letter of another."""
-    return trace.kind == POINT or bool(trace.panel)
+    """Whether a label is certainly that of its trace: beside a mark of a drawing may stand the letter of another."""
+    return bool(trace.panel) or (trace.kind == POINT and not trace.beside)
 
 
 def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None:

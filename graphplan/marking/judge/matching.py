@@ -132,11 +132,11 @@ class Matching:
     def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
         best = self._fitting(step, expected, drawn)
-        if not self.evidence.picture or step.op.gives == OPENING:
-            return best
-        if best is None:
+        if best is None and step.op.gives != OPENING:
             best = self._seeking(step, expected, drawn)
-        if best is None or self.evidence.share(step, expected, self._way(drawn)) is not None:
+        if best is None or not self.evidence.picture:
+            return best
+        if self.evidence.share(step, expected, self._way(drawn)) is not None:
             return best
         off = self.residual(step, expected, best, drawn)  # where most is printed already, pieces tell little
         if step.op.gives != LINE and off.square < len(off.off) + 1:
@@ -150,10 +150,10 @@ class Matching:
                    for expected, drawn in self._asked(step))
 
     def _seeking(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
-        """What a picture shows about an expected value, if it fits it."""
+        """What a picture shows about an expected value, or where a stroke of a file ends, if it fits it."""
         if step.op.movement is Movement.GIVEN:
             return None
-        trace = self.evidence.trace(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
+        trace = self.evidence.sought(step, expected, self._way(drawn), REACH * self.sheet.pencil.point)
         if trace is None or not self.sheet.residual(
                 step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.chance):
             return None
@@ -210,7 +210,7 @@ class Matching:
         asked = list(self._asked(step)) or [(self.sheet.drawing.values[step.index], self.sheet.drawing.values)]
         own, mended = asked[0][0], asked[-1][0]
         if place is None:
-            shown = step.op.gives in self.evidence.shows and not step.op.free
+            shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
             return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
         spots = self.sheet.spots(step.index, self.traces[place])
         found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
@@ -108,11 +108,13 @@ class Fit:
 
 @dataclass(frozen=True)
 class StudentSheet:
-    """A construction on a student's sheet: `fits` say where its plans lie there."""
+    """A construction on a student's sheet: `fits` say where its plans lie there; `hidden` are the steps whose marks
+    the task's own sheet leaves out, as too small to draw."""
 
     drawing: Construction
     fits: Mapping[str, Fit]
     pencil: Pencil
+    hidden: Collection[int] = ()
 
     @cached_property
     def plan_of_step(self) -> Sequence[str]:

@@ -191,6 +191,11 @@ class Plate:
         least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
         return [stroke for stroke in self._asked if stroke.length >= least.get(stroke.kind, SHORT)]
 
+    @property
+    def hidden(self) -> list[DrawnStep]:
+        """Where forces end that are too short to be drawn."""
+        return [force.end for force in self._asked if force.kind in pens.FORCES and force not in self.vectors]
+
     @cached_property
     def _asked(self) -> list[Stroke]:
         """All vectors that are asked for on this plan; each is there when both its ends are."""

@@ -24,8 +24,10 @@ from graphplan.marking.judge.labels import sure
 from graphplan.marking.judge.mistakes import Mistake
 from graphplan.marking.judge.student_sheet import ASSUMED, GONE, SHARED, Residual, StudentSheet, plain, weighed
 from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG
+from graphplan.marking.traces import Trace
 
 NEAREST = 6  # how many loose traces are tried as what a step should make
+BEGINS = 8.0  # standard deviations of a point within which a plan begins where its frame says
 REACH = 25.0  # standard deviations of a point within which a picture is searched
 FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
@@ -124,10 +126,27 @@ class Matching:
         if step.op.movement is Movement.BEGUN and self.evidence.picture:
             return None  # it is printed
         for expected, drawn in self._asked(step):
-            best = self._drawn(step, expected, drawn)
+            begun = step.op.movement is Movement.BEGUN
+            best = self._begun(step, expected, drawn) if begun else self._drawn(step, expected, drawn)
             if best is not None:
                 return best
         return lettered
+
+    def _begun(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
+        """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no
+        slip of the hand makes it wrong."""
+        places, off = self.evidence.near(POINT, self.sheet.plan_of_step[step.index], plain(expected))
+        within = BEGINS * self.sheet.pencil.point
+        if off.min(initial=math.inf) < within:
+            return int(places[off.argmin()])
+        trace = self.evidence.sought(step, expected, self._way(drawn), within)
+        return self._added(trace) if trace else None
+
+    def _added(self, trace: Trace) -> int:
+        """The place of a trace that was found by seeking it."""
+        if trace not in self.traces:
+            self.traces.append(trace)
+        return self.traces.index(trace)
 
     def _drawn(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """What is drawn about an expected value, and fits it."""
@@ -157,9 +176,7 @@ class Matching:
         if trace is None or not self.sheet.residual(
                 step, expected, self.sheet.spots(step.index, trace), drawn).fits(self.chance):
             return None
-        if trace not in self.traces:
-            self.traces.append(trace)
-        return self.traces.index(trace)
+        return self._added(trace)
 
     def _way(self, drawn: Sequence[Any]) -> KnownMarks:
         """What is known of the marks to come."""

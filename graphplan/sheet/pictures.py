@@ -20,8 +20,8 @@ from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, arranged
 from graphplan.sheet.layout.layout import stacked
 from graphplan.sheet.lettering.label_candidates import AIR
-from graphplan.sheet.lettering.labels import strokes
 from graphplan.sheet.lettering.letters import picture
+from graphplan.sheet.lettering.obstacles import strokes
 from graphplan.sheet.plates.display import Item, Text
 from graphplan.sheet.plates.excerpt import Excerpt, excerpt
 from graphplan.sheet.words.protocol import Entry, Passage, Protocol, SpokenStep

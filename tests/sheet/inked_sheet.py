@@ -23,6 +23,7 @@ NS = "{http://www.w3.org/2000/svg}"
 FONT = FontProperties(family="DejaVu Sans")
 CAPITALS = 0.729  # of the size of the letters
 MARK = 0.7  # the radius of a mark's circle is no larger, that of a pair's is
+LEADER = "0.13"  # the width of the lines that tie letters to marks
 ONE, APART = 0.05, 1.0  # marks nearer than the first are one, those between cannot be told apart
 TOUCHED = 0.02  # mm²: letters that share less are apart
 NEAR = 0.1  # a stroke may touch the box of letters by so much
@@ -115,6 +116,12 @@ class InkedSheet:
         """The marks of steps, by step."""
         return [(key, spot) for key, spot, r in self._circles if key.isdigit() and r <= MARK]
 
+    @property
+    def leaders(self) -> list[tuple[str, shapely.Geometry]]:
+        """The thinnest lines, which tie letters to their marks, by step."""
+        return [(key, line) for key, element in self.elements if element.get("stroke-width") == LEADER
+                for line in stroked(element)]
+
     @cached_property
     def _circles(self) -> list[tuple[str, shapely.Geometry, float]]:
         """All circles: their layer or step, their middle, their radius."""
@@ -146,10 +153,12 @@ class InkedSheet:
 
     @property
     def labels_nearer_to_others(self) -> list[str]:
-        """Letters of a mark that are nearer to the mark of another step."""
+        """Letters of a mark that are nearer to the mark of another step, but for those that a leader ties to theirs."""
         found = [(key, mark, min(of, key=lambda one: one.box.distance(mark))) for key, mark in self.marks
                  if (of := [one for one in self.labels if one.key == key])]  # its vector has letters too
-        return [one.text for key, mark, one in found if any(
+        tied = {key for key, line in self.leaders for one, mark in self.marks if one == key
+                and line.distance(mark) <= ONE}
+        return [one.text for key, mark, one in found if key not in tied and any(
             other.distance(one.box) < mark.distance(one.box) - NEAR for step, other in self.marks if step != key)]
 
     @property

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from graphplan.sheet.lettering.label_candidates import AIR, OUTWARDS, Array, Candidates
-from graphplan.sheet.lettering.labels import STRANGER, TOUCH, Lines, Marks, Surfaces
+from graphplan.sheet.lettering.obstacles import FAULT, STRANGER, TOUCH, Lines, Marks, Surfaces
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polygon, Polyline, Spot
 
@@ -26,7 +26,7 @@ def cells(*boxes: tuple[float, float, float, float], spot: Spot = (0.0, 0.0)) ->
 def covered(spots: tuple[Spot, ...], *boxes: tuple[float, float, float, float]) -> Array:
     """The area of a figure that each box covers."""
     price = Surfaces([Polygon(pens.BLOCK, "blocks", None, spots)]).price(cells(*boxes))
-    return np.where(price > 0, price / RATE - TOUCH, 0.0)
+    return np.where(price > 0, (price - FAULT * (price > FAULT)) / RATE - TOUCH, 0.0)
 
 
 @pytest.mark.parametrize("turned", [False, True])
@@ -56,9 +56,9 @@ def test_thick_strokes_and_discs_are_surfaces() -> None:
     everything = cells((-50.0, -50.0, 50.0, 50.0))
     bar = Surfaces([Polyline(pens.BAR, "links", None, ((0.0, 0.0), (6.0, 8.0)))]).price(everything)[0]
     octagon = 2 * math.sqrt(2) * (pens.BAR.width / 2) ** 2
-    assert bar == pytest.approx(5.0 * (10.0 * pens.BAR.width + octagon + TOUCH))
+    assert bar == pytest.approx(FAULT + 5.0 * (10.0 * pens.BAR.width + octagon + TOUCH))
     dot = Surfaces([Circle(pens.DOT, "construction", None, (3.0, 4.0), 0.8)]).price(everything)[0]
-    assert dot == pytest.approx(5.0 * (math.pi + TOUCH), rel=0.01)
+    assert dot == pytest.approx(FAULT + 5.0 * (math.pi + TOUCH), rel=0.01)
 
 
 def test_a_place_pays_for_the_length_of_lines() -> None:
@@ -66,13 +66,13 @@ def test_a_place_pays_for_the_length_of_lines() -> None:
     price = 1.0 + 5.0 * pens.THIN.width
     bent = Polyline(pens.THIN, "construction", None, ((-5.0, 1.0), (1.0, 1.0), (1.0, 9.0)))
     paid = Lines([bent]).price(cells((0.0, 0.0, 2.0, 2.0), (3.0, 0.0, 4.0, 2.0)))
-    assert paid == pytest.approx([price * (2.0 + TOUCH), 0.0])
+    assert paid == pytest.approx([FAULT + price * (2.0 + TOUCH), 0.0])
 
 
 def test_a_place_should_be_nearest_to_its_own_mark() -> None:
     """Each other mark that is nearer than the letter's own costs; the own mark and those far away do not."""
     marks = Marks([(0.0, 0.0), (6.0, 0.0), (6.0, 2.0), (90.0, 0.0)])
-    assert marks.price(cells((4.0, 0.0, 5.0, 1.0), (1.0, 0.0, 2.0, 1.0))) == pytest.approx([2 * STRANGER, 0.0])
+    assert marks.price(cells((4.0, 0.0, 5.0, 1.0), (1.0, 0.0, 2.0, 1.0))) == pytest.approx([FAULT + 2 * STRANGER, 0.0])
 
 
 def test_a_plan_without_obstacles_costs_nothing() -> None:

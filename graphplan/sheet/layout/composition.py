@@ -33,9 +33,8 @@ from graphplan.sheet.layout.paper import (
     words_page,
 )
 from graphplan.sheet.layout.scales import Scales, lengths_of, ratio, round_up
-from graphplan.sheet.lettering.labels import Lettering
 from graphplan.sheet.lettering.lettering import folded, letter_sizes, sentence_runs
-from graphplan.sheet.lettering.letters import pictured
+from graphplan.sheet.lettering.letters import Picture, pictured
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
@@ -53,7 +52,7 @@ MEASURED, NOTHING = 5.0, 0.02  # mm: the shortest vector that can be measured; a
 SHORT = 0.2  # by so much smaller, as a logarithm, a plan may be for a vector that can be measured
 CROWDED = 90.0  # mm^2 of a plan for each of its marks: with less, the letters hide the lines
 ROUNDS = 4  # words measure, so their room hangs on the scales, and these on their room: so often it is tried
-POOR = {"A4": 0.05, "A3": 0.07, "A2": 0.1, "A1": 1.0, "A0": 1.0}  # of all letters may stand on lines or other marks
+POOR = {"A4": 0.08, "A3": 0.1, "A2": 0.13, "A1": 1.0, "A0": 1.0}  # of all letters may find no good place
 UNREADABLE = 0.4  # of them, on paper that is named
 LARGE = {"A2": 60.0, "A1": 0.0, "A0": 0.0}  # the same on large sheets, of which the next is not taken so readily
 
@@ -83,15 +82,15 @@ class Composition:
         return Plates(self.plans, self.views, self.arrangement.letters)
 
     @cached_property
-    def pictures(self) -> dict[Panel, Lettering]:
+    def pictures(self) -> dict[Panel, Picture]:
         """The plans with their letters."""
         return {plate.panel: pictured(plate) for plate in self.plates}
 
     @property
     def poor(self) -> float:
         """The part of the letters that can hardly be read."""
-        found = self.pictures.values()
-        return sum(one.poor for one in found) / max(1, sum(one.wished for one in found))
+        found = [picture.letters for picture in self.pictures.values()]
+        return sum(one.poor for one in found) / max(1, sum(len(one.wishes) for one in found))
 
     def worded(self, **words: Any) -> Composition:
         """The same plans with other words: their letters stand where they stood."""

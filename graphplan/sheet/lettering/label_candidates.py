@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,9 +13,10 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.pens import Pen
 
-DIRECTIONS = np.array([(math.cos(i * math.pi / 8), math.sin(i * math.pi / 8)) for i in range(16)])
-TASTE = 0.02 * ((np.arange(16) - 2) % 16)  # among equals up and to the right, then on counter-clockwise
+TASTE = 0.02  # among equals up and to the right, then on counter-clockwise: what a sixteenth of a turn costs
 RINGS = np.array([(0.7, 0.0), (1.6, 0.8), (2.8, 2.0), (4.5, 4.0), (7.0, 7.0), (10.0, 11.0), (14.0, 16.0), (20.0, 24.0)])
+FAR = np.array([0.7, 1.3, 2.0, 2.8, 3.6, 4.8, 6.2, 8.0, 10.5, 13.5, 17.0, 21.0, 26.0])  # mm
+FINE = np.stack([FAR, np.interp(FAR, *RINGS.T) + 1.5 * np.clip(FAR - 20.0, 0.0, None)], axis=1)  # for second thoughts
 LED, LEADER = 3.4, 30.0  # mm from which a thin leader ties a letter to its mark; its price where there are other spots
 EDGE = 5.0  # the price of standing at the panel's edge, where no ring fits
 AIR = 0.3  # mm free around a letter
@@ -87,8 +87,8 @@ class Wish:
         x, y = map(float, place.spots)
         middle = (left + right) / 2, (low + top) / 2
         if place.led:
-            nearest = min(max(x, left), right), min(max(y, low), top)
-            yield Polyline(pens.LEADER, self.layer, self.step, ((x, y), nearest))
+            end_x, end_y = map(float, place.ends)
+            yield Polyline(pens.LEADER, self.layer, self.step, ((x, y), (end_x, end_y)))
         if self.balloon:
             yield Circle(pens.BALLOON, self.layer, self.step, middle, BALLOON * self.size)
             base = middle[0], middle[1] - self.size * CAPS / 2
@@ -120,25 +120,41 @@ class Candidates:
         """The boxes with the air around them."""
         return self.boxes + AIR * OUTWARDS
 
+    @property
+    def ends(self) -> Array:
+        """Where leaders end: on each box the spot that is nearest to its own."""
+        return np.clip(self.spots, self.boxes[..., :2], self.boxes[..., 2:])
+
+    def of(self, letters: Sequence[int]) -> Candidates:
+        """The same places, of these letters of a longer list."""
+        return Candidates(np.array(letters)[self.letters], *list(vars(self).values())[1:])
+
+    def joined(self, more: Candidates) -> Candidates:
+        """These places and, after them, more; letters are no longer in order."""
+        pairs = zip(vars(self).values(), vars(more).values(), strict=True)
+        return Candidates(*map(np.concatenate, pairs))
+
     def __getitem__(self, chosen: Any) -> Candidates:
         return Candidates(*(part[chosen] for part in vars(self).values()))
 
 
-def candidates(wishes: Sequence[Wish], rect: Rect) -> Candidates:
-    """All the places for letters inside the panel: spot by spot, from the nearest ring outwards."""
+def candidates(wishes: Sequence[Wish], rect: Rect, rings: Array = RINGS, ways: int = 16) -> Candidates:
+    """All the places for letters inside the panel, so many ways: spot by spot, from the nearest ring outwards."""
     counts = [len(wish.spots) for wish in wishes]
     spots = np.array([spot for wish in wishes for spot in wish.spots])
     number = np.concatenate([np.arange(count) for count in counts])
     letter = np.repeat(np.arange(len(wishes)), counts)
     free, clear = np.array([(wish.free, wish.clear) for wish in wishes])[letter].T
-    at, ring = np.divmod(np.arange(len(spots) * len(RINGS)), len(RINGS))
+    at, ring = np.divmod(np.arange(len(spots) * len(rings)), len(rings))
     extent = np.array([wish.extent for wish in wishes])[letter[at]][:, None]
-    gaps, costs = RINGS[ring].T
-    sides = DIRECTIONS / abs(DIRECTIONS).max(axis=1, keepdims=True)  # to the edge of a square
-    centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * DIRECTIONS + sides * extent / 2
+    gaps, costs = rings[ring].T
+    turns = np.arange(ways) / ways
+    directions = np.stack([np.cos(2 * np.pi * turns), np.sin(2 * np.pi * turns)], axis=1)
+    sides = directions / abs(directions).max(axis=1, keepdims=True)  # to the edge of a square
+    centres = spots[at][:, None] + (clear[at] + gaps)[:, None, None] * directions + sides * extent / 2
     boxes = np.concatenate([centres - extent / 2, centres + extent / 2], axis=-1)
     led = gaps > LED
-    cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE
+    cost = (costs + (0.05 * number[at] + LEADER * led) * free[at])[:, None] + TASTE * ((16 * turns - 2) % 16)
     inside = ((boxes[..., :2] >= (rect.left, rect.bottom)) & (boxes[..., 2:] <= (rect.right, rect.top))).all(axis=-1)
     row, _ = np.nonzero(inside)
     found = Candidates(letter[at][row], boxes[inside], spots[at][row], cost[inside], led[row])

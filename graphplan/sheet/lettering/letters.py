@@ -38,7 +38,21 @@ def picture(plate: Plate) -> list[Item]:
     return pictured(plate).items
 
 
-def pictured(plate: Plate) -> Lettering:
+@dataclass(frozen=True)
+class Picture:
+    """A plan and its letters."""
+
+    plate: Plate
+    strokes: list[Item]
+    letters: Lettering
+
+    @cached_property
+    def items(self) -> list[Item]:
+        """Everything that is drawn, in no order."""
+        return [*self.strokes, *self.letters.items, *self.plate.positions(self.letters.items)]
+
+
+def pictured(plate: Plate) -> Picture:
     """The same, and how well the letters stand."""
     items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
@@ -47,8 +61,7 @@ def pictured(plate: Plate) -> Lettering:
         wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
         marks += list(mechanism.shown.values())
     rect = plate.view.rect
-    found = lettering([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters)
-    return found._replace(items=[*items, *found.items, *plate.positions(found.items)])
+    return Picture(plate, items, lettering([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters))
 
 
 def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:

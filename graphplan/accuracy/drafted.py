@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.first_order import Result, first_order
+from graphplan.accuracy.first_order import Result, control_errors, first_order
 from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
 from graphplan.cycle.traced import traced
@@ -167,6 +167,8 @@ class Drafted(Errors):
         for result in self.results:
             off.setdefault(result.kind, []).append(joined((result.thing, arranged("±{0}", result.deviation.told)), " "))
         told = [joined((kind.words, joined(found)), ": ") for kind, found in off.items()]
+        controls = control_errors(self.drawing, self.hand, self.composition.scales)
+        told += [said("control of link {0}: ±{1} mm", control.link, digits(mm, 2)) for control, mm in controls]
         return [*self.cost.lines(), said("Drawing errors on {0}: {1}", self.paper, self.told), *told]
 
     @property

@@ -26,7 +26,9 @@ from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
 from graphplan.mechanism.units import LENGTH
 from graphplan.methods.construction import Construction
+from graphplan.methods.controls import Control
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
+from graphplan.methods.panels import MECHANISM
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
 from graphplan.phrases import Said, joined, said
@@ -72,16 +74,11 @@ class Result:
 
 def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Result, ...]:
     """The expected error of every result, as the hand draws the construction at these scales."""
-    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips], dtype=int)))
-    domain = Gradients(int(starts[-1]))
-    owner = np.repeat(np.arange(len(hand.slips)), np.diff(starts))
-
-    def errors(step: int) -> list[Any]:
-        return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
-
+    domain, values = _slipped(hand)
+    owner = np.repeat(np.arange(len(hand.slips)), [len(slips) for slips in hand.slips])
     plan_of_step, largest = Plans(drawing).plan_of_step, largest_values(drawing, hand.values)
     found = []
-    for reading, _, value in readings(drawing, hand.draw(domain, errors), domain):
+    for reading, _, value in readings(drawing, values, domain):
         if not reading.marks:
             continue  # it is given, not drawn
         squares = np.sum([domain.partials(part) ** 2 for part in each(value)], axis=0)
@@ -95,6 +92,28 @@ def first_order(drawing: Construction, hand: Hand, scales: Scales) -> tuple[Resu
         found.append(Result(reading.kind, reading.of, thing, Deviation(off, off / of_mm if of_mm else None), beside,
                             tuple(shares.tolist())))
     return tuple(found)
+
+
+def _slipped(hand: Hand) -> tuple[Gradients, list[Any]]:
+    """What the hand draws, with its derivatives by each slip."""
+    starts = np.concatenate(([0], np.cumsum([len(slips) for slips in hand.slips], dtype=int)))
+    domain = Gradients(int(starts[-1]))
+
+    def errors(step: int) -> list[Any]:
+        return [domain.error(int(starts[step]) + i, size) for i, size in enumerate(hand.slips[step])]
+
+    return domain, hand.draw(domain, errors)
+
+
+def control_errors(drawing: Construction, hand: Hand, scales: Scales) -> list[tuple[Control, float]]:
+    """By how many mm each control's pole misses the third line, by standard deviation."""
+    domain, values = _slipped(hand) if drawing.controls else (Gradients(0), [])
+    found = []
+    for control in drawing.controls:
+        off = math.hypot(*domain.partials(control.off(values)))
+        start, end = (hand.values[mark] for mark in control.marks[-1])
+        found.append((control, off / math.dist(start, end) / scales.of(MECHANISM)))
+    return found
 
 
 def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> Iterator[tuple[Reading, list[Any], Any]]:

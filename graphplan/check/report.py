@@ -12,6 +12,7 @@ from graphplan.check.compared import Compared, Numbers, Results
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
+from graphplan.methods.controls import Control
 from graphplan.methods.kinds import FORCES, MOTION, ORDER, kind_of
 from graphplan.solver import Rates, solve
 
@@ -158,8 +159,19 @@ class Report:
 
     @property
     def agrees(self) -> bool:
-        """Whether construction and solver say the same, and no drawn step breaks a claim."""
-        return self.same and not self.drawing.broken
+        """Whether construction and solver say the same, no drawn step breaks a claim, no exact number a control."""
+        return self.same and not self.broken
+
+    @cached_property
+    def broken(self) -> str:
+        """The first claim that a drawn step breaks, or control that does not hold, in words; nothing where all do."""
+        return self.drawing.broken or next((f"link {control.link}: the lines from {', '.join(control.points)} to the "
+                                            "ends of their orthogonal velocities do not meet in its pole"
+                                            for control in self.drawing.controls if self._missed(control)), "")
+
+    def _missed(self, control: Control) -> bool:
+        """Whether a control does not hold in fractions; beside rounding nobody can tell."""
+        return self.exact and control.apart(self.scene.points, self.results["velocity"]) != 0
 
     @property
     def same(self) -> bool:
@@ -178,7 +190,7 @@ class Report:
         """The error that names the number in which the two differ most; where none does, the step that breaks a claim.
         """
         if self.same:
-            return BrokenClaim(self.scene.name, self.drawing.broken)
+            return BrokenClaim(self.scene.name, self.broken)
         part, name, number = max(self._all, key=lambda one: (one[2].apart, one[2].beside("gap")))
         return Disagreement(self.scene.name, f"{part} of {name}", told(number.value), told(number.truth),
                             float(number.beside("gap")))

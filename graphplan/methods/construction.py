@@ -17,7 +17,8 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
 from graphplan.kernel.program import Panel, Program, Step, evaluate
 from graphplan.methods import kinds
-from graphplan.methods.panels import ACCELERATION_PLAN, N_PLAN, ForcePlan, LeverPlan
+from graphplan.methods.controls import Control, controls
+from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, N_PLAN, ForcePlan, LeverPlan
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.results import Given
 from graphplan.phrases import Phrase, Said, said
@@ -150,6 +151,15 @@ class Construction(Recorded, Given):
         with suppress(ConstructionError):
             return next(chain(broken(self.drawn, self.values, AGREE), broken(self.program, self.truth)), "")
         return ""
+
+    @cached_property
+    def controls(self) -> tuple[Control, ...]:
+        """What the finished sheet shows though nothing was drawn by it; nothing where this pose cannot be drawn."""
+        with suppress(ConstructionError):
+            ends = {one.point: (one.start, one.end) for one in self.arrows if one.kind == kinds.VELOCITY}
+            shown = self._expander.windows[MECHANISM].holds
+            return tuple(controls(self.scene, self.drawn, self.values, ends, shown)) if self.turned else ()
+        return ()
 
     @property
     def drawn(self) -> Program:

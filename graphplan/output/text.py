@@ -82,6 +82,8 @@ def _passages(passages: Iterable[Passage], say: Tongue, movements: bool) -> Iter
             yield from _numbered(entry.number, say(entry.told))
             for one in entry.movements if movements and entry.folded else ():
                 yield from _numbered(str(one.number), say(one.sentence), HANGING)
+        for control in passage.controls:
+            yield from _wrapped(say(control), "    ", "")
 
 
 def _head(passage: Passage, say: Tongue) -> Iterator[str]:
@@ -171,6 +173,7 @@ def steps(composition: Composition, structure: Iterable[str] = ()) -> dict[str, 
                      "sentence": say(entry.sentence), "why": say(entry.why),
                      "lengths": _measures(entry.lengths)}
                     for passage in told.passages for entry in passage.entries],
+        "controls": [say(control) for passage in told.passages for control in passage.controls],
         "readings": [{"kind": one.kind, "of": one.of, "said": say(one.told), "value": one.value,
                       "computed": one.computed, "lengths": _measures([one.length])}
                      for one in Readings(drawing, lengths_of(composition.plans, composition.scales),

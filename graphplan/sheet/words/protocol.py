@@ -78,7 +78,7 @@ class Passage:
     """Entries of one stage, one after the other on one plan; `again` where others of that stage came before.
 
     `number` is the place of the stage among those of the program, and of one that is told again that of the first;
-    `law` is empty where it was told on this plan before.
+    `law` is empty where it was told on this plan before; `controls` are what can be seen on the plan when it is drawn.
     """
 
     plan: Panel
@@ -87,6 +87,7 @@ class Passage:
     again: bool
     law: str
     entries: tuple[Entry, ...]
+    controls: tuple[Said, ...] = ()
 
     @property
     def title(self) -> Said | None:
@@ -146,10 +147,19 @@ class Protocol:
             stage = None if number is None else stages[number]
             law = stage.law if stage and stage.law not in laws else ""
             entries = tuple(self._entries([*steps], stage))
-            found.append(Passage(home, stage, number, number in seen, law, entries))
+            controls = tuple(told for entry in entries for one in entry.movements for told in self._closed(one.index))
+            found.append(Passage(home, stage, number, number in seen, law, entries, controls))
             laws.add(law)
             seen.update([] if number is None else [number])
         return tuple(found)
+
+    def _closed(self, step: int) -> Iterator[Said]:
+        """The controls of which this step draws the last mark."""
+        for control in self.plans.drawing.controls:
+            if step == max(map(max, control.marks)):
+                lines = (joined(map(self._drawn.text, line), " ") for line in control.marks)
+                yield said("Control: {0} and {1} meet in the pole of link {2}, through which {3} must pass.",
+                           next(lines), next(lines), control.link, next(lines))
 
     @cached_property
     def _compounds(self) -> dict[int, Compound]:

@@ -105,6 +105,8 @@ class Words:
             yield from self._stage(passage, wide, first)
             for entry in passage.entries:
                 yield from self.entry(entry, wide)
+            for control in passage.controls:
+                yield from self.paragraph(control, wide, passage.entries[-1].movements[-1].index)
 
     def _stage(self, passage: Passage, wide: float, step: int) -> Iterator[TextRow]:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""

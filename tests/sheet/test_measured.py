@@ -65,6 +65,13 @@ def test_labels_nearer_to_others_are_found() -> None:
     assert not sheet(mark(10, 10) + letters("A", 11, 10), mark(20, 10)).labels_nearer_to_others
 
 
+def test_a_leader_ties_letters_to_their_mark() -> None:
+    """Letters that the thinnest line joins to their mark may be nearer to another; other lines do not join."""
+    for width, found in (("0.13", []), ("0.18", ["A"])):
+        leader = f'<polyline points="10,10 18,10" stroke="#555555" stroke-width="{width}"/>'
+        assert sheet(mark(10, 10) + leader + letters("A", 18, 10), mark(20, 10)).labels_nearer_to_others == found
+
+
 def test_vectors_that_cannot_be_measured_are_found() -> None:
     """A vector of 3 mm is too short, but not beside one of 200 mm."""
     assert sheet(vector(3), vector(100)).short_vectors == [("velocity A", 3)]

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 from drawings import SCENES, drafted_of, drawing_of, scales_of
 
+from graphplan.accuracy.drafted import drafted
 from graphplan.accuracy.first_order import HANDS, Result, first_order, sampled
 from graphplan.accuracy.hand import Hand, hand
 from graphplan.accuracy.pencil import Pencil
@@ -50,7 +51,7 @@ def test_first_order_is_how_fine_hands_scatter(name: str) -> None:
 
 def test_flat_crossings_are_missed_by_blunt_hands() -> None:
     """Where curves cross too flat for the pencil some hands miss them, and the first order says too much."""
-    flat = drafted_of("double-butterfly")
+    flat = drafted(drawing_of("double-butterfly"), Pencil(point=0.2))
     assert flat.worst is not None
     scatter = sampled(flat.drawing, flat.hand)
     assert 0.1 < scatter.missed < 0.5

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -80,12 +82,13 @@ def test_preference_and_method_exclude_each_other(capsys: pytest.CaptureFixture[
 
 
 def test_a_form_that_cannot_be_drawn_says_why() -> None:
-    """On paper too small for its words a form is not drawn and keeps the reason; where none is drawn that is raised."""
-    refused = forms(SCENE, Pencil(), paper="A4")
+    """On paper too small for a given scale a form is not drawn and keeps the reason; where none is that is raised."""
+    large = replace(SCENE, sheet=replace(SCENE.sheet, k_s=Fraction(1, 10)))
+    refused = forms(large, Pencil(), paper="A4")
     assert {form.name for form in refused} == {"pose's own", "auxiliary", "trial", "poles"}
-    assert all(re.search("cannot be drawn: .* words and plans do not fit", form.told) for form in refused)
-    with pytest.raises(Refused, match="words and plans do not fit"):
-        preferred(SCENE, "quick", Pencil(), paper="A4")
+    assert all(re.search("cannot be drawn: .* does not fit on A4", form.told) for form in refused)
+    with pytest.raises(Refused, match="does not fit on A4"):
+        preferred(large, "quick", Pencil(), paper="A4")
 
 
 def test_the_protocol_tells_the_preference(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:

@@ -93,7 +93,7 @@ def test_later_steps_follow_from_a_slip() -> None:
     """What rests on a wrong mark is right after an earlier mistake, what does not is right."""
     drawing, sheet = composed("four-bar")
     where = {step.name: step.index for step in drawing.drawn.steps}
-    mistake = next(one for one in slipped(drawing, where["v_b"]) if one.told.endswith("AB instead of line 4"))
+    mistake = next(one for one in slipped(drawing, where["v_b"]) if one.told.endswith("AB instead of line 3"))
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1, {where["v_b"]: mistake})
     states = {verdict.step: verdict.state for verdict in judge(drawing, sheet, whole(drawn), PENCIL).verdicts}
     assert states[where["v_b"]] == WRONG

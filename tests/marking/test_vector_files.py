@@ -238,8 +238,7 @@ def shown(sheet: Sheet) -> Iterable[Trace]:
             case Arc():
                 yield Trace(CIRCLE, (item.at(item.start), item.at((item.start + item.end) / 2), item.at(item.end)))
             case Arrow() if math.dist(item.start, item.end) > item.head + 0.6:
-                _, left, right = item.barbs
-                yield Trace(LINE, (item.start, ((left[0] + right[0]) / 2, (left[1] + right[1]) / 2)))
+                yield from (Trace(LINE, (start, end)) for start, end in item.shaft)
 
 
 SCENES = ("four-bar", "alt-eight-link", "rosenauer-loaded")

@@ -68,7 +68,7 @@ def test_every_mark_of_the_mechanism_has_its_letter(name: str) -> None:
 
 @pytest.mark.parametrize("name", SCENES)
 def test_the_step_list_is_complete_and_legible(name: str) -> None:
-    """Every step is listed on the sheet or a page beside it, alone or in its compound, in capitals of 1.8 mm or more."""
+    """Every step is listed on the sheet or a page beside it, alone or in its compound, in capitals of 1.8 mm."""
     drawn = drawing_of(name).drawn
     texts = [item for page in pages_of(name) for item in page.items if isinstance(item, Text) and item.layer == "text"]
     steps, listed = range(drawn.givens, len(drawn)), [text for text in texts if text.step is not None]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from graphplan.errors import ConstructionError
 from graphplan.kernel.claims import broken
-from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, STRICT, Expander, Window
+from graphplan.kernel.expand import AGREE, BY_SET_SQUARE, EVERYWHERE, STRICT, Expander, Window
 from graphplan.kernel.kinds import LINE, POINT, plain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import gathered
@@ -157,7 +157,7 @@ class Construction(Recorded, Given):
         """What the finished sheet shows though nothing was drawn by it; nothing where this pose cannot be drawn."""
         with suppress(ConstructionError):
             ends = {one.point: (one.start, one.end) for one in self.arrows if one.kind == kinds.VELOCITY}
-            shown = self._expander.windows[MECHANISM].holds
+            shown = self._expander.windows.get(MECHANISM, EVERYWHERE).holds
             return tuple(controls(self.scene, self.drawn, self.values, ends, shown)) if self.turned else ()
         return ()
 

@@ -19,7 +19,7 @@ from graphplan.kernel.kinds import POINT
 from graphplan.sheet.plates.plans import Plans
 
 SCALE = 0.4  # mm of the student's sheet for a unit of the scene
-LAST = 39  # the last step of the four-bar's construction, where lines 37 and 38 meet
+LAST = 37  # the last step of the four-bar's construction, where lines 35 and 36 meet
 
 
 @cache
@@ -84,7 +84,7 @@ def test_the_first_wrong_step_is_named(wrong: Path, capsys: pytest.CaptureFixtur
     lines = capsys.readouterr().out.splitlines()
     assert lines[0].startswith(f"First wrong is step {LAST}: ")
     assert "6 mm off" in lines[0]
-    assert f"Step {LAST}: Mark m where line 37 meets line 38." in lines
+    assert f"Step {LAST}: Mark m where line 35 meets line 36." in lines
 
 
 def test_data_is_after_its_schema(good: Path, wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:

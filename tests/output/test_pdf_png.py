@@ -68,7 +68,7 @@ def inked(picture: Any) -> Rect:
 
 def test_a_pdf_has_a_page_of_true_size_for_each_sheet() -> None:
     """Pages are as large as their sheets, in points of which 72 make an inch, with title and language."""
-    sheets = [sheet_of("four-bar"), sheet_of("jaanimets-10")]
+    sheets = [sheet_of("four-bar"), sheet_of("double-butterfly")]
     document = pdf(sheets, title="Two sheets", language="lv")
     sizes = [tuple(map(float, box.split())) for box in re.findall(rb"/MediaBox \[ ?0 0 ([\d. ]+)\]", document)]
     assert sizes == [pytest.approx((s.width * 72 / 25.4, s.height * 72 / 25.4), abs=0.01) for s in sheets]
@@ -196,7 +196,7 @@ def test_the_suffix_says_what_is_drawn(tmp_path: Path) -> None:
         more = ["--dpi", "50"] if name.endswith("PNG") else []
         assert main(["draw", "four-bar", "-o", str(tmp_path / name), *more]) == 0
         assert (tmp_path / name).read_bytes().startswith(begin)
-    assert struct.unpack(">I", (tmp_path / "sheet.PNG").read_bytes()[16:20]) == (int(420 / 25.4 * 50),)
+    assert struct.unpack(">I", (tmp_path / "sheet.PNG").read_bytes()[16:20]) == (int(297 / 25.4 * 50),)
 
 
 @pytest.mark.parametrize(("name", "more", "said"), [

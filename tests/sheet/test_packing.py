@@ -11,7 +11,7 @@ from sheets import composition_of
 import graphplan as gp
 from graphplan.errors import Refused
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.layout.paper import packed, paged
+from graphplan.sheet.layout.paper import COLUMN, packed, paged
 from graphplan.sheet.lettering.lettering import Run, plain, sentence_runs
 from graphplan.sheet.plates import symbols
 from graphplan.sheet.plates.display import Arc, Rect
@@ -21,12 +21,12 @@ from graphplan.sheet.words.tables import TALL, TIGHT, tightened
 from graphplan.sheet.words.task import Task
 
 
-@pytest.mark.parametrize(("name", "saved"), [("four-bar", True), ("shaper", False)])
+@pytest.mark.parametrize(("name", "saved"), [("class-four", True), ("shaper", False)])
 def test_rows_come_closer_where_that_saves_a_page(name: str, saved: bool) -> None:
     """A guided handout whose last table would need a page of its own is set closer; any other is not."""
-    composition = composition_of(name, protocol="aside")
+    composition = composition_of(name)
     arrangement = composition.arrangement
-    rows = Task(composition.plans, composition=composition).lines(arrangement.columns[0].width, guided=True)
+    rows = Task(composition.plans, composition=composition).lines(COLUMN, guided=True)
     loose, found = list(paged(rows, arrangement)), packed(rows, arrangement)
     assert len(found) == len(loose) - saved
     assert (found == loose) != saved

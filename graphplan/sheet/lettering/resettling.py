@@ -19,6 +19,7 @@ ROUNDS = 4
 TRIES = 20  # places for which others are asked to move
 MOVED = 3  # so many others at most
 BETTER = 0.5  # what a move should save
+WORK = 8e6  # places times letters: what asking others to move may take on a plan; each time looks at all of its places
 
 
 class Resettling:
@@ -27,6 +28,7 @@ class Resettling:
     def __init__(self, prices: Prices, choice: Array):
         self.prices, self.choice, self.count = prices, choice.copy(), len(choice)
         self.spans, self.standing = prices.spans(self.count), Standing(self.count)
+        self.left = int(WORK // max(1, len(prices.found.boxes)))
         for letter, place in enumerate(choice):
             self.standing.put(letter, prices.found[place])
 
@@ -75,8 +77,9 @@ class Resettling:
     def _made_room(self, letter: int, place: int, before: float) -> bool:
         """Whether a letter takes a place because those that stand there pay less elsewhere than it saves."""
         others = [other for other in self._in_the_way(place) if other != letter]
-        if not 0 < len(others) <= MOVED:
+        if not 0 < len(others) <= MOVED or self.left <= 0:
             return False
+        self.left -= 1
         was = {one: int(self.choice[one]) for one in (letter, *others)}
         paid = before + sum(self._cost(other) for other in others)
         for other in others:

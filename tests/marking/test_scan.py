@@ -204,7 +204,7 @@ def test_a_page_is_asked_for_what_is_expected() -> None:
 def dotted() -> tuple[PencilPage, dict[tuple[bool, int], tuple[float, float]]]:
     """A scan with places where up to two lines cross, marked by a dot or bare; and those places."""
     (x, y) = list(page().panels.values())[1].centre
-    places = {(dot, count): (x + 14 * count - 14, y + high) for dot, high in ((True, 9), (False, -9))
+    places = {(dot, count): (x + 14 * count - 18, y + high) for dot, high in ((True, 9), (False, -9))
               for count in range(3)}
     turns = math.radians(20), math.radians(80)
     strokes = [(((u - 6 * math.cos(turn), v - 6 * math.sin(turn)), (u + 6 * math.cos(turn), v + 6 * math.sin(turn))),

@@ -19,6 +19,7 @@ ROUNDS = 4
 TRIES = 20  # places for which others are asked to move
 MOVED = 3  # so many others at most
 BETTER = 0.5  # what a move should save
+HEAP = 150_000  # places on a plan: among so many no second thought puts letters right
 WORK = 8e6  # places times letters: what asking others to move may take on a plan; each time looks at all of its places
 
 
@@ -42,7 +43,7 @@ class Resettling:
 
     def settled(self) -> Array:
         """The places when no letter with a fault finds a better one."""
-        for _ in range(ROUNDS):
+        for _ in range(ROUNDS if len(self.prices.found.boxes) < HEAP else 0):
             if not sum([self._improved(letter) for letter in self.faulty]):
                 break
         return self.choice

@@ -36,7 +36,7 @@ from graphplan.output import back_end
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
-    from graphplan.marking.classroom import Marked
+    from graphplan.marking.classroom.class_list import Marked
     from graphplan.marking.judge.score import Weights
     from graphplan.phrases import Said
 
@@ -94,7 +94,7 @@ class Desk:
     def marked(self, path: Path) -> Marked:
         """A drawing judged; fails with `Refused` where it cannot be."""
         from graphplan.check.trusted import construct
-        from graphplan.marking.classroom import Marked
+        from graphplan.marking.classroom.class_list import Marked
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.score import score
         from graphplan.marking.submission import read
@@ -184,7 +184,7 @@ def _lines(one: Marked) -> Iterator[Said]:
 
 def _class(desk: Desk, folder: Path) -> Findings:
     """Every file of a folder, judged; one that cannot be judged is an error line, and the others go on."""
-    from graphplan.marking.classroom import Classroom, Unread, lines
+    from graphplan.marking.classroom.class_list import Classroom, Unread, lines
 
     messages, paths = Messages(desk.options.quiet), _files(folder, desk.options.report)
     marked, unread = [], []

@@ -12,7 +12,7 @@ from functools import cached_property
 from html import escape
 from importlib.resources import files
 
-from graphplan.marking.classroom import NOT_JUDGED, Classroom, Marked, mistaken
+from graphplan.marking.classroom.class_list import NOT_JUDGED, Classroom, Marked, mistaken
 from graphplan.marking.judge.findings import (
     ALLOWED,
     FIGURES,

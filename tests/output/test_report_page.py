@@ -12,7 +12,7 @@ import pytest
 
 import graphplan as gp
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.classroom import Classroom, Marked, Unread
+from graphplan.marking.classroom.class_list import Classroom, Marked, Unread
 from graphplan.marking.judge.overlay import overlay
 from graphplan.marking.judge.score import score
 from graphplan.marking.judge.verdict import RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict, Verdict

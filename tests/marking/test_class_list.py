@@ -8,7 +8,7 @@ import pytest
 from judged import judgement
 
 import graphplan as gp
-from graphplan.marking.classroom import Classroom, Marked, Unread, lines, mistaken
+from graphplan.marking.classroom.class_list import Classroom, Marked, Unread, lines, mistaken
 from graphplan.marking.judge.findings import Called, called
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.score import score

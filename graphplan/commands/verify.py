@@ -164,10 +164,11 @@ def _one(desk: Desk, path: Path) -> Findings:
 
 def _lines(one: Marked) -> Iterator[Said]:
     """The verdict in a few lines."""
-    from graphplan.marking.judge.findings import asked, counted, lacking, miss, opinion
+    from graphplan.marking.judge.findings import asked, counted, lacking, miss, opinion, read_as
     from graphplan.marking.judge.verdict import MISSING, STATES, WRONG
     from graphplan.phrases import arranged
 
+    yield from read_as(one.judgement)
     yield opinion(one.judgement)
     yield from asked(one.judgement)
     yield arranged("{0:capital}.", counted(one.judgement))

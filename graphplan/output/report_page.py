@@ -23,6 +23,7 @@ from graphplan.marking.judge.findings import (
     named,
     opinion,
     quantity,
+    read_as,
     written,
 )
 from graphplan.marking.judge.score import GROUPS, Score
@@ -113,6 +114,8 @@ class _Report(_HtmlPage):
         scene, wrong = self.judgement.drawing.scene, " wrong" if self.judgement.first else ""
         yield f"<h1>{escape(scene.title)}</h1>"
         yield f'<p class="source">{escape(self.judgement.name)}</p>'
+        for line in read_as(self.judgement):
+            yield f'<p class="reading">{self.set(line)}</p>'
         yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
         yield f"<p>{self.say(arranged('{0:capital}.', counted(self.judgement)))}</p>"
         yield from self._score()

@@ -85,6 +85,11 @@ def opinion(judgement: Judgement) -> Said:
     return said("First wrong is {0}: {1}.", named(judgement.drawing.drawn, first.step), remark(judgement, first))
 
 
+def read_as(judgement: Judgement) -> list[Said]:
+    """As what a drawing was read; nothing where it is drawn as the task's own sheet is."""
+    return [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+
+
 def asked(judgement: Judgement) -> list[Said]:
     """What the first wrong step asks for, in its own words; nothing where there is none."""
     drawn, first = judgement.drawing.drawn, judgement.first
@@ -144,6 +149,7 @@ def record(judgement: Judgement, score: Score) -> dict[str, Any]:
     return {
         "title": judgement.drawing.scene.title,
         "drawing": judgement.name,
+        "reading": str(judgement.reading),
         "first_wrong": None if first is None else _complaint(judgement, first),
         "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
         "numbers": [_number(verdict) for verdict in judgement.numbers],
@@ -216,6 +222,8 @@ class Remarks(Words):
 
     def _verdict(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         yield from self.paragraph(judgement.name, wide)
+        for line in read_as(judgement):
+            yield from self.paragraph(line, wide)
         yield from self.paragraph(opinion(judgement), wide)
         yield from self.paragraph(arranged("{0:capital}.", counted(judgement)), wide)
 

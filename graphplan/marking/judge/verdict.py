@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction
-from graphplan.phrases import Said, phrase
+from graphplan.phrases import Said, joined, phrase
 from graphplan.sheet.layout.composition import Composition
 
 RIGHT, FOLLOWS, WRONG, MISSING, UNSEEN = "right", "follows", "wrong", "missing", "unseen"
@@ -20,6 +20,7 @@ STATES = {
     UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show: what follows from it tells
 }
 NOT_NEEDED = phrase("not needed")
+AS_THE_TASK = joined(())  # nothing need be said of how a drawing was read
 
 
 @dataclass(frozen=True)
@@ -78,7 +79,8 @@ class NumberVerdict:
 class Judgement:
     """All that is said of a drawing.
 
-    `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for.
+    `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for. `reading`
+    says as what it was read, where that is not what the task's own sheet has.
     """
 
     name: str
@@ -88,6 +90,7 @@ class Judgement:
     verdicts: tuple[Verdict, ...]
     spare: tuple[Trace, ...] = ()
     numbers: tuple[NumberVerdict, ...] = ()
+    reading: Said = AS_THE_TASK
 
     @property
     def judged(self) -> list[Verdict]:

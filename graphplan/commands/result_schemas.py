@@ -27,8 +27,10 @@ PLAIN: dict[str, Fragment] = {
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,
     "vector": {"type": "array", "items": VALUE, "minItems": 2, "maxItems": 2},
     "percent": {"type": "number", "minimum": 0, "maximum": 100},
+    "confidence": {"type": "number", "minimum": 0, "maximum": 1},
     "step": described("the number of the step, 0 for what is given", COUNT),
-    "verdict": described("follows: right after an earlier mistake; unseen: of a kind that the drawing does not show",
+    "verdict": described("follows: right after an earlier mistake; implied: not drawn, but a right mark rests on it; "
+                         "unsure: look at it; unseen: of a kind that the drawing does not show",
                          {"enum": [*STATES]}),
     "counts": table(dict.fromkeys(STATES, COUNT)),
     "units": table({quantity: {"enum": [*units]} for quantity, units in BY_QUANTITY.items()}),

@@ -9,9 +9,20 @@ import pytest
 from judged import TOLERANCE, TURNED, judgement
 
 from graphplan.kernel.kinds import CIRCLE, POINT
-from graphplan.marking.judge.overlay import ALLOWED, LAYER, PENS, RED, SIZES, SPARE, WANTED, StudentStrokes, overlay
+from graphplan.marking.judge.overlay import (
+    ALLOWED,
+    GOLD,
+    LAYER,
+    PENS,
+    RED,
+    SIZES,
+    SPARE,
+    WANTED,
+    StudentStrokes,
+    overlay,
+)
 from graphplan.marking.judge.score import score
-from graphplan.marking.judge.verdict import RIGHT, WRONG, Judgement, NumberVerdict
+from graphplan.marking.judge.verdict import RIGHT, UNSURE, WRONG, Judgement, NumberVerdict
 from graphplan.marking.traces import Number
 from graphplan.phrases import said
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Text
@@ -148,3 +159,20 @@ def test_nothing_leaves_its_plan() -> None:
     strokes = [item for item in StudentStrokes(found).items() if isinstance(item, Polyline)]
     assert any(item.pen == WANTED for item in strokes)
     assert all(any(all(rect.holds(spot, 1e-9) for spot in item.spots) for rect in rects) for item in strokes)
+
+
+def test_what_cannot_be_told_is_ringed_where_it_should_be() -> None:
+    """A teacher is led to each place at which there is nothing to judge by: about a point, or the middle of a line."""
+    found = judgement("four-bar")
+    point, line = wrong_step(found, "meet"), wrong_step(found, "parallel")
+    verdicts = tuple(replace(v, state=UNSURE, trace=None) if v.step in (point, line) else v for v in found.verdicts)
+    student = StudentStrokes(replace(found, verdicts=verdicts))
+    rings = {item.step: item for item in student.items() if isinstance(item, Circle) and item.pen.colour == GOLD}
+    plans = found.composition.plans
+    assert set(rings) == {point, line}
+    assert math.dist(rings[point].centre, found.composition.views[plans.plan_of_step[point]](plans.spot(point))) < 1e-9
+    assert abs(_off(found.composition.plates.steps[line].line, rings[line].centre)) < 1e-6
+
+
+def _off(line: tuple[float, float, float], spot: tuple[float, float]) -> float:
+    return (line[0] * spot[0] + line[1] * spot[1] + line[2]) / math.hypot(*line[:2])

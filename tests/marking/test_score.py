@@ -9,7 +9,17 @@ from judged import judgement
 
 from graphplan.errors import Refused
 from graphplan.marking.judge.score import POSE, RESULTS, Weights, score, served, weights
-from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG, Judgement, NumberVerdict
+from graphplan.marking.judge.verdict import (
+    FOLLOWS,
+    IMPLIED,
+    MISSING,
+    RIGHT,
+    UNSEEN,
+    UNSURE,
+    WRONG,
+    Judgement,
+    NumberVerdict,
+)
 from graphplan.marking.traces import Number
 
 
@@ -104,3 +114,12 @@ def test_bad_weights_are_refused(text: str, why: str) -> None:
     """One line says what is wrong with the weights."""
     with pytest.raises(Refused, match=why):
         weights(text)
+
+
+def test_what_is_implied_earns_and_what_cannot_be_told_does_not() -> None:
+    """A step that a right mark bears out earns as if it were drawn; one that cannot be told earns nothing."""
+    found = judgement("four-bar")
+    implied, unsure = (replace(found, verdicts=tuple(replace(v, state=state) for v in found.verdicts))
+                       for state in (IMPLIED, UNSURE))
+    assert score(implied, weights("missing=0.5")).total == 100.0
+    assert score(unsure, weights("missing=0.5")).total == 0.0

@@ -17,6 +17,7 @@ from graphplan.marking.judge.verdict import (
     RIGHT,
     STATES,
     UNSEEN,
+    UNSURE,
     WRONG,
     Judgement,
     NumberVerdict,
@@ -163,7 +164,8 @@ def _step(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
     """One step, with how far off it is where it can be seen."""
     sizes = {f"{size}_mm": _finite(getattr(verdict, size)) if judgement.measured(verdict) else None
              for size in ("off", "tolerance", "astray")}
-    return {**_mark(judgement, verdict.step), "verdict": verdict.state, **sizes, "mistake": _told(verdict)}
+    return {**_mark(judgement, verdict.step), "verdict": verdict.state,
+            "confidence": round(verdict.confidence, 3), **sizes, "mistake": _told(verdict)}
 
 
 def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
@@ -229,7 +231,7 @@ class Remarks(Words):
 
     def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))
-        for state in (RIGHT, FOLLOWS, WRONG, None):
+        for state in (RIGHT, FOLLOWS, WRONG, UNSURE, None):
             told = NOT_NEEDED() if state is None else STATES[state]()
             yield LegendRow((Cell(KEY, sentence_runs(self.plans.tongue(told))),), gap=0.6, state=state)
         yield from self.paragraph(said("Grey: the true drawing. Ellipses: where a point may be, after the student's "
@@ -266,7 +268,7 @@ class Remarks(Words):
         for verdict in wrong:
             sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.step), remark(judgement, verdict))
             yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.step).short)
-        for state in (MISSING, UNSEEN):
+        for state in (UNSURE, MISSING, UNSEEN):
             if told := lacking(judgement, state):
                 yield from self.paragraph(arranged("{0:capital}: {1}.", STATES[state](), told), wide)
 

@@ -22,7 +22,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.marking.files.curves import circle
 from graphplan.marking.judge.findings import VERDICT, LegendRow, Remarks, called, complaint, opinion
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, WRONG, Judgement, Verdict
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
 from graphplan.sheet.frames.frame import BORDER
 from graphplan.sheet.layout.layout import layout, titled
@@ -40,12 +40,13 @@ from graphplan.sheet.words.rows import LEADING, Placed, lettered
 from graphplan.sheet.words.texts import RESULTS
 
 LAYER = "student"
-BLUE, GREEN, RED, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8a5a7a", "#333333"
-PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED)}
+BLUE, GREEN, RED, GOLD, PLUM, DARK = "#0072b2", "#00785a", "#d04a00", "#8f6a00", "#8a5a7a", "#333333"
+PENS: dict[str | None, Pen] = {RIGHT: Pen(0.3, BLUE), FOLLOWS: Pen(0.35, GREEN, (2.2, 0.9)), WRONG: Pen(0.7, RED),
+                               UNSURE: Pen(0.5, GOLD, (0.8, 0.8))}
 SPARE = Pen(0.3, PLUM, (0.3, 0.8))
 ALLOWED = Pen(0.13, DARK)
 WANTED = Pen(0.3, RED, (1.2, 0.8))  # where a wrong mark should be
-SIZES: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3}  # half of a mark, in mm
+SIZES: dict[str | None, float] = {RIGHT: 0.45, FOLLOWS: 0.6, WRONG: 1.3, UNSURE: 3.2}  # half of a mark, in mm
 REACH = 12.0  # mm of a line past the mark that it should have been, each way
 CORNERS = 36  # of an ellipse
 WHOLE = 0.99  # of a diameter: spots farther apart are opposite each other
@@ -253,6 +254,22 @@ class StudentStrokes:
             yield from _clipped(mark.items(), mark.wanted.view)
         for mark in self.marks:
             yield from _clipped(mark.tolerance(), mark.wanted.view)
+        for verdict in self.judgement.verdicts:
+            if verdict.state == UNSURE and verdict.trace is None:
+                yield from _point(self._about(verdict), UNSURE, verdict.step)
+
+    def _about(self, verdict: Verdict) -> Spot:
+        """Where what cannot be told should be: a point, or the middle of the marks on a line or an arc, or the foot on
+        it from the middle of its panel."""
+        plates = self.judgement.composition.plates
+        wanted = replace(plates.steps[verdict.step], value=verdict.own)
+        rect = wanted.view.rect
+        on = [wanted.at] if wanted.kind == POINT else [mark.at for mark in plates[wanted.panel].marks(wanted)]
+        middle = (rect.left + rect.right) / 2, (rect.bottom + rect.top) / 2
+        if not on:
+            on = [foot(Floats(), wanted.line, middle) if wanted.kind == LINE else wanted.at]
+        x, y = np.mean(on, axis=0)
+        return min(max(float(x), rect.left), rect.right), min(max(float(y), rect.bottom), rect.top)
 
     def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
         """A trace on paper, where its plan is known to lie."""
@@ -294,7 +311,7 @@ def _drawn(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | N
 
 
 def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
-    """A ring, a square if it is right after a mistake, a cross if it is wrong."""
+    """A ring; a square if it is right after a mistake, a cross if it is wrong; a wide ring where it cannot be told."""
     (x, y), pen, size = spot, PENS.get(state, SPARE), SIZES.get(state, 0.6)
     firm = Pen(min(pen.width, 0.5), pen.colour, fill=PAPER)
     corners = Rect(x - size, y - size, x + size, y + size).corners
@@ -302,6 +319,8 @@ def _point(spot: Spot, state: str | None, step: int | None) -> Iterator[Item]:
         yield from (Polyline(firm.filled("none"), LAYER, step, ends) for ends in (corners[::2], corners[1::2]))
     elif state == FOLLOWS:
         yield Polygon(firm, LAYER, step, corners)
+    elif state == UNSURE:
+        yield Circle(pen.filled("none"), LAYER, step, spot, size)
     else:
         yield Circle(firm, LAYER, step, spot, size)
 

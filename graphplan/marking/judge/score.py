@@ -9,7 +9,7 @@ from dataclasses import dataclass, fields
 from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
-from graphplan.marking.judge.verdict import UNSEEN, Judgement
+from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
@@ -33,6 +33,10 @@ class Weights:
     missing: float = 0.0
     wrong: float = 0.0
     numbers: float = 2.0
+
+    def of(self, state: str) -> float:
+        """What is implied earns as if it were drawn; what cannot be told earns nothing."""
+        return 0.0 if state == UNSURE else float(getattr(self, "right" if state == IMPLIED else state))
 
 
 def weights(text: str) -> Weights:
@@ -89,7 +93,7 @@ def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
     earned: dict[str, list[float]] = {group: [] for group in GROUPS}
     most = dict.fromkeys(GROUPS, 0.0)
     for group, state, count in _counted(judgement, weighed):
-        earned[group].append(count * float(getattr(weighed, state)))
+        earned[group].append(count * weighed.of(state))
         most[group] += count * weighed.right
     return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]})
 

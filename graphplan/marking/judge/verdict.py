@@ -11,14 +11,18 @@ from graphplan.methods.construction import Construction
 from graphplan.phrases import Said, joined, phrase
 from graphplan.sheet.layout.composition import Composition
 
-RIGHT, FOLLOWS, WRONG, MISSING, UNSEEN = "right", "follows", "wrong", "missing", "unseen"
+RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNSURE, UNSEEN = (
+    "right", "follows", "implied", "wrong", "missing", "unsure", "unseen")
 STATES = {
     RIGHT: phrase("correct"),
     FOLLOWS: phrase("correct after an earlier mistake"),
+    IMPLIED: phrase("not drawn, but borne out"),  # by a right mark that rests on it
     WRONG: phrase("wrong"),
     MISSING: phrase("missing"),
-    UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show: what follows from it tells
+    UNSURE: phrase("cannot be told: look here"),  # something is there, or should be: the teacher has the word
+    UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show, and nothing that is right rests on it
 }
+EARNED = frozenset({RIGHT, FOLLOWS, IMPLIED})  # what was done as it should be
 NOT_NEEDED = phrase("not needed")
 AS_THE_TASK = joined(())  # nothing need be said of how a drawing was read
 
@@ -41,7 +45,8 @@ class Verdict:
     be in that direction, `astray` how far it is from the true drawing, which errors that went before explain where
     the step is right; all three are infinite of a line or an arc that was drawn by mistake and is not to be seen. `own`
     is where it should be after the earlier marks, in plan units, as the kernel has it; `mistake` says what was probably
-    done, at the step `guilty`, which may be an earlier one that is not to be seen.
+    done, at the step `guilty`, which may be an earlier one that is not to be seen. `confidence` is how likely the
+    verdict is the right one, from 0 to 1.
     """
 
     step: int
@@ -55,6 +60,7 @@ class Verdict:
     mistake: Said | None = None
     kind: str = ""
     guilty: int | None = None
+    confidence: float = 1.0
 
     @property
     def blamed(self) -> int | None:

@@ -24,7 +24,18 @@ from graphplan.kernel.program import Step
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
 from graphplan.marking.judge.student_sheet import PointResidual, Residual, apart, bound, plain
-from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, UNSEEN, WRONG, Ellipse, NumberVerdict, Verdict
+from graphplan.marking.judge.verdict import (
+    EARNED,
+    FOLLOWS,
+    IMPLIED,
+    MISSING,
+    RIGHT,
+    UNSEEN,
+    WRONG,
+    Ellipse,
+    NumberVerdict,
+    Verdict,
+)
 from graphplan.marking.tables.results import in_scene_units
 from graphplan.marking.traces import Number
 from graphplan.methods.recorded import Reading
@@ -121,10 +132,24 @@ def rests(matching: Matching) -> list[bool]:
     return found
 
 
+def borne_out(matching: Matching) -> list[bool]:
+    """For each step whether a right mark rests on it, itself or through others that are not to be seen either."""
+    found = [False] * len(matching.matches)
+    for match in reversed(matching.matches):
+        seen = match.place is not None or match.state == WRONG
+        for arg in match.step.args if (match.state in EARNED if seen else found[match.step.index]) else ():
+            found[arg] = True
+    return found
+
+
 def verdicts(matching: Matching) -> Iterator[Verdict]:
-    """What is said of every step; what is missing, but was drawn somehow, is merely not to be seen."""
-    for match, drawn in zip(matching.matches, rests(matching), strict=True):
-        yield _verdict(matching, match, UNSEEN if match.state == MISSING and drawn else match.state)
+    """What is said of every step; what is missing is implied where a right mark rests on it, and merely not to be seen
+    where another does."""
+    for match, drawn, borne in zip(matching.matches, rests(matching), borne_out(matching), strict=True):
+        state = match.state
+        if state in (MISSING, UNSEEN) and not match.step.op.free:
+            state = IMPLIED if borne else UNSEEN if drawn else state
+        yield _verdict(matching, match, state)
 
 
 def _verdict(matching: Matching, match: Match, state: str) -> Verdict:

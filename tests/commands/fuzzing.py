@@ -18,7 +18,7 @@ from typing import NamedTuple
 from graphplan.commands import main
 from graphplan.mechanism.scene import load, packaged
 
-SECONDS = 10.0  # of the processor, for one command
+SECONDS = 5.0  # of the processor, for one command
 NUMBER = re.compile(r"(?<![\w.\"-])-?\d+(?:\.\d+)?(?![\w.\"])")
 NAME = re.compile(r"\b[A-Za-z]\w*\b|\"\w+\"|(?m:^\w+)(?= *=)")
 VALUE = re.compile(r"(?m)(?<== )[^=\n]+$")

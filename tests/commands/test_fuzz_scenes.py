@@ -29,7 +29,7 @@ PART, RARE = 16, 6  # scenes in each of five parts; one in so many goes through 
 
 @pytest.mark.parametrize("part", range(5))
 def test_spoilt_scenes(part: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """No spoilt scene gives a traceback, a warning, another status than 0 to 3, or takes longer than ten seconds."""
+    """No spoilt scene gives a traceback, a warning, another status than 0 to 3, or takes longer than five seconds."""
     monkeypatch.chdir(tmp_path)
     texts, found = scenes(), {}
     for seed in range(part, times(5 * PART), 5):

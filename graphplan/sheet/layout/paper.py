@@ -92,9 +92,6 @@ def sheet_size(paper: str) -> tuple[float, float]:
 MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
 
 
-MOST_OF_PAGE = 0.6  # what plans take of a page on which words stand
-
-
 def arrangements(paper: str, divide: Divide, rows: Measure[Sequence[TextRow]] | None, frame: Frame,
                  title: TitleBlock) -> Iterator[Arrangement]:
     """The ways to divide one sheet: with columns that hold all the words, or without any where there are no `rows`.

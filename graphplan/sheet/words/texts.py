@@ -40,6 +40,7 @@ class Words:
     plans: Plans
     check: Mapping[str, Any] = field(default_factory=dict)
     _set: dict[float, tuple[Scales, list[TextRow], list[TextRow], list[TextRow]]] = field(default_factory=dict)
+    _told: list[Protocol] = field(default_factory=list)  # the last one
     indent: ClassVar[float] = 11.0  # mm: of what hangs from a number
     unfolded: ClassVar[bool] = False  # whether what takes several movements has them below it
 
@@ -97,7 +98,7 @@ class Words:
         given = ", ".join(step.name for step in drawn.steps[: drawn.givens])
         yield from self.paragraph(said("Given, on the mechanism plan: {0}.", given), wide)
         plan = ""
-        for passage in Protocol(self.plans, scales).passages:
+        for passage in self._protocol(scales).passages:
             first = passage.entries[0].movements[0].index
             if passage.plan != plan:
                 plan = passage.plan
@@ -107,6 +108,12 @@ class Words:
                 yield from self.entry(entry, wide)
             for control in passage.controls:
                 yield from self.paragraph(control, wide, passage.entries[-1].movements[-1].index)
+
+    def _protocol(self, scales: Scales) -> Protocol:
+        """The protocol at these scales, told once for columns of any width."""
+        if not self._told or self._told[0].scales != scales:
+            self._told[:] = [Protocol(self.plans, scales)]
+        return self._told[0]
 
     def _stage(self, passage: Passage, wide: float, step: int) -> Iterator[TextRow]:
         """The title of a stage, its equations with what is known in them, and its law where it was not told before."""

@@ -87,8 +87,8 @@ def _said(line: str, says: Mapping[str, str]) -> str:
     if key in says:
         return says[key]
     if isinstance(value, dict):
-        return next(way.says for way in WAYS if {*way.keys} == value.keys())
-    return COORDINATES.says if isinstance(value, list) else ""
+        return next((way.says for way in WAYS if {*way.keys} == value.keys()), "")
+    return COORDINATES.says if isinstance(value, list) and len(value) == 2 else ""
 
 
 def _aligned(rows: Iterable[tuple[str, str]]) -> list[str]:

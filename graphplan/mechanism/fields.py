@@ -25,7 +25,8 @@ Fragment = dict[str, Any]
 class Names:
     """What a table may speak of, as far as it is read: names and places of points, links with their points, pairs.
 
-    `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written.
+    `held` says of each point how many links have it, `irrational` gathers where fractions do not hold what is written,
+    `tables` is all that is written.
     """
 
     points: Collection[str]
@@ -35,6 +36,7 @@ class Names:
     pairs: tuple[KinematicPair, ...] = ()
     units: Units = field(default_factory=Units)
     irrational: list[str] = field(default_factory=list)
+    tables: dict[str, object] = field(default_factory=dict)
 
     @property
     def bodies(self) -> Collection[str]:

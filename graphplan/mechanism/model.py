@@ -185,7 +185,8 @@ class Scene:
     `points` are coordinates (x, y); `links` lists the points of each link, `frame` among them where there is one.
     `written` are the pairs that are written as such, drives among them: joints are points that links share.
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
-    where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written.
+    where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written, `vary`
+    the values that some of its numbers have in variants, by path.
     `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
     `repeating` all those that follow from others of them: which of them carry the forces nothing tells.
     """
@@ -206,6 +207,7 @@ class Scene:
     text: str = field(default="", repr=False, compare=False)
     redundant: tuple[Condition, ...] = ()
     repeating: tuple[Condition, ...] = ()
+    vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
 
     @property
     def moving(self) -> tuple[str, ...]:

@@ -22,6 +22,7 @@ from graphplan.mechanism.pairs import fields
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
 from graphplan.mechanism.values import TEXT, VECTOR
+from graphplan.mechanism.variation import VARY
 
 FOLDER = os.path.join(os.path.dirname(os.path.dirname(__file__)), "scenes")
 PAIRS = fields()
@@ -46,9 +47,11 @@ SCENE = Table("a planar mechanism in one pose, what drives it, what loads it and
     Field("balance", "the unknown that keeps the motion, one for each drive: a moment, or a force along a line",
           sections.BALANCE),
     Field("friction", "friction in a joint or in a slide", sections.FRICTION),
+    Field("vary", "numbers that differ from student to student, by their paths, such as points.A.angle or "
+          "drive.0.omega, for graphplan variants", VARY),
 ))
 ORDER = ("points", "links", *PAIR_KEYS, "motion", "units", "title", "source", "find", "gravity", *sections.LOADS,
-         "sheet")
+         "sheet", "vary")
 """In which sections are read: what others speak of comes first."""
 
 
@@ -130,7 +133,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         if field.wanted and not (field.name in items and items[field.name].value):
             faults.add(field.name, f"the scene has no {field.name}", field.wanted)
     points = items.get("points", Item({}, "points", faults))
-    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {})
+    names = Names(dict.fromkeys(points.value) if isinstance(points.value, dict) else {}, tables=tables)
     kinds, read = {field.name: field.kind for field in SCENE.fields}, {}
     for key in ORDER:
         if key in items and (value := kinds[key].read(items[key], names)) is not None:
@@ -148,7 +151,8 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
         placements=placements, links=names.links, written=names.pairs, motions=read.get("motion", {}),
-        find=read.get("find") or _asked(names), loads=sections.loads(read), sheet=read.get("sheet") or Presentation())
+        find=read.get("find") or _asked(names), loads=sections.loads(read), sheet=read.get("sheet") or Presentation(),
+        vary=read.get("vary", {}))
     counting = _counting(scene)
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]

@@ -1,0 +1,119 @@
+"""The text of a scene, edited: other numbers, a key more, a table less. Comments and layout stay as they are.
+
+Numbers are found by reading the text once with the place of each numeral in its stead, so that TOML itself says which
+numeral a path leads to. Every edit is read again, and refused where it says something else than it should.
+"""
+
+from __future__ import annotations
+
+import re
+import tomllib
+from collections.abc import Callable, Mapping
+from decimal import Context, Decimal
+from fractions import Fraction
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.variation import numbers, parts
+
+QUOTED = r'"""[\s\S]*?"""|\'\'\'[\s\S]*?\'\'\'|"(?:[^"\\\n]|\\.)*"|\'[^\'\n]*\'|#[^\n]*'
+NUMERAL = r"(?<![\w.+-])[+-]?\d[\d_]*(?:\.\d[\d_]*)?(?:[eE][+-]?\d+)?(?![\w.:-])"
+TOKENS = re.compile(rf"{QUOTED}|({NUMERAL})")
+HEADER = re.compile(r"[ \t]*\[\[?[^\[\],]+\]\]?[ \t]*")
+DIGITS = 120  # of a decimal; more than any numeral has
+FAR = 10**15  # added to the place of a numeral: no list is so long that it could be a place in it
+Tables = dict[str, Any]
+
+
+def written(number: Fraction) -> str:
+    """A decimal as one writes it: 12, 0.25."""
+    if number.denominator == 1:
+        return str(number.numerator)
+    quotient = Context(prec=DIGITS).divide(Decimal(number.numerator), Decimal(number.denominator))
+    return f"{quotient.normalize():f}"
+
+
+def with_numbers(text: str, values: Mapping[str, Fraction]) -> str:
+    """The text with other numbers at these paths."""
+    places = {str(FAR + token.start()): token for token in TOKENS.finditer(text) if token[1]}
+    numbered = TOKENS.sub(lambda token: str(FAR + token.start()) if token[1] else token[0], text)
+    where = {tuple(_key(part, places) for part in path): places.get(str(place))
+             for path, place in numbers(tomllib.loads(numbered))}
+    edits = {}
+    for path, value in values.items():
+        token = where.get(parts(path))
+        if token is None:
+            raise Refused(f"vary.{path}", "its number is not found in the text", "write it as a plain decimal")
+        edits[token.span()] = written(value)
+    for (start, end), new in sorted(edits.items(), reverse=True):
+        text = text[:start] + new + text[end:]
+    return text
+
+
+def _key(part: str, places: Mapping[str, re.Match[str]]) -> str:
+    """A key as it was written: a numeral may be one as well, as in [masses.2]."""
+    return places[part][0] if part in places else part
+
+
+def with_keys(text: str, table: str, keys: Mapping[str, str]) -> str:
+    """The text with these keys in a table, each with its value as TOML; `""` are those before all tables.
+
+    A key that is there has another value, any other stands first in its table, or in a new one at the end.
+    """
+    lines = text.splitlines(keepends=True)
+    span = _lines_of(text, table)
+    if span is None:
+        lines, span = [f"{text.rstrip()}\n\n", f"[{table}]\n"], (1, 2)
+    first, end = (span[0] + 1, span[1]) if table else span
+    for key, value in reversed([*keys.items()]):
+        own = re.compile(rf"([ \t]*{key}[ \t]*=[ \t]*)(?:\[[^\[\]\n]*\]|\{{[^{{}}\n]*\}}|{QUOTED}|[^\s#]+)")
+        there = next((place for place in range(first, end) if own.match(lines[place])), None)
+        if there is None:
+            lines.insert(first, f"{key} = {value}\n")
+            end += 1
+        else:
+            lines[there] = own.sub(lambda found, value=value: found[1] + value, lines[there], 1)  # type: ignore[misc]
+    return "".join(lines)
+
+
+def without_table(text: str, table: str) -> str:
+    """The text without a table, and without the comment that stands right above it."""
+    lines, span = text.splitlines(keepends=True), _lines_of(text, table)
+    if span is None:
+        return text
+    first, end = span
+    while first and lines[first - 1].lstrip().startswith("#"):
+        first -= 1
+    before, after = "".join(lines[:first]).rstrip(), "".join(lines[end:]).strip()
+    return before + (f"\n\n{after}\n" if after else "\n")
+
+
+def _lines_of(text: str, table: str) -> tuple[int, int] | None:
+    """The first line of a table, its header, and the line after its last key; None where there is no such table."""
+    bare = TOKENS.sub(lambda token: token[1] or re.sub(r"[^\n]", " " if token[0][0] == "#" else "_", token[0]),
+                      text).splitlines()
+    headers = [place for place, line in enumerate(bare) if HEADER.fullmatch(line)]
+    if not table:
+        first = 0
+    elif (found := next((place for place in headers if bare[place].strip() == f"[{table}]"), None)) is not None:
+        first = found
+    else:
+        return None
+    following = next((place for place in headers if place > first or not table), len(bare))
+    said = (place for place in range(following - 1, first - 1, -1) if bare[place].strip())
+    return first, next(said, first - 1) + 1
+
+
+def edited(text: str, edit: Callable[[str], str], meant: Callable[[Tables], None]) -> str:
+    """The text after an edit that does to its tables what is `meant`; fails with `Refused` where it does not."""
+    tables = tomllib.loads(text, parse_float=decimal)
+    meant(tables)
+    found = edit(text)
+    try:
+        same = tomllib.loads(found, parse_float=decimal) == tables
+    except ValueError:
+        same = False
+    if not same:
+        raise Refused("scene", "its text cannot be edited", "write [sheet] and [vary] as tables of their own")
+    return found

@@ -1,0 +1,101 @@
+"""The table [vary]: numbers of a scene that differ from student to student, by their paths.
+
+A path is the keys and the places in lists, counted from 0, that lead to a number, such as points.A.angle, points.B.0
+or drive.0.omega; keys are quoted as in TOML where they must be.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from math import floor
+
+from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Table, Value
+from graphplan.mechanism.items import Item, described, quoted
+from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.values import NUMBER
+
+MOST = 10_000  # values of one number
+SAME_FOR_ALL = ("vary", "sheet", "units")  # tables whose numbers do not vary
+SUCH = "{ from = 20, to = 160, step = 5 }, or a list such as [8, 10, 12]"
+
+Choices = dict[str, tuple[Fraction, ...]]  # the values that a number may have, by its path
+
+
+def parts(path: str) -> tuple[str, ...]:
+    """The keys and places of a path."""
+    return tuple(quoted or bare for quoted, bare in re.findall(r'"([^"]*)"|([^."]+)', path))
+
+
+def numbers(tables: object, above: tuple[str, ...] = ()) -> Iterator[tuple[tuple[str, ...], object]]:
+    """All numbers in tables and lists, each with the keys and places that lead to it."""
+    if isinstance(tables, Mapping | list):
+        for name, value in tables.items() if isinstance(tables, Mapping) else enumerate(tables):
+            yield from numbers(value, (*above, str(name)))
+    elif isinstance(tables, Fraction) or type(tables) is int:
+        yield above, tables
+
+
+def _at(tables: object, path: tuple[str, ...]) -> object:
+    """What stands at a path; None where nothing does."""
+    for part in path:
+        if isinstance(tables, list):
+            tables = tables[int(part)] if part.isdecimal() and int(part) < len(tables) else None
+        else:
+            tables = tables.get(part) if isinstance(tables, Mapping) else None
+    return tables
+
+
+def _path(name: str, item: Item, names: Names) -> None:
+    """A fault where there is no such number, or it must be the same for all."""
+    path = parts(name)
+    value = _at(names.tables, path)
+    varying = (".".join(map(quoted, found)) for found, _ in numbers(names.tables) if found[0] not in SAME_FOR_ALL)
+    if path[:1] and path[0] in SAME_FOR_ALL:
+        item.fault("this is the same for all variants", "the path of a number of the mechanism or of its motion")
+    elif value is None:
+        item.faults.unknown(item.where, "number", name, varying)
+    elif isinstance(value, Mapping | list) or not any(numbers(value)):
+        such = next((one for one in varying if one.startswith(f"{name}.")), "drive.0.omega")
+        item.fault(f"{described(value)} stands there, and no number", f"the path of a number, such as {such}")
+
+
+def _range(row: Row) -> tuple[Fraction, ...] | None:
+    """The values from one to another, a step apart."""
+    low, high, step = row["from"], row["to"], row["step"]
+    count = floor((high - low) / step) + 1
+    if high < low:
+        return row.items["to"].fault(f"{shown(high)} is less than from, {shown(low)}", f"at least {shown(low)}")
+    if count > MOST:
+        return row.items["step"].fault(f"{shown(step)} makes {count} values", f"a larger step: at most {MOST} values")
+    return tuple(low + step * place for place in range(count))
+
+
+def _list(item: Item, names: Names) -> tuple[Fraction, ...] | None:
+    """The values one by one."""
+    found = [item.instead(value).number() for value in item.value] if isinstance(item.value, list) else []
+    if not found:
+        return item.fault("an empty list", SUCH)
+    if len(found) > MOST:
+        return item.fault(f"{len(found)} values", f"at most {MOST}")
+    return tuple(dict.fromkeys(value for value in found if value is not None))
+
+
+RANGE = Table("a range", (
+    Field("from", "the first value", NUMBER, "the first value, such as from = 20"),
+    Field("to", "the last value, if a step leads to it", NUMBER, "the last value, such as to = 160"),
+    Field("step", "how far apart the values are", Kind("number above 0", lambda item, names: item.positive("step"),
+          {"type": "number", "exclusiveMinimum": 0}), "how far apart the values are, such as step = 5"),
+), _range)
+LIST = Kind("list of numbers", _list, {"type": "array", "items": NUMBER.schema, "minItems": 1, "maxItems": MOST})
+
+
+def _form(item: Item) -> Value | None:
+    if isinstance(item.value, dict | list):
+        return RANGE if isinstance(item.value, dict) else LIST
+    return item.fault(f"{described(item.value)} where a range is wanted", SUCH)
+
+
+PATH = Kind("path of a number", lambda item, names: None, {"type": "string", "minLength": 1})
+VARY = Named(Either((RANGE, LIST), _form), PATH, _path)

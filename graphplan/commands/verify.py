@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
     from graphplan.marking.classroom.class_list import Marked
     from graphplan.marking.judge.score import Weights
+    from graphplan.marking.traces import Frames, Submission
     from graphplan.phrases import Said
 
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
@@ -93,23 +94,34 @@ class Desk:
 
     def marked(self, path: Path) -> Marked:
         """A drawing judged; fails with `Refused` where it cannot be."""
+        from graphplan.marking.submission import read
+        from graphplan.sheet.handout import code, task
+
+        composition = self.on_sheet.composition
+        size = composition.arrangement.width, composition.arrangement.height
+        found = read(path, list(composition.views), self.frames,  # task and guided version have the same plans
+                     lambda: task(composition)[0], code(composition), size)
+        return self.judged(found)
+
+    @property
+    def frames(self) -> Frames:
+        """Where the plans lie on the sheet that was printed."""
+        from graphplan.marking.traces import PlanFrame
+
+        views = self.on_sheet.composition.views
+        return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
+
+    def judged(self, submission: Submission) -> Marked:
+        """The same of what was read of it."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom.class_list import Marked
         from graphplan.marking.judge.judge import judge, judge_any_method
         from graphplan.marking.judge.score import score
-        from graphplan.marking.submission import read
-        from graphplan.marking.traces import PlanFrame
-        from graphplan.sheet.handout import code, task
 
-        composition = self.on_sheet.composition
-        frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
-        size = composition.arrangement.width, composition.arrangement.height
-        submission = read(path, list(composition.views), frames,  # task and guided version have the same plans
-                          lambda: task(composition)[0], code(composition), size)
-        work = self.on_sheet.drawing, composition, submission, self.on_sheet.pencil
+        work = self.on_sheet.drawing, self.on_sheet.composition, submission, self.on_sheet.pencil
         found = (judge(*work) if self.options.method
                  else judge_any_method(*work, self.options.plan, self.options.inertia, construct))
-        judgement = replace(found, name=printable(path.name))
+        judgement = replace(found, name=printable(submission.name))
         return Marked(judgement, score(judgement, self.weights))
 
 

@@ -17,7 +17,7 @@ from typing import Any
 import matplotlib
 import numpy as np
 from matplotlib.backends.backend_agg import RendererAgg
-from matplotlib.backends.backend_pdf import Name, PdfFile, RendererPdf
+from matplotlib.backends.backend_pdf import Name, Op, PdfFile, RendererPdf
 from matplotlib.colors import to_rgb
 from matplotlib.font_manager import FontProperties
 from matplotlib.ft2font import FT2Font
@@ -27,7 +27,19 @@ from matplotlib.transforms import Affine2D
 
 from graphplan.errors import Refused
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, lowered
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Spot, Text
+from graphplan.sheet.plates.display import (
+    Arc,
+    Arrow,
+    Circle,
+    Item,
+    Photograph,
+    Polygon,
+    Polyline,
+    Rect,
+    Sheet,
+    Spot,
+    Text,
+)
 from graphplan.sheet.plates.pens import PAPER, Pen
 
 INCH = 25.4
@@ -47,8 +59,9 @@ def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> byte
     """
     written, about = io.BytesIO(), {"Title": title or sheets[0].title, "Creator": "graphplan", "Producer": "graphplan",
                                     "CreationDate": None}
+    make: Any = _PdfFile
     with matplotlib.rc_context(SETTINGS):
-        file: Any = PdfFile(written, metadata=about)
+        file = make(written, metadata=about)
         heard = {"Lang": language or sheets[0].language, "ViewerPreferences": {"DisplayDocTitle": True}}
         file.writeObject(file.rootObject, {"Type": Name("Catalog"), "Pages": file.pagesObject, **heard})
         for sheet in sheets:
@@ -73,6 +86,20 @@ def png(sheet: Sheet, dpi: float = 150) -> bytes:
         _Painter(renderer).sheet(sheet)
         imsave(written, np.asarray(renderer.buffer_rgba()), format="png", dpi=dpi, metadata=about)
     return written.getvalue()
+
+
+class _PdfFile(PdfFile):
+    """A document whose pictures are photographs, each as the JPEG that it is."""
+
+    def writeImages(self) -> None:
+        """Write what stands behind the names of pictures."""
+        file: Any = self
+        for photograph, _, place in file._images.values():
+            wide, high = photograph.pixels
+            head = {"Type": Name("XObject"), "Subtype": Name("Image"), "Width": wide, "Height": high,
+                    "ColorSpace": Name("DeviceGray"), "BitsPerComponent": 8, "Filter": Name("DCTDecode")}
+            with matplotlib.rc_context({"pdf.compression": 0}):  # it is compressed already
+                file.outputStream(place, photograph.jpeg, extra=head)
 
 
 class _Painter:
@@ -108,6 +135,8 @@ class _Painter:
                 self._arrow(item)
             case Text():
                 self._text(item)
+            case Photograph() if isinstance(self.renderer, RendererPdf):
+                self._photograph(item)
             case _:
                 raise TypeError(f"no ink for {type(item).__name__}")
 
@@ -117,6 +146,12 @@ class _Painter:
             self._stroke(arrow.pen, Path(shaft))
         for spots, fill in arrow.figures:
             self._stroke(Pen(0.0), Path([*spots, spots[0]], closed=True), fill)
+
+    def _photograph(self, item: Photograph) -> None:
+        """A picture by its name in the file, which has it once."""
+        file, rect = self.renderer.file, item.rect
+        place = (side * self.mm for side in (rect.width, 0, 0, rect.height, rect.left, rect.bottom))
+        file.output(Op.gsave, *place, Op.concat_matrix, file.imageObject(item), Op.use_xobject, Op.grestore)
 
     def _stroke(self, pen: Pen, path: Path, fill: str = "none") -> None:
         """A path in mm, drawn with a pen and filled."""

@@ -34,7 +34,9 @@ from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.plates.display import Sheet
 from graphplan.words.tongue import Tongue
 
+PICTURES = "img-src data:; "  # the policy of a page with pictures of its own
 EACH = phrase("Each step is judged from the student's own earlier marks.")
+LONGEST = 16.0  # em: the longest bar
 FIGURE, STATE = "figure", "state"  # the classes of cells: of numbers, and of verdicts
 
 
@@ -67,7 +69,7 @@ def class_list(found: Classroom, tongue: Tongue) -> str:
 
 
 @dataclass(frozen=True)
-class _HtmlPage:
+class HtmlPage:
     """A page in a tongue."""
 
     tongue: Tongue
@@ -76,9 +78,9 @@ class _HtmlPage:
         """Words as HTML."""
         return escape(self.tongue(text))
 
-    def page(self, title: str, body: Iterable[str]) -> str:
-        """The whole page; the body is HTML."""
-        parts = {"language": self.tongue.code, "title": escape(title), "body": "\n".join(body)}
+    def page(self, title: str, body: Iterable[str], pictures: str = "") -> str:
+        """The whole page; the body is HTML, with `pictures` of the kind that is said."""
+        parts = {"language": self.tongue.code, "title": escape(title), "body": "\n".join(body), "pictures": pictures}
         text = files(__package__).joinpath("report_page.html").read_text("utf-8")
         return re.sub(r"\{\{(\w+)\}\}", lambda slot: parts[slot[1]], text)
 
@@ -92,9 +94,19 @@ class _HtmlPage:
             yield f'<tr class="{look}">' + "".join(cell.element(not i) for i, cell in enumerate(cells)) + "</tr>"
         yield "</tbody></table></div>"
 
+    def bars(self, head: str, counts: Mapping[str, int], whole: int) -> Iterator[str]:
+        """Counts of this whole as a table with a bar for each; nothing if there are none."""
+        if not counts:
+            return
+        most = max(1, *counts.values())
+        rows = [("", (HtmlCell(name), HtmlCell(str(count), FIGURE),
+                      HtmlCell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
+                for name, count in counts.items()]
+        yield from self.table(head, said("How many drawings, of {0}.", whole), ("", said("Drawings"), ""), rows)
+
 
 @dataclass(frozen=True)
-class _Report(_HtmlPage):
+class _Report(HtmlPage):
     """One judgement in words."""
 
     judgement: Judgement
@@ -189,14 +201,11 @@ def picture(sheet: Sheet) -> str:
     return text[text.index("<svg "):]
 
 
-LONGEST = 16.0  # em: the longest bar
-
-
 # ---- the report of a class ------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True)
-class _ClassList(_HtmlPage):
+class _ClassList(HtmlPage):
     """One class in words."""
 
     found: Classroom
@@ -206,9 +215,9 @@ class _ClassList(_HtmlPage):
         yield f"<h1>{escape(self.found.title)}</h1>"
         yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
         first = {self.say(step.told): count for step, count in self.found.histogram.items()}
-        yield from self._bars(said("First wrong step"), first)
+        yield from self.bars(said("First wrong step"), first, len(self.found.marked))
         kinds = {self.say(mistaken(kind)): count for kind, count in self.found.mistakes.items()}
-        yield from self._bars(said("Mistakes"), kinds)
+        yield from self.bars(said("Mistakes"), kinds, len(self.found.marked))
         yield from self._drawings()
         yield from self._unread()
 
@@ -229,14 +238,3 @@ class _ClassList(_HtmlPage):
             rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
             yield from self.table(NOT_JUDGED(), said("Files that could not be read, or show no such drawing."),
                                   (said("Drawing"), said("Reason")), rows)
-
-    def _bars(self, head: str, counts: Mapping[str, int]) -> Iterator[str]:
-        """Counts as a table with a bar for each; nothing if there are none."""
-        if not counts:
-            return
-        most = max(counts.values())
-        rows = [("", (HtmlCell(name), HtmlCell(str(count), FIGURE),
-                      HtmlCell(f'<span class="bar" style="width: {LONGEST * count / most:.2f}em"></span>')))
-                for name, count in counts.items()]
-        caption = said("How many drawings, of {0}.", len(self.found.marked))
-        yield from self.table(head, caption, ("", said("Drawings"), ""), rows)

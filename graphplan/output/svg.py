@@ -6,6 +6,7 @@ same text.
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import groupby
@@ -15,7 +16,19 @@ import svgwrite
 from svgwrite.text import TSpan
 
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, lowered, width
-from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Outline, Polygon, Polyline, Sheet, Spot, Text
+from graphplan.sheet.plates.display import (
+    Arc,
+    Arrow,
+    Circle,
+    Item,
+    Outline,
+    Photograph,
+    Polygon,
+    Polyline,
+    Sheet,
+    Spot,
+    Text,
+)
 from graphplan.sheet.plates.pens import PAPER, Pen
 
 FINE = 4  # decimals of a radius: what is left of one moves the middle of a half circle much farther
@@ -106,6 +119,8 @@ class _SheetWriter:
                 return self._arrow(item)
             case Text():
                 return self._text(item)
+            case Photograph():
+                return self._photograph(item)
         raise TypeError(f"no SVG for {type(item).__name__}")
 
     def _outline(self, item: Outline) -> Element:
@@ -120,6 +135,11 @@ class _SheetWriter:
         (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), rounded(arc.radius, FINE)
         large = int(arc.end - arc.start > 180)
         return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **_look(arc.pen) | {"fill": "none"})
+
+    def _photograph(self, item: Photograph) -> Element:
+        size = rounded(item.rect.width), rounded(item.rect.height)
+        data = f"data:image/jpeg;base64,{b64encode(item.jpeg).decode()}"
+        return MAKE.image(data, self._spot((item.rect.left, item.rect.top)), size, preserveAspectRatio="none")
 
     def _arrow(self, arrow: Arrow) -> Element:
         """The shaft ends in the head, so that the tip is sharp; data-from and data-to keep the true ends."""

@@ -71,7 +71,7 @@ def overlay(judgement: Judgement, score: Score) -> list[Sheet]:
     over = [faint(item) for item in solution.items if item.layer not in (*BESIDE, RESULTS)]
     student = StudentStrokes(judgement)
     over += student.items()
-    over += [item for panel in composition.views for item in _told(student, panel, over)]
+    over += [item for panel, view in composition.views.items() for item in told(student, panel, view.rect, over)]
     words = arrangement.set(lambda wide: Remarks(composition.plans).lines(wide, judgement, score))
     about, pages = replace(solution, description=tongue(opinion(judgement))), packed(words, arrangement)
     sheets = []
@@ -91,10 +91,10 @@ def faint(item: Item) -> Item:
     return replace(item, pen=Pen(min(pen.width, THIN), FAINT, pen.dash, fill))
 
 
-def _told(student: StudentStrokes, panel: str, items: Sequence[Item]) -> Iterator[Item]:
-    """On one plan: the first wrong step called out, the others by their numbers."""
+def told(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
+    """On one plan, in its rectangle: the first wrong step called out, the others by their numbers."""
     judgement, here, others = student.judgement, list(items), list[StudentMark]()
-    drawn, rect = judgement.drawing.drawn, judgement.composition.views[panel].rect
+    drawn = judgement.drawing.drawn
     letters = judgement.composition.arrangement.letters
     wrong = [mark for mark in student.marks if mark.verdict.state == WRONG and mark.wanted.panel == panel]
     for mark in wrong:
@@ -121,18 +121,25 @@ def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
 def callout(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
             pen: Pen, size: float = SIZE) -> Iterator[Item]:
     """The box with its leader, in letters of a size; `items` are what it should not cover."""
+    box, words = boxed(sentence, names, spot, items, rect, pen, size)
+    nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
+    leader = off(spot, unit(spot, nearest), RING)
+    yield Circle(pen.filled("none"), LAYER, None, spot, RING)
+    yield Polyline(pen, LAYER, None, (leader, nearest))
+    yield from words
+
+
+def boxed(sentence: str, names: tuple[str, ...], spot: Spot, items: Sequence[Item], rect: Rect,
+          pen: Pen, size: float = SIZE) -> tuple[Rect, list[Item]]:
+    """A box near a spot, and the box with its words."""
     room = min(WIDEST, rect.width - 4 * PAD)
     lines = wrap(sentence_runs(sentence, names), size, room)
     wide = max(width(line, size) for line in lines) + 2 * PAD
     high = size * (CAPS + LEADING * (len(lines) - 1)) + 2 * PAD
     box = _box(wide, high, spot, items, rect)
-    nearest = min(max(spot[0], box.left), box.right), min(max(spot[1], box.bottom), box.top)
-    leader = off(spot, unit(spot, nearest), RING)
-    yield Circle(pen.filled("none"), LAYER, None, spot, RING)
-    yield Polyline(pen, LAYER, None, (leader, nearest))
-    yield Polygon(pen.filled(PAPER), LAYER, None, box.corners)
-    for i, runs in enumerate(lines):
-        yield Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - size * (CAPS + LEADING * i)), runs, size)
+    words = (Text(LETTERS, LAYER, None, (box.left + PAD, box.top - PAD - size * (CAPS + LEADING * i)), runs, size)
+             for i, runs in enumerate(lines))
+    return box, [Polygon(pen.filled(PAPER), LAYER, None, box.corners), *words]
 
 
 def _box(wide: float, high: float, spot: Spot, items: Sequence[Item], rect: Rect) -> Rect:
@@ -256,9 +263,9 @@ class StudentStrokes:
             yield from _clipped(mark.tolerance(), mark.wanted.view)
         for verdict in self.judgement.verdicts:
             if verdict.state == UNSURE and verdict.trace is None:
-                yield from _point(self._about(verdict), UNSURE, verdict.step)
+                yield from _point(self.about(verdict), UNSURE, verdict.step)
 
-    def _about(self, verdict: Verdict) -> Spot:
+    def about(self, verdict: Verdict) -> Spot:
         """Where what cannot be told should be: a point, or the middle of the marks on a line or an arc, or the foot on
         it from the middle of its panel."""
         plates = self.judgement.composition.plates

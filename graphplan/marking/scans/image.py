@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import closing
+from contextlib import closing, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -88,24 +88,62 @@ def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     return np.asarray(image, np.uint8)
 
 
+def count(path: Path) -> int:
+    """How many pictures there are in a file: the pages of a document, however large it is, else one.
+
+    Fails with `Refused` where it is a document that cannot be opened.
+    """
+    if not _is_document(path):
+        return 1
+    with _opened(path, path) as document:
+        return len(document)
+
+
+def picture(path: Path, number: int) -> Grey:
+    """One picture of a file, counted from 1; of a document, which may be large, no other page is drawn. Fails as
+    `pictures` does."""
+    if not _is_document(path):
+        return next(pictures(path))
+    with _opened(path, path) as document:
+        return _drawn(path, document, number - 1)
+
+
+def _is_document(path: Path) -> bool:
+    """Whether a file begins as a PDF does."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(PDF)) == PDF
+    except OSError:
+        return False
+
+
 def _pages(path: Path, data: bytes) -> Iterator[Grey]:
     """The pages of a document, each drawn in turn."""
+    with _opened(path, data) as document:
+        for number in range(min(len(document), PAGES)):
+            yield _drawn(path, document, number)
+
+
+@contextmanager
+def _opened(path: Path, source: bytes | Path) -> Iterator[Any]:
+    """The document in a file, or in its bytes."""
     try:
         import pypdfium2 as pdfium
     except ImportError as error:
         raise Refused(f"{path}", "pages of a PDF are opened by pypdfium2, which is not installed",
                       "pip install 'graphplan[scan]', or hand in a PNG or JPEG") from error
     try:
-        document = pdfium.PdfDocument(data)
-    except pdfium.PdfiumError as error:
+        document = pdfium.PdfDocument(source)
+    except (pdfium.PdfiumError, OSError) as error:
         raise Refused(f"{path}", "the document is broken, or locked by a password", DO) from error
     with closing(document):
-        for number in range(min(len(document), PAGES)):
-            yield _drawn(path, pdfium, document, number)
+        yield document
 
 
-def _drawn(path: Path, pdfium: Any, document: Any, number: int) -> Grey:
+def _drawn(path: Path, document: Any, number: int) -> Grey:
     """One page of a document, whose pictures are not too large either."""
+    import pypdfium2 as pdfium
+
     try:
         page = document[number]
         scale = DPI / POINTS
@@ -137,3 +175,8 @@ def smaller(image: Grey, pixels: float) -> Grey:
     if shrink >= 1:
         return image
     return np.asarray(cv2.resize(image, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA), np.uint8)
+
+
+def jpeg(image: Grey, quality: int) -> bytes:
+    """A picture as a JPEG file, kept so well, of 100."""
+    return bytes(cv2.imencode(".jpg", image, [cv2.IMWRITE_JPEG_QUALITY, quality])[1])

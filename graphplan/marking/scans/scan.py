@@ -25,7 +25,7 @@ from graphplan.marking.scans import strokes
 from graphplan.marking.scans.image import Grey, contrast, pictures, smaller
 from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
 from graphplan.marking.scans.printed_ink import picture
-from graphplan.marking.scans.straighten import straighten
+from graphplan.marking.scans.straighten import Warp, straighten
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.plates.display import Sheet
 
@@ -40,10 +40,19 @@ def read_scan(path: Path, printed: Sheet, frames: Frames, code: int | None = Non
 
     Fails with `Refused` where the file is no picture, not one of this page, or nothing is drawn on it.
     """
-    page = read_page(path, printed, code)
+    return _drawn(read_page(path, printed, code), f"{path}", frames)
+
+
+def read_picture(image: Grey, name: str, printed: Sheet, frames: Frames, code: int | None = None) -> Submission:
+    """The same of a picture. Fails as `read_scan`."""
+    return _drawn(_page(image, printed, code, name), name, frames)
+
+
+def _drawn(page: PencilPage, name: str, frames: Frames) -> Submission:
+    """What was drawn on a page."""
     if all(trace.kind == POINT for trace in page.traces):
-        raise Refused(f"{path}", "nothing is drawn on the page", "hand in a scan of the drawing, not of the empty task")
-    return Submission(path.name, page.traces, shows=SHOWS, frames=frames, page=page)
+        raise Refused(name, "nothing is drawn on the page", "hand in a scan of the drawing, not of the empty task")
+    return Submission(Path(name).name, page.traces, shows=SHOWS, frames=frames, page=page)
 
 
 def read_page(path: Path, printed: Sheet, code: int | None = None) -> PencilPage:
@@ -64,7 +73,7 @@ def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPag
     light = picture(printed, scale)
     straight, found = straighten(smaller(image, PIXELS), printed, light, scale, code, name)
     pencil = pencil_ink(straight, printed, light, scale)
-    return PencilPage(pencil, ridges(pencil), found.error)
+    return PencilPage(pencil, ridges(pencil), found.error, found.warp)
 
 
 WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
@@ -126,11 +135,13 @@ HIDDEN = 0.6  # the share of a stroke that print may hide
 
 @dataclass(frozen=True)
 class PencilPage:
-    """The pencil on a page, its crests, and how unsure their places are, as a standard deviation in mm."""
+    """The pencil on a page, its crests, how unsure their places are, as a standard deviation in mm, and how the picture
+    shows the sheet."""
 
     ink: Ink
     found: Ridges
     error: float
+    warp: Warp
 
     @cached_property
     def traces(self) -> tuple[Trace, ...]:

@@ -98,7 +98,7 @@ def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
 
     Fails with `Refused` where the marks are those of another sheet.
     """
-    seen = _detected(image)
+    seen = detected(image)
     if code is None:
         small_first = sorted(seen, key=lambda mark: abs(enclosed(mark[1])))  # what looks like a mark by chance is small
         return {number >> BITS: rim for number, rim in small_first}
@@ -110,7 +110,7 @@ def find(image: Grey, code: int | None, name: str) -> dict[int, Spots]:
     return found
 
 
-def _detected(image: Grey) -> list[tuple[int, Spots]]:
+def detected(image: Grey) -> list[tuple[int, Spots]]:
     """Every mark in the picture with its number, its corners to a part of a pixel."""
     settings = cv2.aruco.DetectorParameters()
     settings.minMarkerPerimeterRate = SMALLEST / max(image.shape)

@@ -1,6 +1,6 @@
 """The display list: what lies on the sheet, in millimetres, x to the right and y up from its lower left corner.
 
-Plain frozen data. A back end draws these seven things and needs to know nothing of mechanics; `step` is the drawing
+Plain frozen data. A back end draws these eight things and needs to know nothing of mechanics; `step` is the drawing
 step that an item belongs to, so that a stepper can show or light up one movement at a time.
 """
 
@@ -191,6 +191,15 @@ class Text(Item):
         long = width(self.runs, self.size, self.bold)
         left = self.at[0] - long * ANCHORS[self.anchor]
         return Rect(left, self.at[1] - DEPTH * self.size, left + long, self.at[1] + CAPS * self.size)
+
+
+@dataclass(frozen=True)
+class Photograph(Item):
+    """A grey picture that fills a rectangle: a JPEG, and how many pixels it is wide and high."""
+
+    rect: Rect
+    jpeg: bytes
+    pixels: tuple[int, int]
 
 
 def moved(item: Item, dx: float, dy: float, times: float = 1.0) -> Item:

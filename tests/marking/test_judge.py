@@ -72,12 +72,11 @@ def test_every_mistake_is_held_against_its_own_step(kind: str) -> None:
     for name in ("alt-eight-link", "jaanimets-11", "four-bar", "slotted-link"):
         drawing, sheet = composed(name)
         ways = frames(drawing, sheet)
-        clean = draw(drawing, ways, PENCIL, 5)
-        steps = [step for step in drawing.drawn.steps if MISTAKES[kind].at(step.op)]
-        for index in rng.permutation(len(steps))[:6]:
-            step = steps[index]
-            slips = [mistake for mistake in slipped(drawing, step.index) if mistake.kind == kind]
-            drawn = draw(drawing, ways, PENCIL, 5, {step.index: slips[0]}) if slips else clean
+        made = [slip for step in drawing.drawn.steps if MISTAKES[kind].at(step.op)
+                for slip in slipped(drawing, step.index) if slip.kind == kind]
+        for place in rng.permutation(len(made))[:9]:
+            step, slip = drawing.drawn.steps[made[place].step.index], made[place]
+            drawn = draw(drawing, ways, PENCIL, 5, {step.index: slip})
             if None in drawn.values or wrong_by(drawn, step) < 5.0:  # by chance it is as it should be
                 continue
             found = judge(drawing, sheet, whole(drawn), PENCIL)

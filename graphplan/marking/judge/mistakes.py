@@ -11,7 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Any
 
 from graphplan.errors import Undrawable
@@ -22,32 +22,36 @@ from graphplan.kernel.program import Program, Step
 from graphplan.methods.motion.acceleration import CORIOLIS, NORMAL
 from graphplan.phrases import Phrase, Said, digits, phrase, said
 
-FACTORS = (2.0, 0.5, 10.0, 0.1, 1.5)  # the scales that are mistaken for each other
+FACTORS = (10.0, 0.1, 1.5)  # the scales that are mistaken for each other
 
 
 @dataclass(frozen=True)
 class Mistake:
-    """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, or the radius, is
-    multiplied by `factor`; a point is mirrored in the line of two marks."""
+    """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
+    from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
+    `radii` over that of the others; a point is mirrored in the line of two marks."""
 
     kind: str
     told: Said
     step: Step
     factor: complex = 1.0
     mirror: tuple[int, int] | None = None
+    start: int | None = None
+    radii: tuple[int, int, int, int] | None = None
 
     def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
         made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
         if self.mirror:
             return _mirrored(domain, made, *(values[arg] for arg in self.mirror))
-        if self.factor == 1.0:
+        if self.factor == 1.0 and not self.radii:
             return made
         if self.step.op.gives == CIRCLE:
             return *made[:2], made[2] * abs(self.factor) ** 2
-        assert self.step.root is not None, f"{self.step.op.name} lays nothing off"
-        start = values[self.step.root]
-        dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real, self.factor.imag
+        root = self.step.root if self.start is None else self.start
+        assert root is not None, f"{self.step.op.name} lays nothing off"
+        start, ratio = values[root], _ratio(domain, *(values[mark] for mark in self.radii)) if self.radii else 1.0
+        dx, dy, c, s = made[0] - start[0], made[1] - start[1], self.factor.real * ratio, self.factor.imag * ratio
         return start[0] + c * dx - s * dy, start[1] + s * dx + c * dy
 
 
@@ -69,22 +73,80 @@ def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
     return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
 
 
+def _ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
+    """The distance PQ over the distance RS."""
+    one, two = ((B[0] - A[0]) * (B[0] - A[0]) + (B[1] - A[1]) * (B[1] - A[1]) for A, B in ((P, Q), (R, S)))
+    return domain.sqrt(one / domain.nonzero(two, 1.0, "points-coincide", "the two points coincide"), "", "")
+
+
+NORMAL_VECTOR = phrase("the normal acceleration of {0} about {1}")
+CORIOLIS_VECTOR = phrase("the Coriolis acceleration of {0} relative to {1}")
+STAGE_VECTOR, VECTOR = phrase("the vector {0}"), phrase("the vector")
+THINGS = {NORMAL_VECTOR: phrase("normal acceleration"), CORIOLIS_VECTOR: phrase("Coriolis acceleration")}
+
+
+@dataclass(frozen=True)
+class Vector:
+    """A vector that steps lay off: of which kind it is and of which points, and the mark at which it begins."""
+
+    words: Phrase
+    of: tuple[str, ...]
+    start: int | None
+
+    @property
+    def named(self) -> Said:
+        """The vector in mechanics' words."""
+        return self.words(*self.of)
+
+
+def vector_of(program: Program, step: Step, plan_of_step: Sequence[str]) -> Vector:
+    """What a step lays off, whole or in part, as the steps of its stage say that are drawn on the same plan."""
+    alike = [other for other in program.steps if other.index == step.index or (
+        step.stage is not None and other.stage is step.stage
+        and plan_of_step[other.index] == plan_of_step[step.index])]
+    for law, words in ((NORMAL, NORMAL_VECTOR), (CORIOLIS, CORIOLIS_VECTOR)):
+        for other in alike:
+            if isinstance(other.why, Said) and law.says(other.why):
+                start, parts = step.root, {one.index for one in alike}
+                while start in parts and (root := program.steps[start].root) is not None:
+                    start = root
+                return Vector(words, other.why.put, start)
+    equations = step.stage(()).equations if step.stage and step.name else ()
+    if equations:
+        return Vector(STAGE_VECTOR, (equations[0].vectors[0].name,), step.root)
+    return Vector(VECTOR, (), step.root)
+
+
 @dataclass(frozen=True)
 class Occasion:
-    """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step."""
+    """A step of a program at which a mistake of a kind can be made; `plan_of_step` is the plan of every step, `vector`
+    what it lays off, if anything."""
 
     kind: str
     program: Program
     step: Step
     plan_of_step: Sequence[str]
+    vector: Vector | None = None
 
     def text(self, place: int = 0) -> str:
         """What the step reads at a place, by its letters."""
         return self.program.text(self.step.args[place])
 
-    def made(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None, **changed: Any) -> Mistake:
+    def made(self, told: Said, factor: complex = 1.0, mirror: tuple[int, int] | None = None, start: int | None = None,
+             radii: tuple[int, int, int, int] | None = None, **changed: Any) -> Mistake:
         """The step as it is drawn by mistake, with something changed."""
-        return Mistake(self.kind, told, replace(self.step, **changed), factor, mirror)
+        return Mistake(self.kind, told, self.step.but(**changed), factor, mirror, start, radii)
+
+    def given(self, name: str) -> int | None:
+        """The given point of this name."""
+        return next((step.index for step in self.program.steps[:self.program.givens] if step.name == name), None)
+
+    @property
+    def sides(self) -> list[tuple[int, int]]:
+        """The given points that a step joins, two by two: sides of links."""
+        givens = self.program.givens
+        pairs = (step.args for step in self.program.steps if step.op.spans or step.op.root is not None)
+        return list(dict.fromkeys((args[0], args[1]) for args in pairs if len(args) > 1 and max(args[:2]) < givens))
 
     def instead(self, told: Phrase, *places: int) -> Iterator[Mistake]:
         """The step with another mark, of the same kind and plan, read at a place, told by the names of both."""
@@ -105,7 +167,7 @@ Operations = Callable[[Primitive], bool]
 class MistakeKind:
     """One kind of mistake: how it is told of a class, at which operations it can be made, and as which steps."""
 
-    words: Phrase
+    words: Callable[[], Said]
     at: Operations
     rule: Rule
 
@@ -113,7 +175,7 @@ class MistakeKind:
 MISTAKES: dict[str, MistakeKind] = {}
 
 
-def mistake(kind: str, words: Phrase, at: Operations) -> Callable[[Rule], Rule]:
+def mistake(kind: str, words: Callable[[], Said], at: Operations) -> Callable[[Rule], Rule]:
     """Enter the decorated rule in the table."""
 
     def enter(rule: Rule) -> Rule:
@@ -135,9 +197,10 @@ def laid_off(op: Primitive) -> bool:
 
 def mistakes(program: Program, step: Step, plan_of_step: Sequence[str]) -> Iterator[Mistake]:
     """All the mistakes of the table that can be made at a step."""
+    vector = vector_of(program, step, plan_of_step) if laid_off(step.op) else None
     for kind, entry in MISTAKES.items():
         if entry.at(step.op):
-            yield from entry.rule(Occasion(kind, program, step, plan_of_step))
+            yield from entry.rule(Occasion(kind, program, step, plan_of_step, vector))
 
 
 ALIGNED = by(Movement.PARALLEL, Movement.PERPENDICULAR)
@@ -167,26 +230,53 @@ def _(at: Occasion) -> Iterable[Mistake]:
         yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 
-@mistake("reversed", phrase("the vector has the wrong sense"), laid_off)
-def _(at: Occasion) -> Iterable[Mistake]:
-    if NORMAL.says(at.step.why):
-        told = said("the normal acceleration points away from the centre")
-    elif CORIOLIS.says(at.step.why):
-        told = said("the Coriolis acceleration is reversed")
-    else:
-        told = said("the vector has the wrong sense")
-    return [at.made(told, -1.0)]
+DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {
+    "omitted": (phrase("{0} omitted"), (0.0,)),
+    "reversed": (phrase("{0} reversed"), (-1.0,)),
+    "turned the wrong way": (phrase("{0} turned the wrong way"), (1j, -1j)),
+    "halved": (phrase("{0} halved"), (0.5,)),
+    "doubled": (phrase("{0} doubled"), (2.0,)),
+}
 
 
-@mistake("turned the wrong way", phrase("the vector is a quarter turn off"), laid_off)
-def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("the vector is a quarter turn off"), factor) for factor in (1j, -1j)]
+def _enter(words: Phrase | None, deed: str) -> None:
+    """Enter in the table what may be done to the vectors of a law, or to those of none."""
+    told, factors = DEEDS[deed]
+    thing = THINGS[words] if words else phrase("a vector")
+
+    def rule(at: Occasion) -> Iterable[Mistake]:
+        assert at.vector is not None
+        if (at.vector.words if at.vector.words in THINGS else None) is words:
+            for factor in factors:
+                yield at.made(told(at.vector.named), factor, start=at.vector.start)
+
+    mistake(f"{thing()} {deed}" if words else deed, lambda: told(thing()), laid_off)(rule)
+
+
+for _words in (*THINGS, None):
+    for _deed in DEEDS:
+        _enter(_words, _deed)
 
 
 @mistake("wrong scale", phrase("a vector of the wrong length"), laid_off)
 def _(at: Occasion) -> Iterable[Mistake]:
-    return [at.made(said("the vector is {0} times as long as it should be", digits(factor, 2)), factor)
-            for factor in FACTORS]
+    assert at.vector is not None
+    return [at.made(said("{0} is {1} times as long as it should be", at.vector.named, digits(factor, 2)), factor,
+                    start=at.vector.start) for factor in FACTORS]
+
+
+@mistake("wrong radius", phrase("a normal acceleration over the wrong radius"), laid_off)
+def _(at: Occasion) -> Iterable[Mistake]:
+    """The square of the velocity over the length of another link."""
+    assert at.vector is not None
+    ends = [at.given(name) for name in at.vector.of] if at.vector.words is NORMAL_VECTOR else []
+    if len(ends) == 2 and None not in ends:
+        one, other = (end for end in ends if end is not None)
+        for P, Q in at.sides:
+            if {P, Q} != {one, other}:
+                told = said("{0} with the radius {1}{2} instead of {3}{4}", at.vector.named, *map(
+                    at.program.text, (P, Q)), *at.vector.of)
+                yield at.made(told, start=at.vector.start, radii=(one, other, P, Q))
 
 
 @mistake("wrong line", phrase("parallel or perpendicular to the wrong line"), ALIGNED)

@@ -102,7 +102,7 @@ class Register:
             start = matching.steps[index].root
             if start in spots:
                 vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
-                if vector is not None and vector[0]:
+                if vector is not None and vector[0] and end != spots[start][1]:
                     unit = (end - spots[start][1]) / vector[0]
                     yield unit, vector[1] / abs(vector[0])
 

@@ -37,3 +37,8 @@ def mark(name: str) -> str:
 def greek(name: str) -> bool:
     """Whether the name is a Greek letter's, as those of lines are."""
     return name.rstrip("'").partition("_")[0].lower() in GREEK
+
+
+def lined(name: str) -> bool:
+    """Whether a name may stand beside a line: a Greek letter's or a number."""
+    return greek(name) or name.isdigit()

@@ -10,7 +10,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
 
+import shapely
+from shapely import LineString, Point, Polygon
+
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.spelling import mark
+from graphplan.sheet.lettering.lettering import CAPS
 
 Spot = tuple[float, float]
 SPOTS = {POINT: 1, LINE: 2, CIRCLE: 3}  # how many spots at least say where a thing lies
@@ -36,6 +41,36 @@ class Trace:
     def __post_init__(self) -> None:
         if len(self.spots) < SPOTS[self.kind]:
             raise ValueError(f"a {self.kind} needs {SPOTS[self.kind]} spots, {self.label or 'one'} has {self.spots}")
+
+    @property
+    def figure(self) -> Point | LineString:
+        """It as a figure on the sheet, of an arc its chords."""
+        return Point(*self.spots[0]) if self.kind == POINT else LineString(self.spots)
+
+
+@dataclass(frozen=True)
+class Lettering:
+    """Letters on the sheet: where their base line begins and how long it is, the size of the letters, and where their
+    leader ends if they have one; all in mm."""
+
+    text: str
+    at: Spot
+    size: float
+    long: float = 0.0
+    leads: Spot | None = None
+
+    @property
+    def names(self) -> list[str]:
+        """The marks that are named: several that share a spot stand with commas; other words name none."""
+        whole = mark(self.text)
+        found = [whole] if whole else [mark(part) for part in self.text.split(",")]
+        return found if all(found) else []
+
+    @property
+    def box(self) -> Polygon:
+        """The box of the letters."""
+        (x, y), high = self.at, CAPS * self.size
+        return shapely.box(x, y, x + self.long, y + high)
 
 
 @dataclass(frozen=True)
@@ -90,6 +125,7 @@ class Submission:
 
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
     they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
+    `letters` stand beside marks; which of them each names, the whole drawing tells.
     """
 
     name: str
@@ -99,3 +135,4 @@ class Submission:
     frames: Frames = field(default_factory=dict)
     page: Searched | None = None
     tips: tuple[Spot, ...] = ()
+    letters: tuple[Lettering, ...] = ()

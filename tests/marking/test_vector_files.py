@@ -14,19 +14,20 @@ import ezdxf
 import pytest
 
 import graphplan as gp
+from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import circle
+from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.spelling import spelled
 from graphplan.marking.submission import read
 from graphplan.marking.traces import PlanFrame, Spot, Submission, Trace
 from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
-from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Polyline, Sheet
-from graphplan.sheet.plates.plate import Plates
 
 CSV = """mark,x,y,x2,y2,r
 A,20,30,,,
@@ -135,14 +136,22 @@ def lying(trace: Trace) -> list[float]:
 @pytest.mark.parametrize("name", FORMATS)
 def test_one_figure_in_every_format(tmp_path: Path, name: str) -> None:
     """The same points, lines and circle are read from every format, named alike, and what hides is not."""
-    traces = submission(tmp_path, name, FORMATS[name]).traces
+    found = submission(tmp_path, name, FORMATS[name])
+    traces = found.traces
     assert [trace.kind for trace in sorted(traces, key=_order)] == [POINT, POINT, LINE, LINE, CIRCLE]
-    assert {trace.label: trace.spots[0] for trace in traces if trace.kind == POINT} == {
+    assert named(found) == {
         "A": pytest.approx((20, 30), abs=1e-6), "v_b": pytest.approx((70.5, 12.25), abs=1e-6)}
     curves = [lying(trace) for trace in sorted(traces, key=_order)[2:]]
     assert curves[0] == pytest.approx([10, 80, 90, 80], abs=1e-6)
     assert curves[1] == pytest.approx([20, 30, 70.5, 12.25], abs=1e-6)
     assert curves[2] == pytest.approx([50, 50, 15], abs=1e-6)
+
+
+def named(found: Submission) -> dict[str, Spot]:
+    """The points by their names: those of the file, or the letters nearest to them."""
+    points = [trace for trace in found.traces if trace.kind == POINT]
+    near = {word.names[0]: min(points, key=lambda point: point.figure.distance(word.box)) for word in found.letters}
+    return {name: point.spots[0] for name, point in near.items()} or {point.label: point.spots[0] for point in points}
 
 
 def _order(trace: Trace) -> tuple[int, list[float]]:
@@ -210,14 +219,14 @@ def test_parts_of_the_view(tmp_path: Path) -> None:
 
 
 @lru_cache(maxsize=3)
-def own(scene: str) -> tuple[Sheet, Plates, dict[str, Spot]]:
-    """A scene's sheet, the same as objects, and where its lettered points lie."""
+def own(scene: str) -> tuple[Composition, Sheet, dict[str, Spot]]:
+    """A scene's sheet, as it is composed and as it is laid out, and where its lettered points lie."""
     drawing = gp.construct(gp.load(scene))
     composition = compose(drawing, None, None)
     found = composition.plates
     points = [mark for mark in found.drawn if mark.kind == POINT and mark.view.rect.holds(mark.at)]
     named = {spelled(point.name): point.at for point in points if point.name and not CORNER.fullmatch(point.name)}
-    return layout(drawing, composition=composition), found, named
+    return composition, layout(drawing, composition=composition), named
 
 
 def apart(traces: Iterable[Trace], trace: Trace) -> float:
@@ -244,14 +253,13 @@ def shown(sheet: Sheet) -> Iterable[Trace]:
 
 SCENES = ("four-bar", "alt-eight-link", "rosenauer-loaded")
 CORNER = re.compile("[IVX]+")  # of a force polygon, which has no dot
-LEADERS = 0.25  # of the letters: so many may stand at the end of a leader, nearer to another mark
 
 
 @pytest.mark.parametrize("scene", SCENES)
 def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
     """Everything drawn on a sheet is found in its DXF to 0.001 mm, in its SVG to the hundredths it is written in, and
-    letters name their points but where leaders take them to others."""
-    sheet, _, named = own(scene)
+    letters name their points, also where leaders take them past others."""
+    composition, sheet, named = own(scene)
     for name, data, far in (("own.dxf", dxf(sheet), 1e-3), ("own.svg", svg(sheet).encode(), 5.1e-3)):
         found = submission(tmp_path, name, data, {"N-plan": PlanFrame(0j, 1 + 0j)})
         rims = [Trace(POINT, (spot,)) for trace in found.traces if trace.kind == CIRCLE for spot in trace.spots]
@@ -260,16 +268,16 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
                 assert max(apart(rims, Trace(POINT, (spot,))) for spot in (trace.spots[0], trace.spots[-1])) < far
             else:
                 assert apart(found.traces, trace) < far
-        points = {trace.label: trace.spots[0] for trace in found.traces if trace.kind == POINT}
-        astray = [label for label, at in named.items() if math.dist(points.get(label, (0.0, 0.0)), at) > 2 * far]
-        assert len(astray) <= LEADERS * len(named)
+        told = lettered(composition.plans.drawing, composition, found, Pencil())
+        points = {trace.label: trace.spots[0] for trace in told.traces if trace.kind == POINT}
+        assert not [label for label, at in named.items() if math.dist(points.get(label, (0.0, 0.0)), at) > 2 * far]
         assert found.frames
 
 
 @pytest.mark.parametrize("kind", ["dxf", "svg"])
 def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
     """Plans lie where their frames say on a sheet of the size that is asked for, and anywhere on another."""
-    sheet, path, frames = own("four-bar")[0], tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
+    sheet, path, frames = own("four-bar")[1], tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
     path.write_bytes({"dxf": dxf, "svg": lambda sheet: svg(sheet).encode()}[kind](sheet))
     assert read(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
     assert read(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
@@ -278,7 +286,8 @@ def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
 @pytest.mark.parametrize("scene", SCENES)
 def test_own_geogebra_files_are_read_back(tmp_path: Path, scene: str) -> None:
     """Points by their labels, strokes and arcs by the commands that make them, all to 0.001 mm, without coordinates."""
-    sheet, drawn, named = own(scene)
+    composition, sheet, named = own(scene)
+    drawn = composition.plates
     traces = submission(tmp_path, "own.ggb", geogebra(drawn)).traces
     points = {trace.label: trace.spots[0] for trace in traces if trace.kind == POINT}
     assert max(math.dist(points[label], at) for label, at in named.items()) < 1e-3

@@ -101,6 +101,12 @@ def reach(at: complex, along: complex, spots: Iterable[Spot]) -> tuple[Spot, Spo
     return (start.real, start.imag), (end.real, end.imag)
 
 
+def aside(line: Sequence[Spot], spot: Spot) -> float:
+    """How far a spot lies off an endless line through two others."""
+    a, b = complex(*line[0]), complex(*line[1])
+    return abs(((complex(*spot) - a) * (b - a).conjugate()).imag) / abs(b - a) if a != b else math.dist(line[0], spot)
+
+
 def _size(spots: Iterable[Spot]) -> float:
     """The diagonal of what spots cover."""
     xs, ys = zip(*spots, strict=True)

@@ -1,57 +1,36 @@
 """What a drawing program's file shows, put together: each thing once, sound, and with its letters.
 
-Which words on a drawing name which of the things on it is told by where they stand.
+Which letters name which of the things is not told here: that the whole drawing tells, beside its construction.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import chain
 from pathlib import Path
 
-import shapely
-from shapely import LineString, Point, STRtree
+from shapely import Point, STRtree
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.files.curves import aside
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
-from graphplan.marking.spelling import greek, mark
-from graphplan.marking.traces import Frames, Spot, Submission, Trace
-from graphplan.sheet.lettering.lettering import CAPS, SUBSCRIPT, Run, width
+from graphplan.marking.spelling import lined
+from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.sheet.lettering.lettering import SUBSCRIPT, Run, width
 
-BESIDE = 6.0  # mm from a mark to its letters
-CHOICES = 12  # things nearest to a word that are weighed
 WORDS = 1000  # that may be names; more name nothing
-
-
-@dataclass(frozen=True)
-class Lettering:
-    """Words on the sheet: where their base line begins, in mm, and the size of their letters."""
-
-    text: str
-    at: Spot
-    size: float
-
-    @property
-    def long(self) -> float:
-        """How long the words are, in mm; a subscript is smaller."""
-        stem, _, index = self.text.partition("_")
-        return width((Run(stem), Run(index, -1)), self.size)
-
-    @property
-    def names(self) -> list[str]:
-        """The marks that are named: several that share a spot stand with commas; other words name none."""
-        whole = mark(self.text)
-        found = [whole] if whole else [mark(part) for part in self.text.split(",")]
-        return found if all(found) else []
+LED = 0.6  # of their size that a leader begins beside letters
+AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and from the other to anything; of a leader
 
 
 def lettering(text: str, at: Spot, size: float, anchor: float = 0.0) -> Lettering:
-    """Words that are anchored at a part of their length: 0 at the beginning, 1 at the end."""
-    begun = Lettering(text, at, size)
-    return replace(begun, at=(at[0] - anchor * begun.long, at[1]))
+    """Words that are anchored at a part of their length: 0 at the beginning, 1 at the end; a subscript is smaller."""
+    stem, _, index = text.partition("_")
+    long = width((Run(stem), Run(index, -1)), size)
+    return Lettering(text, (at[0] - anchor * long, at[1]), size, long)
 
 
 def joined(words: Sequence[Lettering]) -> list[Lettering]:
@@ -61,7 +40,7 @@ def joined(words: Sequence[Lettering]) -> list[Lettering]:
     end = math.inf
     for word in words:
         if found and (link := _link(found[-1], end, word)) is not None:
-            found[-1] = replace(found[-1], text=found[-1].text + link + word.text)
+            found[-1] = lettering(found[-1].text + link + word.text, found[-1].at, found[-1].size)
         else:
             found.append(word)
         end = word.at[0] + word.long
@@ -78,40 +57,50 @@ def _link(whole: Lettering, end: float, word: Lettering) -> str | None:
     return "" if abs(smaller - 1) < 0.05 and "_" in whole.text else None
 
 
-def labelled(traces: Sequence[Trace], words: Sequence[Lettering]) -> list[Trace]:
-    """The traces with the names beside them, the nearest pairs first; a thing of several names is several traces.
-
-    Letters name points, Greek ones lines where there are some, and numbers what is nearer. What has a name already
-    gets another only from a word that finds nothing else.
-    """
-    named = [(word, names) for word in words[:WORDS] if (names := word.names)]
-    taken: dict[int, list[str]] = {}
-    if named and traces:
-        things = STRtree([Point(*trace.spots) if trace.kind == POINT else LineString(trace.spots) for trace in traces])
-        wishes = sorted(wish for i, (word, names) in enumerate(named)
-                        for wish in _wishes(i, word, names[0], traces, things))
-        placed: set[int] = set()
-        for shared in (False, True):
-            for _, word, thing in wishes:
-                if word not in placed and (shared or thing not in taken):
-                    taken.setdefault(thing, []).extend(named[word][1])
-                    placed.add(word)
-    return [replace(trace, label=name, beside=i in taken) for i, trace in enumerate(traces)
-            for name in taken.get(i, [trace.label])]
+def led(words: Sequence[Lettering], traces: Sequence[Trace], leaders: Sequence[Trace] | None
+        ) -> tuple[list[Lettering], list[Trace]]:
+    """The words that name marks, with where their leaders end, and the traces without those. Some files know their
+    `leaders`; of another nothing leads from a number or a Greek letter, as those stand where lines end."""
+    strokes = _like_leaders(traces) if leaders is None else leaders
+    words = [word for word in words if word.names]
+    ends, taken = dict[int, tuple[float, Spot]](), set[Trace]()
+    able = [place for place, word in enumerate(words) if leaders is not None or not lined(word.names[0])]
+    boxes = STRtree([words[place].box for place in able])
+    for stroke in strokes if able else ():
+        gap, nearest, far = min(_beside(boxes, *spots) for spots in (stroke.spots, stroke.spots[::-1]))
+        word = able[nearest]
+        if gap < LED * words[word].size and gap < ends.get(word, (math.inf,))[0]:
+            ends[word] = gap, far
+            taken.add(stroke)
+    found = [replace(word, leads=ends[place][1]) if place in ends else word for place, word in enumerate(words)]
+    return found, [trace for trace in traces if trace not in taken]
 
 
-def _wishes(place: int, word: Lettering, name: str, traces: Sequence[Trace], things: STRtree
-            ) -> list[tuple[float, int, int]]:
-    """The things nearest to a word that it may name: how far each is, in mm, the word and the thing."""
-    (x, y), lined = word.at, greek(name) or name.isdigit()
-    box = shapely.box(x, y, x + word.long, y + CAPS * word.size)
-    near = things.query(box, "dwithin", BESIDE)
-    found = []
-    for gap, thing in zip(shapely.distance(things.geometries[near], box), near, strict=True):
-        farther = BESIDE / 2 if greek(name) and traces[thing].kind == POINT else 0.0
-        if traces[thing].kind == POINT or (traces[thing].kind == LINE and lined):
-            found.append((float(gap) + farther, place, int(thing)))
-    return sorted(wish for wish in found if wish[0] < BESIDE)[:CHOICES]
+def _beside(boxes: STRtree, near: Spot, far: Spot) -> tuple[float, int, Spot]:
+    """The letters beside one end of a stroke: how far off they are, which they are, and where the stroke leads."""
+    at = Point(*near)
+    word = int(boxes.nearest(at))
+    return float(boxes.geometries[word].distance(at)), word, far
+
+
+def _like_leaders(traces: Sequence[Trace]) -> list[Trace]:
+    """The short strokes that may be leaders: from a point to where nothing is, past no other point; none that goes on
+    from another line through the point."""
+    lines = [trace for trace in traces if trace.kind == LINE]
+    points = STRtree([Point(*trace.spots[0]) for trace in traces if trace.kind == POINT])
+    figures, strokes = STRtree([trace.figure for trace in traces]), STRtree([trace.figure for trace in lines])
+
+    def leader(line: Trace) -> bool:
+        ends = [Point(*spot) for spot in line.spots]
+        marked = [bool(len(points.query(end, "dwithin", AT))) for end in ends]
+        if line.figure.length > LONGEST or sum(marked) != 1 or len(points.query(line.figure, "dwithin", FREE)) > 1:
+            return False
+        mark, end = ends if marked[0] else ends[::-1]
+        through = (lines[place] for place in strokes.query(mark, "dwithin", AT))
+        return len(figures.query(end, "dwithin", FREE)) == 1 and not any(
+            other is not line and aside(other.spots, (end.x, end.y)) < FREE for other in through)
+
+    return [line for line in lines if leader(line)]
 
 
 NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
@@ -125,8 +114,9 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
 
 
 def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
-            tips: Sequence[Spot] = ()) -> Submission:
-    """A drawing as it was handed in: what is drawn twice is one thing, and words name what they stand beside.
+            tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None
+            ) -> Submission:
+    """A drawing as it was handed in: what is drawn twice is one thing, and letters are tied to their leaders.
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
@@ -138,8 +128,8 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
                           "millimetres of paper as unit of the drawing")
     if not once:
         raise Refused(f"{path}", "nothing is drawn in it, no point, line or circle", "give the drawing itself")
-    sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size)]
-    found = labelled(once, joined(sound))
+    sound = [word for word in words if word.size > 0 and on_paper(*word.at, word.size, word.long)]
+    letters, found = led(joined(sound), once, leaders)
     shows = frozenset({LINE, *(trace.kind for trace in found)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
-    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends)
+    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends, letters=tuple(letters[:WORDS]))

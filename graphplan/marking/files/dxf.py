@@ -17,9 +17,9 @@ from ezdxf.units import MM, conversion_factor
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import bow, curved, full, pieces, reach, tips
-from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
+from graphplan.marking.files.drawing import NO_DRAWING, drawing, lettering, same_paper
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
-from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 
 LARGEST = 8 * MB
@@ -45,7 +45,7 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips)
+    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None)
 
 
 def _document(data: bytes) -> Any:
@@ -79,6 +79,7 @@ class _DxfReader:
         (left, bottom), (right, top) = (self._spot(corner) for corner in corners)
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
         self.traces: list[Trace] = []
+        self.leaders: list[Trace] = []  # of a sheet of graphplan's own
         self.tips: list[Spot] = []
         self.words: list[Lettering] = []
         self.lines: list[tuple[complex, complex]] = []
@@ -103,6 +104,8 @@ class _DxfReader:
                 found = list(self._traces(entity))
                 self.budget.spend(len(found))
                 self.traces += found
+            elif layer == "letters" and entity.dxftype() == "LINE":
+                self.leaders += self._traces(entity)
 
     def _block(self, insert: Any, depth: int) -> None:
         """A block where it is put, each of its copies."""

@@ -23,7 +23,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import NEAR, bow, full, reach
 from graphplan.marking.files.drawing import drawing
 from graphplan.marking.files.safe import MB, contents, number, tree, unpacked
-from graphplan.marking.spelling import greek, mark
+from graphplan.marking.spelling import lined, mark
 from graphplan.marking.traces import Spot, Submission, Trace
 
 LINES, CIRCLES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
@@ -337,7 +337,7 @@ def _curve(objects: Objects, label: str, box: list[Spot]) -> Iterator[Trace]:
     if not _seen(element):
         return
     letters = mark(_letters(label, element))
-    name = letters if greek(letters) or letters.isdigit() else ""
+    name = letters if lined(letters) else ""
     if element.get("type") in CIRCLES:
         yield from _round(objects, label, name)
     elif element.get("type") in LINES:

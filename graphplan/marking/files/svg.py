@@ -21,9 +21,10 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files.curves import DOT, curved, pieces, tips
-from graphplan.marking.files.drawing import NO_DRAWING, Lettering, drawing, lettering, same_paper
+from graphplan.marking.files.drawing import NO_DRAWING, drawing, lettering, same_paper
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
-from graphplan.marking.traces import Frames, Spot, Submission, Trace
+from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
+from graphplan.sheet.plates.pens import LEADER
 
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
@@ -239,6 +240,7 @@ LARGEST = 16 * MB
 VISITS, LETTERS = 30_000, 400_000  # elements, and letters of attributes and words; those of copies among them
 GROUPS = {"svg", "g", "a", "switch"}
 READ = {*GROUPS, "use", "text", "circle", "ellipse", "line", "polyline", "polygon", "rect", "path"}
+LEADING = LEADER.colour, f"{LEADER.width}"
 NOT_DRAWN = {f"layer-{name}" for name in NO_DRAWING}
 SHAPES: dict[str, tuple[Any, tuple[str, ...]]] = {  # with the lengths that say where they lie
     "circle": (Circle, ("cx", "cy", "r")), "ellipse": (Ellipse, ("cx", "cy", "rx", "ry")),
@@ -254,7 +256,7 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips)
+    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None)
 
 
 @dataclass(frozen=True)
@@ -274,6 +276,7 @@ class _SvgReader:
     def __init__(self, path: File, root: Element):
         self.path = path
         self.traces: list[Trace] = []
+        self.leaders: list[Trace] = []  # of a sheet of graphplan's own
         self.tips: list[Spot] = []
         self.words: list[Lettering] = []
         self.named = {name: element for element in root.iter() if (name := element.get("id"))}
@@ -343,10 +346,11 @@ class _SvgReader:
             corners = Polygon(points=element.get("points", "")).points
             self.things.spend(len(corners))
             self.tips += tips([spot(place.onto, corner) for corner in corners])
+        leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADING
         for trace in _traces(element, place.onto, place.view):
             self.things.spend()
             if stroked or trace.kind == POINT:
-                self.traces.append(trace)
+                (self.leaders if leads else self.traces).append(trace)
 
 
 def _shift(element: Element, view: Viewport) -> Matrix:

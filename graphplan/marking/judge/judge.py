@@ -13,6 +13,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
 from graphplan.marking.judge.labels import labelled, sure
+from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
@@ -46,7 +47,8 @@ class Judge:
     """One drawing beside its construction."""
 
     def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
-        self.drawing, self.composition, self.submission, self.pencil = drawing, composition, submission, pencil
+        self.drawing, self.composition, self.pencil = drawing, composition, pencil
+        self.submission = submission = lettered(drawing, composition, submission, pencil)
         plan_of_step = StudentSheet(drawing, {}, pencil).plan_of_step
         self.hidden = {drawn.index for plate in composition.plates for drawn in plate.hidden}
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.program import Program
@@ -16,11 +16,10 @@ def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Tra
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names = _names(program, plan_of_step)
-    found: dict[int, int] = {}
+    names, found = Names(program, plan_of_step), dict[int, int]()
     for place, trace in enumerate(traces):
         numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
-        step = _step(names, trace) if trace.label and not numbered else None
+        step = names.step(trace.kind, trace.panel, trace.label) if trace.label and not numbered else None
         if step is not None and program.steps[step].op.gives == trace.kind:
             found.setdefault(step, place)
     return found
@@ -31,14 +30,20 @@ def sure(trace: Trace) -> bool:
     return bool(trace.panel) or (trace.kind == POINT and not trace.beside)
 
 
-def _step(names: Mapping[tuple[str, str, str], int], trace: Trace) -> int | None:
-    """The step of a trace by its label as it stands, or else more loosely read."""
-    label = spelled(trace.label.replace(" ", ""))
-    for text in (label, label.replace("_", ""), label.replace("_", "").casefold()):
-        for panel in dict.fromkeys((trace.panel, "")):
-            if (trace.kind, panel, text) in names:
-                return names[trace.kind, panel, text]
-    return None
+class Names:
+    """What the marks of a construction may be called."""
+
+    def __init__(self, program: Program, plan_of_step: Sequence[str]):
+        self._steps = _names(program, plan_of_step)
+
+    def step(self, kind: str, panel: str, label: str) -> int | None:
+        """The step that makes a thing of this kind and label, by the label as it stands, or else more loosely read."""
+        read = spelled(label.replace(" ", ""))
+        for text in (read, read.replace("_", ""), read.replace("_", "").casefold()):
+            for home in dict.fromkeys((panel, "")):
+                if (kind, home, text) in self._steps:
+                    return self._steps[kind, home, text]
+        return None
 
 
 def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:

@@ -1,0 +1,256 @@
+"""Which letters name which marks: by how near they stand, and by where the construction has its marks.
+
+A letter belongs to a mark near it. Where several are near, the construction tells which of them is where the named mark
+should be: so far as its plan is known to lie, which the letters themselves tell by agreeing on a frame. Every letter of
+the sheet is weighed against every other. That a mark is not where it should be speaks against it only so much: else a
+letter could not name a mistaken one.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+import shapely
+from shapely import Point, STRtree
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.judge.assignment import assigned
+from graphplan.marking.judge.labels import Names
+from graphplan.marking.judge.student_sheet import apart, plain, sampled
+from graphplan.marking.spelling import lined
+from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace
+from graphplan.methods.construction import Construction
+from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates.plans import Plans
+
+BESIDE, SIZES = 6.0, 2.4  # mm from a mark to its letters, or as many of their sizes where those are large
+CHOICES = 12  # things nearest to a letter that are weighed
+AT_TIP = 1.5  # mm from the end of a leader to what it leads to
+GAP = 0.4  # of their size that letters stand from a mark: a cost of one
+ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be at all; mm that cost half of it
+NOTHING, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
+CLEAR = 3.0  # by so much cheaper letters are certainly those of their mark
+HELD = 8.0  # standard deviations within which letters agree on a frame
+FREE = 0.8  # letters more than in the expected one that have to agree on another frame
+PROPOSED = 3000  # frames that are tried
+Wish = dict[int, float]  # what letters may name, and what that costs
+
+
+@dataclass(frozen=True)
+class Lettered:
+    """Letters, and the steps that they may speak of, by the kind of thing that those make."""
+
+    word: Lettering
+    names: list[str]
+    steps: Mapping[str, int]
+    wish: Wish  # by nearness alone
+
+
+def lettered(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Submission:
+    """A drawing with its letters at the marks that they name; a thing of several names is several traces."""
+    return Letters(drawing, composition, submission, pencil).told() if submission.letters else submission
+
+
+class Letters:
+    """The letters of one drawing beside its construction."""
+
+    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
+        self.drawing, self.submission, self.pencil = drawing, submission, pencil
+        self.multiples = composition.scales.multiples
+        self.task = composition.views[MECHANISM].scale if MECHANISM in composition.views else 1.0
+        self.plan_of_step: Sequence[Any] = Plans(drawing).plan_of_step
+        self.traces = submission.traces
+        names = Names(drawing.drawn, self.plan_of_step)
+        self.words = []
+        for word in submission.letters:
+            if called := word.names:
+                steps = {kind: step for kind in (POINT, LINE) if (step := names.step(kind, "", called[0])) is not None
+                         and not (kind == LINE and called[0].isdigit())}
+                self.words.append(Lettered(word, called, steps, self._near(word, called[0], steps)))
+
+    # ---- what is near ----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def _things(self) -> STRtree:
+        return STRtree([trace.figure for trace in self.traces])
+
+    def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
+        """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
+        box = Point(*word.leads) if word.leads else word.box
+        reach = AT_TIP if word.leads else max(BESIDE, SIZES * word.size)
+        places = self._things.query(box, "dwithin", reach)
+        gaps = shapely.distance(self._things.geometries[places], box)
+        named = LINE in steps or (not steps and lined(name))
+        found: list[tuple[float, int]] = []
+        for gap, place in zip(gaps.tolist(), places.tolist(), strict=True):
+            trace = self.traces[place]
+            meant = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
+            if meant and (trace.beside or not trace.label):
+                found.append((gap / (GAP * word.size), place))
+        return {place: cost for cost, place in sorted(found)[:CHOICES]}
+
+    # ---- where they should be --------------------------------------------------------------------------------------
+
+    @cached_property
+    def frames(self) -> dict[str, PlanFrame]:
+        """Where plans lie, as far as letters agree."""
+        known = dict(self.submission.frames)
+        if MECHANISM not in known:
+            given = self._candidates(MECHANISM, self.drawing.drawn.givens)
+            found = agreed(given, (), self._tolerance, self.task) or agreed(
+                self._candidates(MECHANISM), (), self._tolerance, self.task)
+            if found:
+                known[MECHANISM] = found
+        if MECHANISM in known:
+            unit = known[MECHANISM].unit
+            for panel in dict.fromkeys(self.plan_of_step):
+                tied = unit * float(self.multiples.get(panel, 1))
+                if panel not in known and (
+                        found := agreed(self._candidates(panel), (tied,), self._tolerance, abs(tied))):
+                    known[panel] = found
+        return known
+
+    @property
+    def _tolerance(self) -> float:
+        return HELD * self.pencil.point
+
+    def _candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
+        """The lettered points of a plan: where each truly is, and the points on the sheet that it may be."""
+        found = [Candidates(complex(*plain(self.drawing.values[step])[:2]),
+                            [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
+                             if self.traces[place].kind == POINT])
+                 for one in self.words if (step := one.steps.get(POINT)) is not None
+                 and self.plan_of_step[step] == panel and (before is None or step < before)]
+        return [one for one in found if one.spots]
+
+    def _off(self, step: int, trace: Trace) -> float:
+        """How far a trace is from what a step truly makes, in mm; infinite where its plan is not known to lie."""
+        frame = self.frames.get(self.plan_of_step[step])
+        if frame is None:
+            return math.inf
+        spots = np.array([frame.back(complex(*spot)) for spot in sampled(trace)])
+        return float(apart(trace.kind, plain(self.drawing.values[step]), spots)) * abs(frame.unit)
+
+    @cached_property
+    def _claimed(self) -> dict[int, int]:
+        """The points that are where a step should make one, which no letters name; by place."""
+        named = {step for one in self.words for step in one.steps.values()}
+        found = {}
+        for step in self.drawing.drawn.steps:
+            frame = self.frames.get(self.plan_of_step[step.index])
+            if step.op.gives == POINT and step.index not in named and frame:
+                at = frame.onto(complex(*plain(self.drawing.values[step.index])[:2]))
+                for place in self._things.query(Point(at.real, at.imag), "dwithin", self._tolerance / 2):
+                    if self.traces[place].kind == POINT:
+                        found[int(place)] = step.index
+        return found
+
+    # ---- who names what --------------------------------------------------------------------------------------------
+
+    def told(self) -> Submission:
+        """The drawing with the names of its marks."""
+        found = assigned([self._weighed(one) for one in self.words], NOTHING, SHARED)
+        names: dict[int, list[tuple[str, bool]]] = {}
+        for one, place in zip(self.words, found, strict=True):
+            if place is not None:
+                beside = not self._sure(one, place, found)
+                names.setdefault(place, []).extend((name, beside) for name in one.names)
+        first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace
+                 for place, trace in enumerate(self.traces)]
+        more = [replace(self.traces[place], label=name, beside=beside) for place, several in names.items()
+                for name, beside in several[1:]]
+        return replace(self.submission, traces=(*first, *more))
+
+    def _weighed(self, one: Lettered) -> Wish:
+        """What letters may name, and what it costs by nearness and by where the construction has it."""
+        found = {}
+        for place, cost in one.wish.items():
+            trace = self.traces[place]
+            off = self._off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
+            astray = ASTRAY / (1 + (HALFWAY / off) ** 2) if off else 0.0
+            found[place] = cost + astray + (CLAIMED if place in self._claimed and off > HALFWAY else 0.0)
+        return found
+
+    def _sure(self, one: Lettered, place: int, found: Sequence[int | None]) -> bool:
+        """Whether letters are certainly those of a point: no other is nearly as near, nor has it other letters; a
+        number may be one of the student's own."""
+        if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1:
+            return False
+        if one.names[0].isdigit() and self._off(one.steps[POINT], self.traces[place]) > 2 * HALFWAY:
+            return False
+        least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
+                    default=math.inf)
+        return one.wish[place] < CLEAR and least - one.wish[place] > CLEAR and place not in self._claimed
+
+
+@dataclass(frozen=True)
+class Candidates:
+    """A mark of a plan, and the spots on the sheet that may be it, with what speaks against each."""
+
+    at: complex
+    spots: list[tuple[complex, float]]
+
+
+def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float, usual: float) -> PlanFrame | None:
+    """The frame on which most marks agree, by one of their spots each; None where no two do.
+
+    It has one of some `units`, unless more agree on another; of equals that is taken which is nearer to the `usual`
+    scale, and upright.
+    """
+    if not marks:
+        return None
+    owner = np.concatenate([np.full(len(mark.spots), k) for k, mark in enumerate(marks)])
+    at = np.array([mark.at for mark in marks])
+    spots = np.array([spot for mark in marks for spot, _ in mark.spots])
+    costs = np.array([cost for mark in marks for _, cost in mark.spots])
+    starts = np.flatnonzero(np.diff(owner, prepend=-1))
+
+    def score(unit: Any, origin: Any) -> Any:
+        """How many marks have a spot in each frame."""
+        off = np.abs(origin[:, None] + unit[:, None] * at[owner][None, :] - spots[None, :]) / within
+        held = np.clip(1.0 - off**2, 0.0, None) * (1.0 - 0.02 * np.clip(costs, 0.0, 10.0))
+        return np.maximum.reduceat(held, starts, axis=1).sum(axis=1)
+
+    tied, free = _proposed(at, owner, spots, units)
+    best: tuple[float, complex, complex] | None = None
+    for (unit, origin), bar in ((tied, 0.0), (free, FREE if units else 0.0)):
+        if len(unit):
+            taste = 0.05 * np.abs(np.log(np.abs(unit) / usual)) + 0.01 * np.abs(np.angle(unit))
+            votes = score(unit, origin) - bar - taste
+            top = int(votes.argmax())
+            if best is None or votes[top] > best[0]:
+                best = float(votes[top]), complex(unit[top]), complex(origin[top])
+    if best is None or best[0] < min(1.3, len(marks)) - 0.5:
+        return None
+    return _refined(at, owner, spots, best[1], best[2], within)
+
+
+def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tuple[tuple[Any, Any], tuple[Any, Any]]:
+    """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
+    tied = np.repeat(np.array(units, dtype=complex), len(spots))
+    origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))
+    pairs = sorted(((i, j) for i, j in combinations(range(len(spots)), 2) if at[owner[i]] != at[owner[j]]
+                    and spots[i] != spots[j]), key=lambda ij: -abs(at[owner[ij[0]]] - at[owner[ij[1]]]))[:PROPOSED]
+    i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
+    free = (spots[j] - spots[i]) / (at[owner[j]] - at[owner[i]])
+    return (tied, origins), (free, spots[i] - free * at[owner[i]])
+
+
+def _refined(at: Any, owner: Any, spots: Any, unit: complex, origin: complex, within: float) -> PlanFrame:
+    """The frame of least squares through the spots that a frame holds."""
+    off = np.abs(origin + unit * at[owner] - spots)
+    held = np.flatnonzero(off < within)
+    z, w = at[owner[held]], spots[held]
+    here, there = z.mean(), w.mean()
+    spread = float(np.sum(np.abs(z - here) ** 2))
+    if spread:
+        unit = complex(np.sum(np.conj(z - here) * (w - there)) / spread)
+    return PlanFrame(complex(there - unit * here), unit)

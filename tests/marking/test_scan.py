@@ -224,6 +224,24 @@ def test_a_dot_is_told_from_lines_that_cross(count: int, dot: bool) -> None:
     assert (seen.dot(places[dot, count], 0.5) is not None) == dot
 
 
+def test_a_ring_marks_the_point_in_its_middle(tmp_path: Path) -> None:
+    """A small circle drawn about a point, alone, on a line or on a crossing, is that point; and it is nearer where
+    lines meet than where a hand has drawn the ring."""
+    (x, y) = list(page().panels.values())[1].centre
+    places, turns = [(x + 14 * count - 18, y + 9) for count in range(3)], (math.radians(20), math.radians(80))
+    strokes = [(((u - 6 * math.cos(turn), v - 6 * math.sin(turn)), (u + 6 * math.cos(turn), v + 6 * math.sin(turn))),
+                0.25, 0.55) for count, (u, v) in enumerate(places) for turn in turns[:count]]
+    rims = [[(u + 0.2 + 0.8 * math.cos(t), v + 0.2 + 0.8 * math.sin(t)) for t in np.linspace(0, math.tau, 40)]
+            for u, v in places]
+    strokes += [(tuple(rim), 0.25, 0.5) for rim in rims]
+    seen = read_page(saved(tmp_path, scan(paper(), strokes, 72).image), page(), CODE)
+    spots = [trace.spots[0] for trace in seen.traces if trace.kind == POINT]
+    assert len(spots) == 3
+    off = [min(math.dist(spot, place) for spot in spots) for place in places]
+    assert off[0] < 0.4
+    assert off[2] < 0.12
+
+
 @pytest.mark.parametrize("far", [-2.0, 2.0])
 def test_a_short_arc_is_seen_as_askew_as_it_is(far: float) -> None:
     """Its spots lie on it, where it was expected about a centre to one side."""

@@ -1,14 +1,13 @@
 """A scan or a photo of a handout, read: a page that tells what was drawn on it, and can be asked whether something is
 drawn near where it belongs.
 
-Points pricked or drawn are dark spots that fall off to every side, and are darker than lines that cross. Faint lines,
-of which there is too little to be found in the whole page, are found where they are expected.
+Faint lines, of which there is too little to be found in the whole page, are found where they are expected.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -17,11 +16,11 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from shapely import LineString, STRtree, points
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import strokes
+from graphplan.marking.scans.dots import DARK, MAYBE, SURE, WIDE, Ring, dots, marked, ringed, rings
 from graphplan.marking.scans.image import Grey, contrast, pictures, smaller
 from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
 from graphplan.marking.scans.printed_ink import picture
@@ -76,51 +75,6 @@ def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPag
     return PencilPage(pencil, ridges(pencil), found.error, found.warp)
 
 
-WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
-OVAL, DARK = 0.25, 0.05  # how much less it falls off to one side than to another, and the least darkness of a dot
-MIDDLE = 0.45  # mm in which a dot's middle is weighed
-CROSSED = 0.5  # mm from a stroke: what is dark there may be its own darkness, or its crossing with another
-# How much darker than a line a dot is for sure, or may be, on no stroke, on one, or where more cross; and from where on
-# it may be as oval as it likes.
-SURE, MAYBE, BLACK = (0.8, 1.5, 1.95, 2.15, 2.5), (0.0, 1.25, 1.7, 1.9, 2.15), 2.0
-
-
-def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
-    """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
-    size = 2 * round(2 * WIDE * ink.scale) + 1
-    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > DARK)
-    row, column = np.nonzero(top)
-    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
-    middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
-    peaked = (middle + spread < 0) & (np.abs(middle + spread) > OVAL * np.abs(middle - spread))
-    peaked |= smooth[row, column] > BLACK * usual
-    return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
-
-
-def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
-           ) -> Iterator[Trace]:
-    """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
-    than along a line, and `least` how much it must be for how many strokes."""
-    lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
-    crossed = np.bincount(lines.query(at, "dwithin", CROSSED)[0], minlength=len(found))
-    for dot, count in zip(found, crossed, strict=True):
-        if darkness(dot.spots[0]) > least[min(count, len(least) - 1)]:
-            yield dot
-
-
-def _weighed(ink: Ink, row: int, column: int) -> Trace:
-    """A dot about a pixel; it is as unsure as a tenth of its own width."""
-    reach = round(MIDDLE * ink.scale)
-    rows = slice(max(0, row - reach), row + reach + 1)
-    columns = slice(max(0, column - reach), column + reach + 1)
-    patch = ink.dark[rows, columns].astype(float)
-    y, x = np.mgrid[rows, columns][:, : patch.shape[0], : patch.shape[1]]
-    weight = patch / max(patch.sum(), 1e-9)
-    at = ink.spots(np.array([[(weight * x).sum(), (weight * y).sum()]]))[0]
-    wide = math.sqrt((weight * ((x - column) ** 2 + (y - row) ** 2)).sum() / 2) / ink.scale
-    return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / 10)
-
-
 Values = NDArray[np.float64]
 ASKEW = 20.0  # degrees by which a crest's own direction is unsure
 CELL, NEAR = 0.1, 0.25  # mm: how finely a faint line is searched, and how far its crests are off it
@@ -148,7 +102,7 @@ class PencilPage:
         """Everything that is found without knowing what is expected."""
         sure = marked(self._dots, self._drawn, self._darkness, SURE)
         alone = (dot for dot in sure if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any())
-        return tuple(self._blurred(trace) for trace in (*self._drawn, *alone))
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *self._rings, *alone))
 
     def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
@@ -221,7 +175,7 @@ class PencilPage:
     @cached_property
     def _drawn(self) -> list[Trace]:
         """The lines and rims."""
-        return strokes.strokes(clear(self.found, self.ink), self.ink)
+        return strokes.strokes(self._clear, self.ink)
 
     @cached_property
     def _smooth(self) -> NDArray[np.float32]:
@@ -253,11 +207,27 @@ class PencilPage:
     @cached_property
     def _faint(self) -> list[Trace]:
         """The dots that may be points."""
-        return [self._blurred(dot) for dot in marked(self._dots, self._drawn, self._darkness, MAYBE)]
+        return [self._blurred(dot) for dot in (*self._rings, *marked(self._dots, self._drawn, self._darkness, MAYBE))]
+
+    @cached_property
+    def _rings(self) -> list[Trace]:
+        """The points that are ringed."""
+        return [ringed(ring, self._drawn) for ring in self._ringed]
+
+    @cached_property
+    def _ringed(self) -> list[Ring]:
+        dark = self.ink.dark[self.ink.cells(self._clear.spots)]
+        return rings(self._clear, self.ink, float(np.median(dark)) if len(dark) else 1.0)
+
+    @cached_property
+    def _clear(self) -> Ridges:
+        return clear(self.found, self.ink)
 
     @cached_property
     def _dots(self) -> list[Trace]:
-        return dots(self.ink, self._smooth, self._usual)
+        """What is dark and in no ring."""
+        return [dot for dot in dots(self.ink, self._smooth, self._usual) if all(
+            math.dist(dot.spots[0], ring.middle) > ring.radius + WIDE for ring in self._ringed)]
 
     def _blurred(self, trace: Trace) -> Trace:
         """With what the page itself is unsure by."""

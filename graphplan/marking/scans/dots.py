@@ -1,0 +1,166 @@
+"""The points that a pencil marks: dark dots, which fall off to every side and are darker than lines that cross, and
+small rings about a place where lines end or cross.
+
+A ring is what many crests point at the middle of from all around (the vote of D. H. Ballard, 1981). A hand draws it
+beside its middle; where lines run into it they tell its middle better."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from shapely import LineString, STRtree, points
+
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.marking.scans.image import Spots
+from graphplan.marking.scans.pencil_pixels import Ink, Ridges
+from graphplan.marking.traces import Spot, Trace
+
+WIDE = 0.25  # mm: half a dot, by which the picture is smoothed
+OVAL, DARK = 0.25, 0.05  # how much less it falls off to one side than to another, and the least darkness of a dot
+MIDDLE = 0.45  # mm in which a dot's middle is weighed
+CROSSED = 0.5  # mm from a stroke: what is dark there may be its own darkness, or its crossing with another
+# How much darker than a line a dot is for sure, or may be, on no stroke, on one, or where more cross; and from where on
+# it may be as oval as it likes.
+SURE, MAYBE, BLACK = (0.8, 1.5, 1.95, 2.15, 2.5), (0.0, 1.25, 1.7, 1.9, 2.15), 2.0
+
+
+def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
+    """All dark spots of the blurred pencil, whose lines are usually so dark, at their centres of darkness."""
+    size = 2 * round(2 * WIDE * ink.scale) + 1
+    top = (smooth >= cv2.dilate(smooth, np.ones((size, size), np.uint8))) & (smooth > DARK)
+    row, column = np.nonzero(top)
+    xx, yy, xy = (cv2.Sobel(smooth, cv2.CV_32F, i, j, ksize=3)[row, column] for i, j in ((2, 0), (0, 2), (1, 1)))
+    middle, spread = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    peaked = (middle + spread < 0) & (np.abs(middle + spread) > OVAL * np.abs(middle - spread))
+    peaked |= smooth[row, column] > BLACK * usual
+    return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
+
+
+def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
+           ) -> Iterator[Trace]:
+    """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
+    than along a line, and `least` how much it must be for how many strokes."""
+    lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
+    crossed = np.bincount(lines.query(at, "dwithin", CROSSED)[0], minlength=len(found))
+    for dot, count in zip(found, crossed, strict=True):
+        if darkness(dot.spots[0]) > least[min(count, len(least) - 1)]:
+            yield dot
+
+
+def _weighed(ink: Ink, row: int, column: int) -> Trace:
+    """A dot about a pixel; it is as unsure as a tenth of its own width."""
+    reach = round(MIDDLE * ink.scale)
+    rows = slice(max(0, row - reach), row + reach + 1)
+    columns = slice(max(0, column - reach), column + reach + 1)
+    patch = ink.dark[rows, columns].astype(float)
+    y, x = np.mgrid[rows, columns][:, : patch.shape[0], : patch.shape[1]]
+    weight = patch / max(patch.sum(), 1e-9)
+    at = ink.spots(np.array([[(weight * x).sum(), (weight * y).sum()]]))[0]
+    wide = math.sqrt((weight * ((x - column) ** 2 + (y - row) ** 2)).sum() / 2) / ink.scale
+    return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / 10)
+
+
+RADII = np.arange(0.5, 1.41, 0.1)  # mm of rings
+CELL, SIDES = 0.2, 16  # mm: how closely middles are voted for, and from how many sides
+HEARD = 8  # sides that must vote
+ROUND, SEEN = 32, 0.6  # places around a ring at which it is looked at, and the part of them that print must leave open
+ROOM, ASIDE = 0.12, 0.36  # mm that a rim may be off its circle; and so far within and beyond it is lighter
+RIM, CREST, LIGHTER = 0.85, 0.5, 0.8  # the part of the rim that is drawn; where it is lighter beside it; and how much
+PENCIL = 0.4  # of the usual darkness, what is drawn
+BESIDE, ON = 0.25, 0.08  # mm: by how much a ring is drawn beside its middle, and a line, standard deviations
+SAME = 0.9  # of the radius, in which there is no other ring
+
+
+@dataclass(frozen=True)
+class Ring:
+    """A small circle about a point: its middle and its radius in mm, and how much more of its rim is drawn than of
+    what is beside it."""
+
+    middle: Spots
+    radius: float
+    clear: float
+
+
+def rings(found: Ridges, ink: Ink, usual: float) -> list[Ring]:
+    """The rings among crests, of a pencil that is usually so dark, the clearest first."""
+    looked = [_looked(ink, *candidate, usual) for candidate in _voted(found)]
+    kept: list[Ring] = []
+    for ring in sorted((ring for ring in looked if ring), key=lambda ring: -ring.clear):
+        if all(np.hypot(*(ring.middle - other.middle)) > SAME * (ring.radius + other.radius) for other in kept):
+            kept.append(ring)
+    return kept
+
+
+def _voted(found: Ridges) -> Iterator[tuple[Spots, float]]:
+    """Middles that crests point at from most sides of all near by, with the radius at which they do."""
+    if not len(found):
+        return
+    wide, high = ((found.spots.max(axis=0) + 2 * RADII[-1]) / CELL).astype(int) + 2
+    heard = np.array([_heard(found, radius, wide, high) for radius in RADII])
+    best, which = heard.max(axis=0), heard.argmax(axis=0)
+    row, column = np.nonzero((best >= HEARD) & (best >= cv2.dilate(best, np.ones((3, 3), np.uint8))))
+    for i, j in zip(column.tolist(), row.tolist(), strict=True):
+        yield np.array([i, j]) * CELL - RADII[-1], float(RADII[which[j, i]])
+
+
+def _heard(found: Ridges, radius: float, wide: int, high: int) -> NDArray[np.uint8]:
+    """From how many sides crests so far away point at each place of a grid, the first of which is beyond the sheet."""
+    turn = np.arctan2(found.normals[:, 1], found.normals[:, 0]) / (2 * math.pi)
+    heard = np.zeros((SIDES, high, wide), bool)
+    for sense, back in ((1.0, 0.0), (-1.0, 0.5)):
+        side = np.floor((turn + back) * SIDES).astype(int) % SIDES
+        column, row = np.floor((found.spots + sense * radius * found.normals + RADII[-1]) / CELL).astype(int).T
+        for i in (0, 1):
+            for j in (0, 1):
+                heard[side, row + j, column + i] = True
+    return np.asarray(heard.sum(axis=0, dtype=np.uint8))
+
+
+def _looked(ink: Ink, middle: Spots, radius: float, usual: float) -> Ring | None:
+    """A ring about a middle, moved to where most of its rim is; None where there is none."""
+    turns = np.arange(ROUND) * (2 * math.pi / ROUND)
+    ways = np.column_stack([np.cos(turns), np.sin(turns)])
+    for _ in range(2):
+        reach = np.arange(max(0.3, radius - 2 * ROOM), radius + 2.5 * ROOM, 0.06)
+        dark = _dark(ink, middle + np.multiply.outer(reach, ways))
+        rim = dark.max(axis=0) > PENCIL * usual
+        if rim.mean() < RIM * SEEN:
+            return None
+        design = np.column_stack([ways[rim], np.ones(int(rim.sum()))])
+        u, v, radius = np.linalg.lstsq(design, reach[dark.argmax(axis=0)][rim], rcond=None)[0].tolist()
+        middle = middle + np.clip([u, v], -CELL, CELL)
+    rim = _dark(ink, middle + np.multiply.outer(radius + np.array([-ROOM, 0.0, ROOM]), ways)).max(axis=0)
+    beside = _dark(ink, middle + np.multiply.outer(radius + np.array([-ASIDE, ASIDE]), ways)).max(axis=0)
+    seen = rim >= 0
+    drawn = seen & (rim > PENCIL * usual)
+    crest = float((beside[drawn] < LIGHTER * rim[drawn]).mean()) if drawn.any() else 0.0
+    if seen.mean() < SEEN or drawn.sum() < RIM * seen.sum() or crest < CREST:
+        return None
+    return Ring(middle, radius, crest)
+
+
+def _dark(ink: Ink, spots: Spots) -> NDArray[np.float32]:
+    """How dark it is at spots; less than nothing where print hides it."""
+    cells = ink.cells(spots.reshape(-1, 2))
+    return np.where(ink.hidden[cells], np.float32(-1.0), ink.dark[cells]).reshape(spots.shape[:-1])
+
+
+def ringed(ring: Ring, drawn: Sequence[Trace]) -> Trace:
+    """The point that a ring marks: its middle, drawn to the lines that run into it."""
+    matrix, right = np.eye(2) / BESIDE**2, ring.middle / BESIDE**2
+    for trace in drawn:
+        if trace.kind == LINE:
+            start, end = np.array(trace.spots[:2])
+            way = (end - start) / (np.hypot(*(end - start)) or 1.0)
+            along, normal = (ring.middle - start) @ way, np.array([-way[1], way[0]])
+            if -ring.radius < along < np.hypot(*(end - start)) + ring.radius and abs(
+                    (ring.middle - start) @ normal) < ring.radius:
+                matrix = matrix + np.outer(normal, normal) / ON**2
+                right = right + normal * (normal @ start) / ON**2
+    (x, y), covariance = np.linalg.solve(matrix, right).tolist(), np.linalg.inv(matrix)
+    return Trace(POINT, ((x, y),), blur=math.sqrt(float(np.trace(covariance)) / 2))

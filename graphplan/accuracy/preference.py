@@ -84,9 +84,14 @@ def forms(scene: Scene, pencil: Pencil, *, plan: str = "", strict: bool = False,
         except GraphplanError as refusal:
             return [Form((method,), None, refusal) for method in methods]
 
-    how = {"plan": plan, "strict": strict, "inertia": inertia}
-    ways = led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
+    ways = constructions(scene, plan=plan, strict=strict, inertia=inertia, construct=construct)
     return sorted([form for way in ways for form in made(*way)], key=lambda form: FORMS.index(form.methods[0]))
+
+
+def constructions(scene: Scene, *, construct: Constructing = unchecked,
+                  **how: Any) -> list[tuple[list[str], Construction | GraphplanError]]:
+    """Every construction of a scene with the methods that lead to it; or why they lead to none."""
+    return led_to(partial(_drawn_once, scene, how, construct, {}), lambda drawing: drawing.drawn)
 
 
 def _drawn_once(scene: Scene, how: dict[str, Any], construct: Constructing, known: dict[Any, Construction],

@@ -4,17 +4,23 @@ construction that it follows, of all those that lead to what was asked."""
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import replace
+from functools import cached_property
 from typing import Any
 
 from graphplan.accuracy.pencil import Pencil
-from graphplan.accuracy.preference import Constructing, forms
+from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
+from graphplan.marking.judge.conventions import Proposer, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
+from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
@@ -24,6 +30,8 @@ from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
+from graphplan.phrases import Said, digits, joined, said
+from graphplan.phrases import unit as unit_of
 from graphplan.sheet.layout.composition import Composition
 
 STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a letter, unless it is sought there
@@ -38,36 +46,82 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
 
     Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
-    if not all(size > 0 for size in pencil.model.values()):
-        raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
-    return Judge(drawing, composition, submission, pencil).judgement()
+    return Judge(Reading(drawing, composition, submission), pencil).judgement
 
 
 class Judge:
-    """One drawing beside its construction."""
+    """One reading of a drawing, judged by its construction."""
 
-    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
-        self.drawing, self.composition, self.pencil = drawing, composition, pencil
-        self.submission = submission = lettered(drawing, composition, submission, pencil)
-        plan_of_step = StudentSheet(drawing, {}, pencil).plan_of_step
-        self.hidden = {drawn.index for plate in composition.plates for drawn in plate.hidden}
+    def __init__(self, reading: Reading, pencil: Pencil):
+        if not all(size > 0 for size in pencil.model.values()):
+            raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
+        self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
+        self.submission = lettered(self.drawing, reading.task, reading.submission, pencil)
+        plan_of_step = StudentSheet(self.drawing, {}, pencil).plan_of_step
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
-        self.traces = [wobbly(trace) for trace in submission.traces] if submission.page else list(submission.traces)
-        self.labels = labelled(drawing.drawn, plan_of_step, submission.traces)
-        taken = {place for place in self.labels.values() if sure(submission.traces[place])}
-        self.unlabelled = [place for place, trace in enumerate(submission.traces) if place not in taken and not (
-            submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
+        traces = self.submission.traces
+        self.traces = [wobbly(trace) for trace in traces] if self.submission.page else list(traces)
+        self.labels = labelled(self.drawing.drawn, plan_of_step, traces)
+        taken = {place for place in self.labels.values() if sure(traces[place])}
+        self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
+            self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
 
+    @cached_property
+    def fits(self) -> dict[str, Fit]:
+        """Where every plan lies."""
+        return self._frames()
+
+    @cached_property
     def judgement(self) -> Judgement:
         """The verdicts of the frames that fit best, the wrong ones explained."""
-        fits = self._frames()
-        matching = self.matching(fits, MOST)
+        matching = self.matching(self.fits, MOST)
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
+        self._weight = matching.weight
         return Judgement(
-            self.submission.name, self.drawing, self.composition, {panel: fit.frame for panel, fit in fits.items()},
-            tuple(verdicts(matching)), tuple(spare), numbers)
+            self.submission.name, self.drawing, self.reading.composition,
+            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdicts(matching)), tuple(spare), numbers,
+            joined(self._told()))
+
+    @property
+    def lacks(self) -> bool:
+        """Whether something is wrong or missing."""
+        return any(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts)
+
+    @property
+    def unexplained(self) -> bool:
+        """Whether more than a single wrong mark speaks against the construction."""
+        states = Counter(verdict.state for verdict in self.judgement.verdicts)
+        return self.lacks and bool(states[MISSING] or self.judgement.spare or states[WRONG] > 1)
+
+    @property
+    def weight(self) -> float:
+        """What speaks for this reading, the mistakes in it being what they are."""
+        found = self.judgement
+        wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
+        numbers = sum(NUMBER if number.state != WRONG else -NUMBER for number in found.numbers)
+        return self.reading.prior + self._weight + numbers + sum(KNOWN if kind else UNNAMED for kind in wrong)
+
+    @property
+    def glance(self) -> float:
+        """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
+        matching = self.matching(self.fits)
+        return self.reading.prior + matching.weight + KNOWN * sum(match.state == WRONG for match in matching.matches)
+
+    @cached_property
+    def hidden(self) -> set[int]:
+        """The steps whose marks the task's own sheet leaves out, as too small to draw."""
+        sheet = self.reading.on_task
+        return {drawn.index for plate in sheet.plates for drawn in plate.hidden} if sheet else set()
+
+    def _told(self) -> Iterator[Said]:
+        """As what it is read, and at which scale."""
+        yield from self.reading.told
+        if self.reading.scaled:
+            scene, unit = self.drawing.scene, self.fits[self.reading.scaled].frame.unit
+            speed = abs(1 / (self.drawing.kappa * unit))
+            yield said("k_v = {0} {1} per mm", digits(speed, 3), unit_of(f"{scene.units.length}/s"))
 
     # ---- frames ----------------------------------------------------------------------------------------------------
 
@@ -75,8 +129,8 @@ class Judge:
         """Where every plan lies, plan by plan: as on the task's sheet, unless another frame explains more."""
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
-                    for panel, view in self.composition.views.items()}
-        register = Register(self.drawing, self.composition, self.submission, self.pencil, self.labels)
+                    for panel, view in self.reading.composition.views.items()}
+        register = Register(self.reading, self.pencil, self.labels)
         if self.submission.frames.keys() >= set(register.panels):
             return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
@@ -95,7 +149,8 @@ class Judge:
     def _relaid(self, fits: dict[str, Fit], register: Register) -> dict[str, Fit]:
         """The frames of the plans whose steps are wrong in the expected ones, as rivals have it that explain them."""
         plan_of_step, start = register.plan_of_step, self._start(fits)
-        for panel in [panel for panel in register.panels[1:] if panel not in self.submission.frames]:
+        known = self.submission.frames.keys() | self.reading.fits.keys()
+        for panel in [panel for panel in register.panels[1:] if panel not in known]:
             end = len(plan_of_step) - plan_of_step[::-1].index(panel)
             start = start.fork(self._start(fits)).until(plan_of_step.index(panel))
             matching = start.fork().until(end)
@@ -137,8 +192,8 @@ class Judge:
         """Before the first step, in these frames."""
         sheet = StudentSheet(self.drawing, fits, self.pencil, self.hidden)
         what = sheet, self.submission, self.traces, self.unlabelled
-        evidence = ImageSearch(*what, self.composition.arrangement.panels, self.sought) if self.submission.page \
-            else Evidence(*what)
+        panels = self.reading.composition.arrangement.panels if self.submission.page else {}
+        evidence = ImageSearch(*what, panels, self.sought) if self.submission.page else Evidence(*what)
         return Matching(evidence, self.labels, ALARM / len(self.drawing.drawn))
 
 
@@ -152,39 +207,37 @@ def _wrong(matching: Matching, panel: str) -> int:
     return sum(match.state == WRONG for match in _on(matching, panel))
 
 
-STYLES = ("orthogonal", "polar")
-WRONGED = 3  # a wrong step speaks against a construction as much as so many that are missing or not asked for
+KNOWN, UNNAMED = -8.0, -14.0  # the odds, as logarithms, of a mistake of the table at a step, and of any other
+NUMBER = 5.0  # what a number that a drawing bears out speaks for its reading
+CLOSELY = 2  # how many other readings are looked at closely
+DOUBT = 20.0  # what a closer look may find that a glance does not
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
-                 plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
-    """What is said of a drawing by the construction of its task, or by another that it follows better.
+                     plan: str = "", inertia: str = "couple", construct: Constructing = unchecked) -> Judgement:
+    """What is said of a drawing as the task has it, or as it is likelier meant.
 
-    Others are tried only where a mark is wrong or missing: in the other forms of loci and rings, and unless `plan`
-    names one, on the other plans. Fails as :func:`judge` does.
+    Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
+    unless `plan` names one, other plans; other forms of each. Fails as :func:`judge` does.
     """
-    best = judge(drawing, composition, submission, pencil)
-    lacking = any(verdict.state in (WRONG, MISSING) for verdict in best.verdicts)
-    for other, sheet in _others(drawing, pencil, plan, inertia, construct) if lacking else ():
-        try:
-            found = judge(other, sheet, submission, pencil)
-        except Refused:
-            continue
-        best = found if _amiss(found) < _amiss(best) else best
+    best = Judge(seen_right_way(drawing, composition, submission, pencil), pencil)
+    if best.lacks:
+        seen = replace(best.submission, letters=())
+        proposer = Proposer(best.reading, seen, best.fits[MECHANISM].frame, pencil, plan, inertia, construct)
+        best = _likelier(best, proposer.proposed())
+        if best.unexplained:
+            best = _likelier(best, proposer.forms(best.reading))
+    return best.judgement
+
+
+def _likelier(best: Judge, readings: Iterable[Reading]) -> Judge:
+    """The likeliest of some readings; only those that promise something at a glance are looked at closely."""
+    others: list[tuple[float, int, Judge]] = []
+    for reading in readings:
+        with suppress(Refused):
+            other = Judge(reading, best.pencil)
+            others.append((other.glance, len(others), other))
+    for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:CLOSELY]:
+        if glance + DOUBT > best.weight and other.weight > best.weight:
+            best = other
     return best
-
-
-def _others(drawing: Construction, pencil: Pencil, plan: str, inertia: str, construct: Constructing
-            ) -> Iterator[tuple[Construction, Composition]]:
-    """All other constructions of a scene, on their sheets."""
-    for style in (plan,) if plan else STYLES:
-        for form in forms(drawing.scene, pencil, plan=style, strict=drawing.strict, inertia=inertia,
-                          construct=construct):
-            if form.drafted and form.drafted.drawing.drawn.steps != drawing.drawn.steps:
-                yield form.drafted.drawing, form.drafted.composition
-
-
-def _amiss(judgement: Judgement) -> int:
-    """How much speaks against a construction: wrong steps, traces that it does not need, marks that are missing."""
-    states = [verdict.state for verdict in judgement.verdicts]
-    return WRONGED * states.count(WRONG) + len(judgement.spare) + states.count(MISSING)

@@ -19,11 +19,10 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.marking.judge.matching import Matching
+from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.student_sheet import Fit, plain
-from graphplan.marking.traces import PlanFrame, Submission
-from graphplan.methods.construction import Construction
+from graphplan.marking.traces import PlanFrame
 from graphplan.methods.panels import MECHANISM
-from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.plans import Plans
 
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
@@ -39,14 +38,14 @@ RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, we
 class Register:
     """The frames of a sheet: given ones, those of labelled marks, or those that loose marks agree on."""
 
-    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
-                 labels: Mapping[int, int]):
-        self.drawing, self.scales, self.submission, self.pencil = drawing, composition.scales, submission, pencil
-        plans = Plans(drawing)
+    def __init__(self, reading: Reading, pencil: Pencil, labels: Mapping[int, int]):
+        self.reading, self.drawing, self.submission = reading, reading.drawing, reading.submission
+        self.pencil = pencil
+        plans = Plans(self.drawing)
         self.plan_of_step: Sequence[str] = plans.plan_of_step
         self.panels: Sequence[str] = plans.panels
         self.labels, self.taken = labels, set(labels.values())
-        self.values: tuple[Sequence[Any], ...] = (drawing.values,)
+        self.values: tuple[Sequence[Any], ...] = (self.drawing.values,)
 
     def mechanism(self) -> Fit:
         """Where the mechanism lies; refused where its points are not found."""
@@ -73,7 +72,9 @@ class Register:
         no mark is labelled, the frames that loose marks agree on."""
         if panel in self.submission.frames:
             return [Fit(self.submission.frames[panel])]
-        unit = mechanism.frame.unit * float(self.scales.multiples.get(panel, 1))
+        if panel in self.reading.fits:
+            return [self.reading.fits[panel]]
+        unit = mechanism.frame.unit * float(self.reading.composition.scales.multiples.get(panel, 1))
         if anchor := self._anchor(panel):
             return [self._tied(anchor[1] - unit * anchor[0], unit)]
         return [replace(self._tied(origin, unit), shift=2 * self.pencil.point) for origin in self._voted(panel, unit)]
@@ -85,7 +86,7 @@ class Register:
         Reads a way through the drawing in the expected frame: what is carried over does not rest on that.
         """
         expected, (plan, sheet) = matching.sheet.fits[panel], self._anchor(panel) or (0j, 0j)
-        for unit, sigma in _agreed(list(self._carried(panel, matching))):
+        for _, unit, sigma in agreed(list(self._carried(panel, matching))):
             along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
             yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED
 
@@ -102,9 +103,8 @@ class Register:
             start = matching.steps[index].root
             if start in spots:
                 vector = matching.sheet.laid_off(matching.steps[index], start, matching.own)
-                if vector is not None and vector[0] and end != spots[start][1]:
-                    unit = (end - spots[start][1]) / vector[0]
-                    yield unit, vector[1] / abs(vector[0])
+                if vector is not None and vector[0] and end != spots[start][1]:  # nothing has no scale
+                    yield (end - spots[start][1]) / vector[0], vector[1] / abs(vector[0])
 
     def _tied(self, origin: complex, unit: complex) -> Fit:
         return Fit(PlanFrame(origin, unit), 0.0, 0.0, 0j, MECHANISM)
@@ -226,8 +226,8 @@ def _crossing(one: Sequence[complex], two: Sequence[complex]) -> complex | None:
     return one[0] + ((two[0] - one[0]).conjugate() * v).imag / sine * u
 
 
-def _agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[complex, float]]:
-    """Units on which some of those proposed agree, each weighed by how sure it is; of most first."""
+def agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, complex, float]]:
+    """How many units agree on one, that one and how sure it is, each weighed by how sure it is; of most first."""
     groups = []
     for unit, sigma in units:
         group = [(u, s) for u, s in units if abs(u - unit) < SIGMAS * math.hypot(sigma, s) * abs(unit)]
@@ -236,10 +236,10 @@ def _agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[complex, f
         groups.append((len(group), mean, sum(weights) ** -0.5))
     groups.sort(key=lambda group: -group[0])
     told: list[complex] = []
-    for _, unit, sigma in groups:
+    for count, unit, sigma in groups:
         if all(abs(unit - other) > sigma * abs(unit) for other in told) and len(told) < RIVALS:
             told.append(unit)
-            yield unit, sigma
+            yield count, unit, sigma
 
 
 def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:

@@ -96,7 +96,8 @@ class Search:
                     self.gone += 1
             except Undrawable:
                 return -math.inf
-            if match.place is not None and index in other.dead:  # what is there, though poor, was drawn by somebody
+            # what is there, though poor, was drawn by somebody; and what is not there speaks for no unseen mistake
+            if index in other.dead and (match.place is not None or other.matches[guess.index].place is None):
                 other.weight += min(match.weight, 0.0)
             if other.weight + hope < least:
                 return -math.inf

@@ -1,0 +1,300 @@
+"""What a drawing is meant as: the construction that it follows, on what sheet, and how its marks are to be taken.
+
+A student may draw velocities at a scale of his own, turned the other way, true at their points, or from a pole; his
+sheet may be mirrored, his construction of another form. The letters tell which vectors are meant: where several of
+them differ from the true ones by the same turn and factor, that is how he draws.
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from functools import cached_property
+from itertools import combinations
+from typing import Any
+
+from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.preference import Constructing, called, constructions
+from graphplan.errors import GraphplanError
+from graphplan.kernel.kinds import POINT
+from graphplan.marking.judge.readings import Reading
+from graphplan.marking.judge.register import SAME_WAY, SIGMAS, Pair, agreed, best, fitted
+from graphplan.marking.judge.student_sheet import Fit
+from graphplan.marking.spelling import spelled
+from graphplan.marking.traces import PlanFrame, Submission, Trace
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import ACCELERATION, VELOCITY, ResultKind
+from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
+from graphplan.phrases import Said, said
+from graphplan.sheet.layout.composition import Composition
+
+OTHER_FORM, OTHER_PLAN, OWN_SCALE, TURNED, AT_JOINTS, MIRRORED, NUMBERED = -1.0, *6 * [-2.0]  # how unlikely each is
+EACH, ANYHOW = 14.0, -4.0  # of a plan turned as a whole: what each mark more speaks for that; turned by no right angle
+SQUARE = 0.15  # radians that a vector may be off a quarter turn
+ROUND, CLOSE = (1, 2, 2.5, 4, 5, 8), 4.0  # the numbers that scales are; standard deviations within which one is meant
+SHORTEST, NEAR = 3.0, 2.0  # mm: the shortest vector that tells a scale; how far off a mark of a plan may be at a glance
+A_LITTLE = 1 + 1e-9  # a vector that ends just in a point has a mark of its own
+POLES = ("p", "pi", "o", "ov", "pv", "oa", "pa", "o1", "o2", "p1", "p2")  # what the poles of polar plans are called
+SENSES: Mapping[int, tuple[tuple[Said, ...], float]] = {  # by the quarter turns from the task's velocities
+    0: ((), 0.0), 2: ((said("velocities turned clockwise"),), TURNED),
+    3: ((said("true velocities at their points"),), AT_JOINTS),
+}
+WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's vectors are called
+    VELOCITY: ("v{0}", "{0}"), ACCELERATION: ("a{0}", "j{0}", "w{0}", "{0}'", "{0}1"),
+}
+
+
+def seen_right_way(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Reading:
+    """The drawing as the task has it; mirrored, where only then more than two of the given points are in their places.
+    """
+    given = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
+             for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
+    if len(given) > 2 and not submission.frames and not submission.page:
+        held, turned = (_held(pairs, best(pairs, pencil.point), pencil) for pairs in (
+            given, [(plan, sheet.conjugate()) for plan, sheet in given]))
+        if len(turned) > max(2, len(held)):
+            traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
+            tips = tuple((x, -y) for x, y in submission.tips)
+            submission = replace(submission, traces=traces, tips=tips)
+            return Reading(drawing, composition, submission, (said("a mirrored sheet"),), prior=MIRRORED)
+    return Reading(drawing, composition, submission)
+
+
+def _held(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:
+    """The marks that a frame holds."""
+    return [(plan, sheet) for plan, sheet in pairs
+            if fit and abs(fit.frame.onto(plan) - sheet) < 2 * SIGMAS * pencil.point]
+
+
+@dataclass(frozen=True)
+class PolarPlan:
+    """A polar plan that marks agree on: how many do, its frame, the places of those that it holds, what all its marks
+    are called on our plan, and what it adds to the odds."""
+
+    speaks: float
+    fit: Fit
+    held: tuple[int, ...]
+    names: Mapping[int, str] = field(default_factory=dict)
+    at_once: float = 0.0
+
+
+@dataclass(frozen=True)
+class Proposer:
+    """What a drawing may be meant as, other than as the task: `seen` are its marks with the letters that the task gave
+    them, `frame` is where its mechanism lies."""
+
+    task: Reading
+    seen: Submission
+    frame: PlanFrame
+    pencil: Pencil
+    plan: str
+    inertia: str
+    construct: Constructing
+
+    def proposed(self) -> Iterator[Reading]:
+        """The readings that something on the sheet speaks for."""
+        own = self._at_points()
+        yield from own
+        for reading in (replace(self.task, submission=self.seen), *own):
+            yield from self._numbered(reading)
+        if "polar" in (self.plan or "polar") and not self.seen.page:
+            yield from self._polar()
+
+    def forms(self, reading: Reading) -> Iterator[Reading]:
+        """A reading by the other forms of its loci, which have other marks."""
+        drawing = reading.drawing
+        plan = self.plan or ("orthogonal" if drawing.turned else "polar")
+        for methods, other in constructions(drawing.scene, plan=plan, strict=drawing.strict, inertia=self.inertia,
+                                            construct=self.construct):
+            if isinstance(other, Construction) and other.drawn.steps != drawing.drawn.steps:
+                yield replace(reading, drawing=other, prior=reading.prior + OTHER_FORM,
+                              told=(*reading.told, said("drawn by the form {0}", called(methods))))
+
+    def _numbered(self, reading: Reading) -> Iterator[Reading]:
+        """With the numbers at its marks in an order of the student's own, so that they tell nothing."""
+        traces = reading.submission.traces
+        if any(trace.label.isdigit() for trace in traces):
+            told = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
+            yield replace(reading, submission=replace(reading.submission, traces=told), prior=reading.prior + NUMBERED,
+                          told=(*reading.told, said("steps in an order of its own")))
+
+    # ---- velocities drawn from their points ------------------------------------------------------------------------
+
+    def _at_points(self) -> list[Reading]:
+        """With the velocities at a scale of the student's own, turned the other way, or true at their points, where
+        several of them agree on that; the likeliest first."""
+        if not self.task.drawing.turned or self.seen.page:
+            return []
+        votes = []
+        for point, velocity in self.task.drawing.velocity.items():
+            trace = self._end(point, "v{0}")
+            drawn = 1j * velocity * self.task.drawing.kappa * self.frame.unit
+            if trace is not None and abs(drawn) > SHORTEST:
+                start = self.frame.onto(self._place(point))
+                sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(drawn)
+                votes.append(((complex(*trace.spots[0]) - start) / drawn, sigma))
+        found = (self._turned(ratio, sigma) for count, ratio, sigma in agreed(votes) if count > 1)
+        return [reading for reading in found if reading]
+
+    def _turned(self, ratio: complex, sigma: float) -> Reading | None:
+        """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
+        quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
+        if abs(cmath.phase(ratio * (-1j) ** quarters)) > SQUARE or quarters == 1:  # true ones would be reversed
+            return None
+        size = self._meant(abs(ratio), sigma / abs(ratio))
+        if size == 1.0 and quarters == 0:
+            return None
+        told, prior = SENSES[quarters]
+        prior += OWN_SCALE if size != 1.0 else 0.0
+        scene = _at_tempo(self.task.drawing.scene, self.task.drawing.kappa * size * (-1 if quarters == 2 else 1))
+        submission = self._turned_back() if quarters == 3 else self.seen
+        try:
+            drawing = self._construct(scene)
+        except GraphplanError:
+            return None
+        return replace(self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
+                       scaled=MECHANISM if size != 1.0 else "", prior=self.task.prior + prior)
+
+    def _meant(self, size: float, sigma: float) -> float:
+        """The factor of a scale as it is meant: such that it is a round one, or that of a drive, if one is so near."""
+        drawing = self.task.drawing
+        speed = 1 / (abs(drawing.kappa) * abs(self.frame.unit))  # k_v of the task
+        rates = [abs(float(drive.rate)) for drive in drawing.scene.drives if drive.rate]
+        near = [1.0, *_round(size), *(speed / k_v for k_v in _round(speed / size))]
+        for rate in rates:
+            near += [A_LITTLE * part / rate / abs(drawing.kappa) for part in _round(size * rate * abs(drawing.kappa))]
+        nearest = min(near, key=lambda one: abs(math.log(one / size)))
+        return nearest if abs(nearest / size - 1) < CLOSE * sigma else size
+
+    def _turned_back(self) -> Submission:
+        """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""
+        marks = {spelled(trace.label): complex(*trace.spots[0]) for trace in self.seen.traces
+                 if trace.kind == POINT and trace.label}
+        marks |= {point: self.frame.onto(self._place(point)) for point in self.task.drawing.scene.points}
+        starts = {f"v{name.casefold()}": spot for name, spot in marks.items() if name[:1].isupper()}
+
+        def turned(trace: Trace) -> Trace:
+            start = starts.get(_bare(trace.label)) if trace.kind == POINT else None
+            if start is None:
+                return trace
+            spot = start + 1j * (complex(*trace.spots[0]) - start)
+            return replace(trace, spots=((spot.real, spot.imag),))
+
+        return replace(self.seen, traces=tuple(map(turned, self.seen.traces)))
+
+    # ---- velocities and accelerations from a pole ------------------------------------------------------------------
+
+    def _polar(self) -> Iterator[Reading]:
+        """On polar plans, which lie where their marks tell."""
+        try:
+            drawing = self._construct(self.task.drawing.scene, plan="polar")
+        except GraphplanError:
+            return
+        fits, submission, prior = dict[str, Fit](), self.seen, self.task.prior + OTHER_PLAN
+        for kind, panel in ((VELOCITY, VELOCITY_PLAN), (ACCELERATION, ACCELERATION_PLAN)):
+            plan = max(self._from_pole(drawing, kind), key=lambda plan: plan.speaks, default=None)
+            if plan:
+                fits[panel], prior = plan.fit, prior + plan.at_once
+                submission = replace(submission, traces=tuple(
+                    replace(trace, label=plan.names[place], panel=panel, beside=False) if place in plan.names else trace
+                    for place, trace in enumerate(submission.traces)))
+        if VELOCITY_PLAN in fits or not self._all_named:
+            submission = submission if fits else self.task.submission
+            yield replace(self.task, drawing=drawing, submission=submission, fits=fits, scaled=VELOCITY_PLAN,
+                          told=(*self.task.told, said("a polar plan")), prior=prior)
+
+    @cached_property
+    def _all_named(self) -> bool:
+        """Whether every point of the sheet says what it is."""
+        return all(trace.label and not trace.beside for trace in self.seen.traces if trace.kind == POINT)
+
+    def _from_pole(self, drawing: Construction, kind: ResultKind) -> Iterator[PolarPlan]:
+        """The polar plans that the ends of vectors agree on, by each way to write them."""
+        steps, traces, ends = drawing.drawn.steps, self.seen.traces, dict[str, tuple[int, int]]()
+        for reading in drawing.readings:
+            if reading.kind == kind:
+                start, end = (drawing.drawn.wanted[mark] for mark in reading.marks[-2:])
+                ends[reading.of] = start, end
+        for written in WRITTEN[kind]:
+            marks = {place: end for point, (_, end) in ends.items()
+                     if (place := self._named(point, written)) is not None}
+            pole = next(iter(ends.values()))[0]
+            poles = {place: pole for place, trace in enumerate(traces) if trace.kind == POINT
+                     and _bare(trace.label) in POLES and trace.label not in drawing.scene.points}
+            known = marks | {place: pole for place, pole in poles.items() if place not in marks}
+            found = self._agreed({place: (complex(*drawing.values[mark]), complex(*traces[place].spots[0]))
+                                  for place, mark in known.items()} if marks else {})
+            if found:
+                names = {place: steps[mark].name for place, mark in known.items() if place in {*found.held, *marks}}
+                yield replace(found, names=names)
+
+    def _agreed(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
+        """The frame that holds most marks of a plan; None where too few agree on one.
+
+        Three marks have no frame by chance; two have, where one is the pole and the other lies the way it should. What
+        is turned as a whole by a right angle is wrong at once: it keeps the scale, and has the mechanism's direction.
+        """
+        speaks, held = 0.0, list[int]()
+        for one, two in combinations(pairs, 2):
+            (plan, sheet), (other, there) = pairs[one], pairs[two]
+            if abs(plan - other) * abs(self.frame.unit) < 1.0 or abs(sheet - there) < SHORTEST:
+                continue
+            unit = (there - sheet) / (other - plan)
+            near = [place for place, (z, spot) in pairs.items() if abs(sheet + unit * (z - plan) - spot) < NEAR]
+            aligned = abs(cmath.phase(unit / self.frame.unit)) < SAME_WAY + NEAR / abs(there - sheet) / 2
+            if len(near) + (aligned and not (plan and other)) > 2 and len(near) + aligned / 2 > speaks:
+                speaks, held = len(near) + aligned / 2, near
+        fit = fitted([pairs[place] for place in held], self.pencil.point) if held else None
+        if fit is None:
+            return None
+        turn = cmath.phase(fit.frame.unit / self.frame.unit)
+        quarters = round(turn / (math.pi / 2))
+        if abs(turn - quarters * math.pi / 2) > SQUARE:  # as the student turned his sheet
+            return PolarPlan(speaks, fit, tuple(held), at_once=ANYHOW)
+        unit = abs(fit.frame.unit) * self.frame.unit / abs(self.frame.unit)
+        centre = 0j if quarters else fit.centre
+        fit = replace(fit, frame=PlanFrame(fit.frame.onto(centre) - unit * centre, unit), centre=centre)
+        return PolarPlan(speaks, fit, tuple(held), at_once=EACH * (len(held) - 2) if quarters else 0.0)
+
+    # ---- letters and constructions ---------------------------------------------------------------------------------
+
+    def _named(self, point: str, written: str) -> int | None:
+        """The place of the mark that is called so for a point of the mechanism."""
+        name = written.format(point.casefold())
+        for place, trace in enumerate(self.seen.traces):
+            if trace.kind == POINT and trace.label not in self.task.drawing.scene.points and (
+                    _bare(trace.label) == name):
+                return place
+        return None
+
+    def _end(self, point: str, written: str) -> Trace | None:
+        place = self._named(point, written)
+        return None if place is None else self.seen.traces[place]
+
+    def _place(self, point: str) -> complex:
+        return complex(*map(float, self.task.drawing.scene.points[point]))
+
+    def _construct(self, scene: Scene, **how: Any) -> Construction:
+        """A construction as the task has it but for this."""
+        return self.construct(scene, **{"plan": self.plan, "strict": self.task.drawing.strict,
+                                        "inertia": self.inertia} | how)
+
+
+def _bare(label: str) -> str:
+    """A letter as it is compared: v_{A}, vA and v_a are one."""
+    return spelled(label.replace(" ", "")).replace("_", "").casefold()
+
+
+def _round(size: float) -> Iterator[float]:
+    """The round numbers next to a number."""
+    power = 10.0 ** math.floor(math.log10(size))
+    yield from (number * power * tens for number in ROUND for tens in (1.0, 10.0))
+
+
+def _at_tempo(scene: Scene, kappa: float) -> Scene:
+    """The same scene with velocities drawn so long for each unit; the other way round where that is negative."""
+    return replace(scene, sheet=replace(scene.sheet, k_s=Fraction(1), k_v=1 / Fraction(kappa)))

@@ -27,6 +27,7 @@ PLAIN: dict[str, Fragment] = {
     "null": {"type": "null"}, "count": COUNT, "decimal": DECIMAL, "value": VALUE,
     "vector": {"type": "array", "items": VALUE, "minItems": 2, "maxItems": 2},
     "percent": {"type": "number", "minimum": 0, "maximum": 100},
+    "flag": {"type": "boolean"},
     "confidence": {"type": "number", "minimum": 0, "maximum": 1},
     "step": described("the number of the step, 0 for what is given", COUNT),
     "verdict": described("follows: right after an earlier mistake; implied: not drawn, but a right mark rests on it; "

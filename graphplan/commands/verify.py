@@ -16,7 +16,7 @@ Results are a table with x and y, or value:
 examples:
   graphplan verify four-bar points.csv
   graphplan verify scene.toml scan.png --report report.html
-  graphplan verify four-bar points.csv --pencil point=0.2 --weights follows=0.5,numbers=3
+  graphplan verify four-bar points.csv --pencil point=0.2 --weights "follows=0.5,numbers=3,reversed=30"
   graphplan verify four-bar drawings/ --report class.html
 """
 
@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
@@ -50,8 +51,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--report", metavar="FILE",
         help="the report to write: .html, .json, and of one drawing .svg or .pdf, the drawing over the true one")
     add("--weights", default="", metavar="WEIGHTS", help="what a step earns by its verdict, and how many steps a "
-        "number counts for: such as right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); follows is right "
-        "after an earlier mistake")
+        "result that is asked for counts: such as right=1,follows=1,missing=0,wrong=0,numbers=2 (the defaults); "
+        "follows is right after an earlier mistake; and by its kind what the first such mistake costs at least, of "
+        "100: such as \"reversed=30,wrong scale=5\" (by default 20, or 12 of mere slips); an unknown name lists all")
     add("--json", action="store_true", help="as data")
     add_sheet(command)
     add_choices(command)
@@ -93,15 +95,28 @@ class Desk:
     options: argparse.Namespace
 
     def marked(self, path: Path) -> Marked:
-        """A drawing judged; fails with `Refused` where it cannot be."""
+        """A drawing judged; fails with `Refused` where it cannot be, whatever happens."""
+        try:
+            with warnings.catch_warnings():  # what libraries say is not for the reader
+                warnings.simplefilter("ignore")
+                return self.judged(self._read(path))
+        except GraphplanError:
+            raise
+        except MemoryError:
+            raise Refused(f"{path}", "could not be judged: there is not enough memory", "a smaller drawing") from None
+        except Exception as fault:  # one bad file never stops a class
+            raise Refused(f"{path}", f"could not be judged: {type(fault).__name__}",
+                          "judge it by hand, and report the fault with this file") from fault
+
+    def _read(self, path: Path) -> Submission:
+        """What is in a file, read beside the sheet that was printed."""
         from graphplan.marking.submission import read
         from graphplan.sheet.handout import code, task
 
         composition = self.on_sheet.composition
         size = composition.arrangement.width, composition.arrangement.height
-        found = read(path, list(composition.views), self.frames,  # task and guided version have the same plans
-                     lambda: task(composition)[0], code(composition), size)
-        return self.judged(found)
+        return read(path, list(composition.views), self.frames,  # task and guided version have the same plans
+                    lambda: task(composition)[0], code(composition), size)
 
     @property
     def frames(self) -> Frames:
@@ -112,7 +127,7 @@ class Desk:
         return {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in views.items()}
 
     def judged(self, submission: Submission) -> Marked:
-        """The same of what was read of it."""
+        """A drawing judged by what was read of it."""
         from graphplan.check.trusted import construct
         from graphplan.marking.classroom.class_list import Marked
         from graphplan.marking.judge.judge import judge, judge_any_method
@@ -176,19 +191,16 @@ def _one(desk: Desk, path: Path) -> Findings:
 
 def _lines(one: Marked) -> Iterator[Said]:
     """The verdict in a few lines."""
-    from graphplan.marking.judge.findings import asked, counted, lacking, miss, opinion, read_as
-    from graphplan.marking.judge.verdict import MISSING, STATES, WRONG
+    from graphplan.marking.judge.findings import asked, counted, look_at, miss, opinion, read_as, wrong_numbers
     from graphplan.phrases import arranged
 
     yield from read_as(one.judgement)
     yield opinion(one.judgement)
     yield from asked(one.judgement)
     yield arranged("{0:capital}.", counted(one.judgement))
-    if numbers := lacking(one.judgement):
-        yield arranged("{0:capital}: {1}.", STATES[MISSING](), numbers)
-    for number in one.judgement.numbers:
-        if number.state == WRONG:
-            yield miss(number)
+    yield from look_at(one.judgement)
+    wrong = wrong_numbers(one.judgement)  # the first is the opinion, if no step is wrong
+    yield from map(miss, wrong if one.judgement.first else wrong[1:])
     yield one.score.told
 
 

@@ -20,13 +20,14 @@ from graphplan.marking.judge.findings import (
     called,
     counted,
     figures,
+    look_at,
     named,
     opinion,
     quantity,
     read_as,
     written,
 )
-from graphplan.marking.judge.score import GROUPS, Score
+from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import STATES, UNSEEN, Judgement, NumberVerdict, Verdict
 from graphplan.output.svg import svg
 from graphplan.phrases import arranged, digits, phrase, said
@@ -130,6 +131,7 @@ class _Report(HtmlPage):
             yield f'<p class="reading">{self.set(line)}</p>'
         yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
         yield f"<p>{self.say(arranged('{0:capital}.', counted(self.judgement)))}</p>"
+        yield from (f"<p>{self.set(told)}</p>" for told in look_at(self.judgement))
         yield from self._score()
         for sheet in sheets:
             yield f"<figure>{picture(sheet)}</figure>"
@@ -140,8 +142,10 @@ class _Report(HtmlPage):
         if self.score.total is None:
             return
         told = [(GROUPS[group](), percent) for group, percent in self.score.groups.items()]
+        told += [(KINDS[kind](), -cost) for kind, cost in self.score.costs.items()]
         told.append((said("in all, of 100"), self.score.total))
-        rows = [("", (HtmlCell(self.say(name)), HtmlCell(f"{percent:.0f}", FIGURE))) for name, percent in told]
+        rows = [("", (HtmlCell(self.say(name)), HtmlCell(self.say(digits(round(percent))), FIGURE)))
+                for name, percent in told]
         yield from self.table(said("Score"), said("What was earned, of 100."), ("", said("Score")), rows)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
@@ -171,10 +175,9 @@ class _Report(HtmlPage):
         """What was probably done, with the earlier step at which it was if that is another."""
         if verdict.mistake is None:
             return ""
-        guilty = verdict.blamed
-        if guilty is None:
+        if verdict.at_fault == verdict.step:
             return verdict.mistake
-        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, guilty), verdict.mistake)
+        return arranged("{0}: {1}", named(self.judgement.drawing.drawn, verdict.at_fault), verdict.mistake)
 
     # ---- numbers ---------------------------------------------------------------------------------------------------
 

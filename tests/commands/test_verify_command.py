@@ -16,6 +16,11 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.commands.result_schemas import printed as schema_of
 from graphplan.kernel.kinds import POINT
+from graphplan.marking.judge import judge as judging
+from graphplan.marking.judge.verdict import Judgement
+from graphplan.marking.traces import Submission
+from graphplan.methods.construction import Construction
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.plans import Plans
 
 SCALE = 0.4  # mm of the student's sheet for a unit of the scene
@@ -75,7 +80,7 @@ def test_a_faultless_drawing_is_called_right(good: Path, capsys: pytest.CaptureF
     assert main(["verify", "four-bar", str(good)]) == 0
     lines = capsys.readouterr().out.splitlines()
     assert lines[0] == "No step is wrong."
-    assert lines[-1] == "Score: 100 of 100 (velocity 100, acceleration 100)."
+    assert lines[-1] == "Score: 100 of 100 (velocity 100, acceleration 100, results 100)."
 
 
 def test_the_first_wrong_step_is_named(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -107,9 +112,30 @@ def test_a_report_is_written(suffix: str, begins: bytes, wrong: Path, capsys: py
 
 
 def test_weights_and_pencil_are_taken_from_the_command_line(wrong: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    """A wrong step may earn its share all the same; with a blunt enough pencil there is none."""
-    assert printed(capsys, str(wrong), "--weights", "wrong=1")["score"]["total"] == 100.0
+    """A wrong step may earn its share all the same, and its mistake cost nothing; with a blunt enough pencil there is
+    none."""
+    assert printed(capsys, str(wrong), "--weights", "wrong=1,other=0")["score"]["total"] == 100.0
     assert printed(capsys, str(wrong), "--pencil", "point=3,edge=3")["first_wrong"] is None
+
+
+def test_a_fault_of_the_program_is_one_line_and_stops_nothing(
+        folder: Path, capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever fails inside a drawing, that is told with its name, and the others are judged."""
+    whole = judging.judge_any_method
+
+    def broken(drawing: Construction, composition: Composition, submission: Submission, *more: Any) -> Judgement:
+        if submission.name == "b.csv":
+            raise ZeroDivisionError("float division by zero")
+        return whole(drawing, composition, submission, *more)
+
+    monkeypatch.setattr(judging, "judge_any_method", broken)
+    assert main(["verify", "four-bar", str(folder)]) == 0
+    told = capsys.readouterr()
+    assert "b.csv: could not be judged: ZeroDivisionError" in told.err
+    assert "Traceback" not in told.err
+    assert told.out.splitlines()[0] == "a.csv: 100 of 100; no wrong step"
+    assert main(["verify", "four-bar", str(folder / "b.csv")]) == 2
+    assert capsys.readouterr().err.count("\n") == 1
 
 
 def test_one_bad_file_does_not_stop_a_class(folder: Path, capsys: pytest.CaptureFixture[str]) -> None:

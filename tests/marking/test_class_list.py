@@ -59,7 +59,7 @@ def test_the_most_frequent_mistake_and_step_are_told() -> None:
     told = [str(line) for line in lines(found)]
     number = step(two).number
     assert told[0] == "a: 100 of 100; no wrong step"
-    assert f"b: 97 of 100; Step {number}: parallel to AB instead of BC, 2.7 mm off, 0.5 mm allowed" in told
+    assert f"b: 80 of 100; Step {number}: parallel to AB instead of BC, 2.7 mm off, 0.5 mm allowed" in told
     assert "Drawings: 4, of which 1 have no wrong step." in told
     assert "Most frequent mistake: parallel or perpendicular to the wrong line (2)." in told
     assert f"Most frequent first wrong step: step {number}, line {number} (2)." in told

@@ -16,7 +16,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.judge.judge import judge, judge_any_method
 from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, MISSING, RIGHT, WRONG
+from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, MISSING, RIGHT, UNSEEN, WRONG
 from graphplan.marking.submission import read
 from graphplan.marking.traces import Number, Submission, Trace
 from graphplan.methods.construction import Construction
@@ -134,14 +134,16 @@ def test_a_coarser_pencil_is_judged_more_mildly() -> None:
 
 
 def test_missing_marks_are_told_unless_others_rest_on_them() -> None:
-    """A result that is not there is missing; an auxiliary mark from which others rightly follow is borne out."""
+    """A result that is not there is missing, whatever rests on it; lines on which right marks lie are borne out."""
     drawing, sheet = composed("four-bar")
     drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1)
     traces = [trace for trace in traced(drawn) if trace.kind == POINT and trace.label not in ("v_b", "M_1")]
     found = judge(drawing, sheet, Submission("x.csv", tuple(traces), shows=frozenset({POINT})), PENCIL)
     states = {drawing.drawn.steps[verdict.step].name: verdict.state for verdict in found.verdicts}
     assert found.first is None
-    assert (states["v_b"], states["M_1"]) == (IMPLIED, MISSING)
+    assert (states["v_b"], states["M_1"]) == (MISSING, MISSING)
+    lines = {verdict.state for verdict in found.verdicts if drawing.drawn.steps[verdict.step].op.gives == LINE}
+    assert lines == {IMPLIED, UNSEEN, MISSING}  # before a right mark, before a missing one, after all that is there
 
 
 def test_traces_that_no_step_asks_for_are_spare() -> None:

@@ -8,6 +8,9 @@ import pytest
 from judged import judgement
 
 from graphplan.errors import Refused
+from graphplan.marking.classroom.class_list import mistaken
+from graphplan.marking.judge import asked
+from graphplan.marking.judge.findings import opinion
 from graphplan.marking.judge.score import POSE, RESULTS, Weights, score, served, weights
 from graphplan.marking.judge.verdict import (
     FOLLOWS,
@@ -38,17 +41,62 @@ def crossing(name: str) -> int:
 def test_a_faultless_drawing_earns_everything() -> None:
     """Where every step that can be seen is right, each kind of step has 100, and so has the whole."""
     found = score(judgement("four-bar"))
-    assert found.groups == {"velocity": 100.0, "acceleration": 100.0}
+    assert found.groups == {"velocity": 100.0, "acceleration": 100.0, "results": 100.0}
     assert found.total == 100.0
 
 
 def test_a_slip_is_punished_once() -> None:
-    """One wrong step costs one step's share, whatever rests on it; follows=0 takes those shares too."""
+    """One wrong step costs what its kind of mistake does, or its step's share if that is more, whatever rests on it;
+    follows=0 takes those shares too."""
     slipped = judgement("four-bar", {crossing("four-bar"): 3j})
     seen = [verdict.state for verdict in slipped.judged if verdict.state != UNSEEN]
     assert FOLLOWS in seen
-    assert score(slipped).total == pytest.approx(100 * (1 - 1 / len(seen)))
-    assert score(slipped, weights("follows=0")).total == pytest.approx(100 * seen.count(RIGHT) / len(seen))
+    results = [one.state for one in asked.results(slipped)]
+    whole = len(seen) + 3 * len(results)
+    assert score(slipped, weights("numbers=3")).total == pytest.approx(88.0)
+    assert score(slipped, weights("numbers=3,other=0")).total == pytest.approx(100 * (1 - 1 / whole))
+    right = seen.count(RIGHT) + 3 * results.count(RIGHT)
+    assert score(slipped, weights("numbers=3,follows=0,other=0")).total == pytest.approx(100 * right / whole)
+
+
+def test_the_first_mistake_of_each_kind_costs_what_the_teacher_says() -> None:
+    """Two mistakes of one kind cost its points once, and of the second a step's share; another kind costs its own."""
+    one, two = [step.index for step in judgement("four-bar").drawing.drawn.steps if step.op.name == "meet"][:2]
+    told = weights("reversed=30,wrong line=25")
+    twice = score(judgement("four-bar", {one: 3j, two: 3j}, kind="reversed"), told)
+    once = score(judgement("four-bar", {one: 3j}, kind="reversed"), told)
+    share = 100 / sum(most for _, most in once.shares.values())
+    assert once.total == pytest.approx(70.0)
+    assert twice.total == pytest.approx(70.0 - share)
+    assert twice.costs == {"reversed": pytest.approx(30.0 - share)}
+    both = judgement("four-bar", {one: 3j, two: 3j}, kind="reversed")
+    mixed = replace(both, verdicts=tuple(replace(v, kind="wrong line") if v.step == two else v for v in both.verdicts))
+    assert score(mixed, told).total == pytest.approx(45.0)
+    assert f"{mistaken('reversed')} −28" in str(score(mixed, told).told)
+
+
+def test_one_number_is_worth_one_number() -> None:
+    """Of a table alone every result that is asked for counts alike, and what is not in it is missing."""
+    found = judgement("four-bar")
+    empty = replace(found, verdicts=tuple(replace(v, state=UNSEEN, trace=None) for v in found.verdicts))
+    wanted = [(one.kind, one.of) for one in asked.results(empty)]
+    assert len(wanted) > 5
+    for count in (0, 1, len(wanted)):
+        numbers = tuple(NumberVerdict(Number(kind, of, (1.0,)), RIGHT, 0.0, 1.0, (1.0,)) for kind, of in wanted[:count])
+        told = replace(empty, numbers=numbers)
+        assert told.blank == (count == 0)
+        assert score(told).total == pytest.approx(100 * count / len(wanted))
+
+
+def test_a_blank_sheet_scores_nothing() -> None:
+    """Given points that are printed on a handout earn nothing by themselves, and the sheet is said to be blank."""
+    found = judgement("four-bar")
+    free = [step.op.free for step in found.drawing.drawn.steps]
+    blank = replace(found, verdicts=tuple(
+        v if free[v.step] else replace(v, state=MISSING, trace=None) for v in found.verdicts))
+    assert blank.blank
+    assert score(blank).total == 0.0
+    assert "blank" in opinion(blank)
 
 
 def test_what_is_given_counts_only_where_it_is_wrong() -> None:
@@ -61,10 +109,11 @@ def test_what_is_given_counts_only_where_it_is_wrong() -> None:
 
 
 def test_numbers_count_as_steps() -> None:
-    """A number counts for as many steps as its weight says, and a wrong one earns nothing."""
-    found = numbered(judgement("four-bar"), RIGHT, WRONG)
-    share = score(found, weights("numbers=3")).shares[RESULTS]
-    assert share == (3.0, 6.0)
+    """A result counts for as many steps as its weight says, and one of a wrong number earns nothing."""
+    right, wrong = (score(numbered(judgement("four-bar"), state), weights("numbers=3")).shares[RESULTS]
+                    for state in (RIGHT, WRONG))
+    assert right[0] == right[1] == wrong[1]
+    assert wrong[0] == right[0] - 3.0
 
 
 def test_a_missing_step_counts_and_an_unseen_one_does_not() -> None:
@@ -109,6 +158,9 @@ def test_weights_are_read() -> None:
     ("missing=nan", "this is no weight"),
     ("wrong=much", "this is no weight"),
     ("wrong=2", "earns more than what is right"),
+    ("reversed=-1", "this is no weight; a number from 0 to 100"),
+    ("reversed=101", "this is no weight; a number from 0 to 100"),
+    ("revered=10", "one of right, .*reversed"),
 ])
 def test_bad_weights_are_refused(text: str, why: str) -> None:
     """One line says what is wrong with the weights."""

@@ -8,9 +8,8 @@ from dataclasses import dataclass
 from statistics import fmean
 from typing import Any
 
-from graphplan.marking.judge.findings import Called, called, complaint
-from graphplan.marking.judge.mistakes import MISTAKES
-from graphplan.marking.judge.score import NOTHING, Score
+from graphplan.marking.judge.findings import Called, called, complaint, look_at, not_handed_in, opinion, wrong_numbers
+from graphplan.marking.judge.score import KINDS, NOTHING, Score
 from graphplan.marking.judge.verdict import Judgement
 from graphplan.phrases import Said, arranged, joined, phrase, said
 
@@ -37,8 +36,9 @@ class Marked:
 
     @property
     def faultless(self) -> bool:
-        """Whether something could be judged, and no step is wrong."""
-        return self.score.total is not None and self.judgement.first is None
+        """Whether something could be judged, and nothing is wrong or missing."""
+        return self.score.total is not None and not (
+            self.judgement.first or wrong_numbers(self.judgement) or not_handed_in(self.judgement))
 
     @property
     def mistake(self) -> Said | None:
@@ -50,7 +50,11 @@ class Marked:
         """The verdict in words."""
         if self.judgement.first is not None:
             return complaint(self.judgement, self.judgement.first)
-        return said("no wrong step") if self.faultless else NOTHING()
+        if self.score.total is None:
+            return NOTHING()
+        if self.faultless:
+            return said("no wrong step")
+        return joined((opinion(self.judgement), *look_at(self.judgement)), " ")
 
 
 @dataclass(frozen=True)
@@ -129,7 +133,7 @@ class Classroom:
 
 def mistaken(kind: str) -> Said:
     """A kind of mistake in words."""
-    return MISTAKES[kind].words()
+    return KINDS[kind]()
 
 
 def lines(found: Classroom) -> Iterator[Said]:

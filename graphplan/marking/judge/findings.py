@@ -9,14 +9,14 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from graphplan.kernel.program import Program
-from graphplan.marking.judge.score import GROUPS, Score
+from graphplan.marking.judge.asked import results
+from graphplan.marking.judge.score import GROUPS, KINDS, Score
 from graphplan.marking.judge.verdict import (
     FOLLOWS,
     MISSING,
     NOT_NEEDED,
     RIGHT,
     STATES,
-    UNSEEN,
     UNSURE,
     WRONG,
     Judgement,
@@ -79,11 +79,17 @@ def named(drawn: Program, index: int) -> Said:
 
 
 def opinion(judgement: Judgement) -> Said:
-    """What matters most: the first wrong step, or that there is none."""
-    first = judgement.first
-    if first is None:
-        return said("No step is wrong.")
-    return said("First wrong is {0}: {1}.", named(judgement.drawing.drawn, first.step), remark(judgement, first))
+    """What matters most: the first wrong step, or else result, or that there is none, or nothing at all."""
+    first, drawn = judgement.first, judgement.drawing.drawn
+    if first is not None:
+        return said("First wrong is {0}: {1}.", named(drawn, first.at_fault), remark(judgement, first))
+    if judgement.blank:
+        return said("The sheet is blank: nothing that was asked for is on it.")
+    if wrong := wrong_numbers(judgement):
+        return miss(wrong[0])
+    if not (judgement.drawn or judgement.numbers):
+        return said("Nothing that was asked for is recognized: look at the sheet.")
+    return said("No step is wrong.")
 
 
 def read_as(judgement: Judgement) -> list[Said]:
@@ -93,29 +99,46 @@ def read_as(judgement: Judgement) -> list[Said]:
 
 def asked(judgement: Judgement) -> list[Said]:
     """What the first wrong step asks for, in its own words; nothing where there is none."""
-    drawn, first = judgement.drawing.drawn, judgement.first
-    if first is None:
-        return []
-    return [arranged("{0:capital}: {1}", named(drawn, first.step), drawn.sentence(first.step))]
+    drawn, guilty = judgement.drawing.drawn, judgement.guilty
+    return [] if guilty is None else [arranged("{0:capital}: {1}", named(drawn, guilty), drawn.sentence(guilty))]
+
+
+def look_at(judgement: Judgement) -> list[Said]:
+    """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
+    steps = [(STATES[state], lacking(judgement, state)) for state in (UNSURE, MISSING)]
+    told = [arranged("{0:capital}: {1}.", words(), numbers) for words, numbers in steps if numbers]
+    if absent := not_handed_in(judgement):
+        told.append(said("Results that are not handed in: {0}.", joined(absent)))
+    return told
+
+
+def not_handed_in(judgement: Judgement) -> list[Said]:
+    """The results that were asked for, and are neither drawn nor in a table."""
+    absent = (result for result in results(judgement) if result.state == MISSING)
+    return [joined((result.kind.words, result.of), " ") for result in absent]
+
+
+def wrong_numbers(judgement: Judgement) -> list[NumberVerdict]:
+    """The numbers of the table that are wrong."""
+    return [number for number in judgement.numbers if number.state == WRONG]
 
 
 def complaint(judgement: Judgement, verdict: Verdict) -> Said:
     """What is wrong with a step: where, what was probably done, how far off it is, and how far it may be."""
-    return arranged("{0:capital}: {1}", named(judgement.drawing.drawn, verdict.step), remark(judgement, verdict))
+    return arranged("{0:capital}: {1}", named(judgement.drawing.drawn, verdict.at_fault), remark(judgement, verdict))
 
 
 def remark(judgement: Judgement, verdict: Verdict) -> Said:
-    """The same without the step's own number; a mistake at an earlier step that is not to be seen is told with its
-    own, and a line that is not to be seen is nowhere."""
+    """The same without the number of the step; where that is not to be seen, with that of the one that shows it; a line
+    that is not to be seen is nowhere."""
     if verdict.mistake is not None and not math.isfinite(verdict.off):
         return verdict.mistake
     sizes = said("{0} mm off, {1} mm allowed", *(digits(size, FIGURES) for size in (verdict.off, verdict.tolerance)))
     if verdict.mistake is None:
         return sizes
-    guilty = verdict.blamed
-    if guilty is None:
+    if verdict.at_fault == verdict.step:
         return joined((verdict.mistake, sizes))
-    return joined((sizes, said("probably {0}: {1}", named(judgement.drawing.drawn, guilty), verdict.mistake)))
+    return said("{0}, seen at {1}: {2}", verdict.mistake, named(judgement.drawing.drawn, verdict.step), sizes)
 
 
 def lacking(judgement: Judgement, state: str = MISSING) -> str:
@@ -155,7 +178,10 @@ def record(judgement: Judgement, score: Score) -> dict[str, Any]:
         "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
         "numbers": [_number(verdict) for verdict in judgement.numbers],
         "not_needed": len(judgement.spare),
+        "results": [{"kind": result.kind, "of": result.of, "verdict": result.state} for result in results(judgement)],
+        "blank": judgement.blank,
         "score": {"total": score.total, **score.groups},
+        "costs": dict(score.costs),
         "counts": judgement.counts,
     }
 
@@ -175,12 +201,13 @@ def _mark(judgement: Judgement, index: int) -> dict[str, Any]:
 
 
 def _complaint(judgement: Judgement, verdict: Verdict) -> dict[str, Any]:
-    """The first wrong step; `guilty` is the earlier one that is probably to blame, where there is one."""
-    guilty = verdict.blamed
+    """The first wrong step, and the one that shows it: a later one where it is not to be seen itself."""
+    guilty = _mark(judgement, verdict.at_fault)
     return {
-        **_mark(judgement, verdict.step), "sentence": str(judgement.drawing.drawn.sentence(verdict.step)),
+        **guilty, "sentence": str(judgement.drawing.drawn.sentence(verdict.at_fault)),
         "off_mm": _finite(verdict.off), "tolerance_mm": _finite(verdict.tolerance), "mistake": _told(verdict),
-        "kind": verdict.kind or None, "guilty": None if guilty is None else _mark(judgement, guilty),
+        "kind": verdict.kind or None, "confidence": round(verdict.confidence, 3), "guilty": guilty,
+        "seen": _mark(judgement, verdict.step),
     }  # fmt: skip
 
 
@@ -242,8 +269,9 @@ class Remarks(Words):
             return
         yield self._heading(said("Score"))
         told: list[tuple[str, float]] = [(GROUPS[group](), percent) for group, percent in score.groups.items()]
+        told += [(KINDS[kind](), -cost) for kind, cost in score.costs.items()]
         told.append((said("in all, of 100"), score.total))
-        yield from rows([[self._runs(name), self._runs(f"{percent:.0f}")] for name, percent in told])
+        yield from rows([[self._runs(name), self._runs(digits(round(percent)))] for name, percent in told])
 
     def _numbers(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The numbers of the table beside the true ones, in the scene's units."""
@@ -266,11 +294,10 @@ class Remarks(Words):
         if wrong:
             yield self._heading(said("Wrong steps"))
         for verdict in wrong:
-            sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.step), remark(judgement, verdict))
-            yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.step).short)
-        for state in (UNSURE, MISSING, UNSEEN):
-            if told := lacking(judgement, state):
-                yield from self.paragraph(arranged("{0:capital}: {1}.", STATES[state](), told), wide)
+            sentence = arranged("{0} {1:capital}.", drawn.sentence(verdict.at_fault), remark(judgement, verdict))
+            yield from self.paragraph(sentence, wide, verdict.step, called(drawn, verdict.at_fault).short)
+        for told in look_at(judgement):
+            yield from self.paragraph(told, wide)
 
     def _runs(self, text: str) -> Runs:
         return sentence_runs(self.plans.tongue(text), self.names)

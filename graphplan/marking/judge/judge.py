@@ -81,8 +81,8 @@ class Judge:
         self._weight = matching.weight
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
-            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdicts(matching)), tuple(spare), numbers,
-            joined(self._told()))
+            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdicts(matching, numbers)),
+            tuple(spare), numbers, joined(self._told()))
 
     @property
     def lacks(self) -> bool:

@@ -93,21 +93,20 @@ def faint(item: Item) -> Item:
 
 def told(student: StudentStrokes, panel: str, rect: Rect, items: Sequence[Item]) -> Iterator[Item]:
     """On one plan, in its rectangle: the first wrong step called out, the others by their numbers."""
-    judgement, here, others = student.judgement, list(items), list[StudentMark]()
+    judgement, here = student.judgement, list(items)
     drawn = judgement.drawing.drawn
     letters = judgement.composition.arrangement.letters
-    wrong = [mark for mark in student.marks if mark.verdict.state == WRONG and mark.wanted.panel == panel]
-    for mark in wrong:
-        if mark.verdict is not judgement.first:
-            others.append(mark)
-            continue
-        names = tuple(step.name for step in drawn.steps if step.name)
-        sentence = judgement.composition.plans.tongue(complaint(judgement, mark.verdict))
-        here += (boxed := [*callout(sentence, names, mark.at, here, rect, CALLED, letters.text)])
-        yield from boxed
-    wishes = [Wish((Run(called(drawn, mark.verdict.step).short),), (mark.at,), SIZES[WRONG], True,
-                   Pen(0.0, RED, fill=RED), bold=True) for mark in others]
-    yield from placed(wishes, here, [mark.at for mark in wrong], rect, letters)
+    wrong = [(verdict, student.at(verdict)) for verdict in judgement.verdicts
+             if verdict.state == WRONG and student.panel(verdict) == panel]
+    for verdict, at in wrong:
+        if verdict is judgement.first:
+            names = tuple(step.name for step in drawn.steps if step.name)
+            sentence = judgement.composition.plans.tongue(complaint(judgement, verdict))
+            here += (boxed := [*callout(sentence, names, at, here, rect, CALLED, letters.text)])
+            yield from boxed
+    wishes = [Wish((Run(called(drawn, verdict.at_fault).short),), (at,), SIZES[WRONG], True, Pen(0.0, RED, fill=RED),
+                   bold=True) for verdict, at in wrong if verdict is not judgement.first]
+    yield from placed(wishes, here, [at for _, at in wrong], rect, letters)
 
 
 def _remarks(page: Sequence[Placed]) -> Iterator[Item]:
@@ -265,9 +264,17 @@ class StudentStrokes:
             if verdict.state == UNSURE and verdict.trace is None:
                 yield from _point(self.about(verdict), UNSURE, verdict.step)
 
+    def panel(self, verdict: Verdict) -> str:
+        """The plan of a step."""
+        return self.judgement.composition.plates.steps[verdict.step].panel
+
+    def at(self, verdict: Verdict) -> Spot:
+        """Where on paper a verdict is to be told: at the mark, or where it should be."""
+        return next((mark.at for mark in self.marks if mark.verdict is verdict), None) or self.about(verdict)
+
     def about(self, verdict: Verdict) -> Spot:
-        """Where what cannot be told should be: a point, or the middle of the marks on a line or an arc, or the foot on
-        it from the middle of its panel."""
+        """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
+        on it from the middle of its panel."""
         plates = self.judgement.composition.plates
         wanted = replace(plates.steps[verdict.step], value=verdict.own)
         rect = wanted.view.rect

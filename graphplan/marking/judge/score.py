@@ -1,85 +1,111 @@
-"""The score of a drawing out of 100: what its steps and numbers earn beside what they would if all were right."""
+"""The score of a drawing out of 100: what was asked for, and the steps towards it, beside what all would earn if right.
+
+The first mistake of each kind costs as many points as the teacher gives it, if the step that it spoils earns fewer.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
 
 from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
-from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, Judgement
+from graphplan.marking.judge.asked import results
+from graphplan.marking.judge.mistakes import MISTAKES
+from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ACCELERATION, VELOCITY
 from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
 
 POSE, FORCE, RESULTS = "pose", "force", "results"
-MOST = 1000.0  # of a weight
+MOST, ALL = 1000.0, 100.0  # of a weight; of a score, and of what a mistake may cost
 LEAST = {"right": 0.001, "numbers": 0.0}  # what is right earns something; other verdicts may cost something
 NOTHING = phrase("nothing to judge")
 GROUPS: Mapping[str, Phrase] = {
     POSE: phrase("given points"), VELOCITY: phrase("velocity"), ACCELERATION: phrase("acceleration"),
     FORCE: phrase("force"), RESULTS: phrase("results"),
 }  # fmt: skip
+OTHER, ANOTHERS = "other", "another's number"
+KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
+                               ANOTHERS: phrase("the number of another result"), OTHER: phrase("another mistake")}
+FUNDAMENTAL, SLIP = 20.0, 12.0  # what a mistake about mechanics costs by default, and one that is none
+SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
+                   "exchanged coordinates", ANOTHERS, OTHER})
 
 
 @dataclass(frozen=True)
 class Weights:
-    """What a step earns by its verdict, and how many steps a number counts for."""
+    """What a step earns by its verdict, how many steps a result counts for, and how many points of 100 the first
+    mistake of each kind costs."""
 
     right: float = 1.0
     follows: float = 1.0
     missing: float = 0.0
     wrong: float = 0.0
     numbers: float = 2.0
+    costs: Mapping[str, float] = field(default_factory=lambda: {
+        kind: SLIP if kind in SLIPS else FUNDAMENTAL for kind in KINDS})
 
     def of(self, state: str) -> float:
         """What is implied earns as if it were drawn; what cannot be told earns nothing."""
         return 0.0 if state == UNSURE else float(getattr(self, "right" if state == IMPLIED else state))
 
 
+VERDICTS = "right", "follows", "missing", "wrong", "numbers"
+
+
 def weights(text: str) -> Weights:
-    """The weights that a text such as `follows=0.5,numbers=3` speaks of; what it leaves out stays as it is by default.
-    """
-    known = [field.name for field in fields(Weights)]
-    told = Weights(**settings("--weights", text, known, "nothing of this name is weighed", _size))
-    if told.right < max(told.follows, told.missing, told.wrong):
+    """The weights that a text such as `follows=0.5,numbers=3,reversed=30` speaks of; what it leaves out stays as it is
+    by default."""
+    told = settings("--weights", text, [*VERDICTS, *KINDS], "nothing of this name is weighed", _size)
+    right, follows, missing, wrong, numbers = (told.get(name, float(getattr(Weights, name))) for name in VERDICTS)
+    costs = {kind: told.get(kind, cost) for kind, cost in Weights().costs.items()}
+    found = Weights(right, follows, missing, wrong, numbers, costs)
+    if found.right < max(found.follows, found.missing, found.wrong):
         raise Refused(f"--weights {text}", "something earns more than what is right", "no weight above that of right")
-    return told
+    return found
 
 
 def _size(name: str, text: str) -> float:
-    """A weight, within bounds in which sums of many stay what they are."""
-    size, least = decimal(text), LEAST.get(name, -MOST)
-    if not least <= size <= MOST:
-        raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {MOST:g}")
+    """A weight, within bounds in which sums of many stay what they are; or the points that a mistake costs."""
+    size, least, most = decimal(text), LEAST.get(name, -MOST), MOST
+    if name in KINDS:
+        least, most = 0.0, ALL
+    if not least <= size <= most:
+        raise Refused(f"--weights {name}={text}", "this is no weight", f"a number from {least:g} to {most:g}")
     return size
 
 
 def percent(earned: float, most: float) -> float:
     """What was earned out of 100."""
-    return 100.0 * min(max(earned / most, 0.0), 1.0)
+    return ALL * min(max(earned / most, 0.0), 1.0)
 
 
 @dataclass(frozen=True)
 class Score:
-    """What each group of steps, and the numbers, have earned, and of how much; no group of nothing to earn."""
+    """What each group of steps, and the results, have earned, and of how much, no group of nothing to earn; and the
+    points of 100 that mistakes cost beside that, by kind."""
 
     shares: Mapping[str, tuple[float, float]]
+    costs: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def total(self) -> float | None:
         """Out of 100, of everything together; none where there was nothing to judge."""
-        return percent(*map(sum, zip(*self.shares.values(), strict=True))) if self.shares else None
+        if not self.shares:
+            return None
+        return max(percent(*map(sum, zip(*self.shares.values(), strict=True))) - sum(self.costs.values()), 0.0)
 
     @property
     def told(self) -> Said:
-        """In words, group by group."""
+        """In words, group by group, and what mistakes cost."""
         if self.total is None:
             return arranged("{0:capital}.", NOTHING())
-        parts = joined(arranged("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items())
-        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", parts)
+        parts = [arranged("{0} {1}", GROUPS[group](), f"{share:.0f}") for group, share in self.groups.items()]
+        parts += [arranged("{0} −{1}", KINDS[kind](), f"{cost:.0f}") for kind, cost in self.costs.items()]
+        return said("Score: {0} of 100 ({1}).", f"{self.total:.0f}", joined(parts))
 
     @property
     def groups(self) -> dict[str, float]:
@@ -88,24 +114,38 @@ class Score:
 
 
 def score(judgement: Judgement, weighed: Weights | None = None) -> Score:
-    """The score of a drawing; what cannot be seen in it counts neither way."""
+    """The score of a drawing; what cannot be seen in it, but was drawn somehow, counts neither way."""
     weighed = weighed or Weights()
     earned: dict[str, list[float]] = {group: [] for group in GROUPS}
     most = dict.fromkeys(GROUPS, 0.0)
     for group, state, count in _counted(judgement, weighed):
         earned[group].append(count * weighed.of(state))
         most[group] += count * weighed.right
-    return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]})
+    return Score({group: (math.fsum(earned[group]), most[group]) for group in GROUPS if most[group]},
+                 dict(_costs(judgement, weighed, sum(most.values()))))
 
 
 def _counted(judgement: Judgement, weighed: Weights) -> Iterator[tuple[str, str, float]]:
-    """Group, state and count of everything that is to be judged."""
+    """Group, state and count of everything that is to be judged: of a table alone its numbers are, each as one."""
     groups = served(judgement.drawing)
-    for verdict in judgement.judged:
+    for verdict in judgement.judged if judgement.drawn or not judgement.numbers else ():
         if verdict.state != UNSEEN:
             yield groups[verdict.step], verdict.state, 1.0
-    for number in judgement.numbers:
-        yield RESULTS, number.state, weighed.numbers
+    for result in results(judgement):
+        yield RESULTS, result.state, weighed.numbers
+
+
+def _costs(judgement: Judgement, weighed: Weights, most: float) -> Iterator[tuple[str, float]]:
+    """What the first mistake of each kind costs beside the share of its step, or of its number."""
+    wrong = [(verdict.kind or OTHER, 1.0) for verdict in judgement.judged if verdict.state == WRONG]
+    wrong += [(number.kind or OTHER, weighed.numbers) for number in judgement.numbers if number.state == WRONG]
+    firsts = dict[str, float]()
+    for kind, count in wrong if most else ():
+        firsts.setdefault(kind if kind in weighed.costs else OTHER, count)
+    for kind, count in firsts.items():
+        beyond = weighed.costs[kind] - ALL * count * (weighed.right - weighed.wrong) / most
+        if beyond > 0.0:
+            yield kind, beyond
 
 
 def served(drawing: Construction) -> list[str]:

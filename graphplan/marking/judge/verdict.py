@@ -63,9 +63,9 @@ class Verdict:
     confidence: float = 1.0
 
     @property
-    def blamed(self) -> int | None:
-        """The earlier step that is probably to blame for a wrong one; None where it is its own mistake."""
-        return None if self.guilty == self.step else self.guilty
+    def at_fault(self) -> int:
+        """The step that is wrong: an earlier one that is probably to blame, or this."""
+        return self.step if self.guilty is None else self.guilty
 
 
 @dataclass(frozen=True)
@@ -115,12 +115,22 @@ class Judgement:
         return verdict.trace is not None and self.drawing.drawn.steps[verdict.step].op.movement is not Movement.BEGUN
 
     @property
+    def drawn(self) -> bool:
+        """Whether any step was drawn: what is given is there before."""
+        return any(verdict.trace is not None for verdict in self.judged)
+
+    @property
+    def blank(self) -> bool:
+        """Whether nothing was handed in: no step and no number, nor anything else that the task does not give."""
+        return not (self.drawn or self.numbers or self.spare or self.first)
+
+    @property
     def first(self) -> Verdict | None:
-        """The first wrong step; None where there is none."""
-        return next((verdict for verdict in self.verdicts if verdict.state == WRONG), None)
+        """What shows the first wrong step, in drawing order; None where there is none."""
+        wrong = (verdict for verdict in self.verdicts if verdict.state == WRONG)
+        return min(wrong, key=lambda verdict: verdict.at_fault, default=None)
 
     @property
     def guilty(self) -> int | None:
-        """The step that is probably to blame for the first wrong one, by its place in the drawn program."""
-        first = self.first
-        return None if first is None else first.step if first.guilty is None else first.guilty
+        """The first wrong step itself, by its place in the drawn program: a later one that is seen may show it."""
+        return None if self.first is None else self.first.at_fault

@@ -194,7 +194,7 @@ class Judge:
         what = sheet, self.submission, self.traces, self.unlabelled
         panels = self.reading.composition.arrangement.panels if self.submission.page else {}
         evidence = ImageSearch(*what, panels, self.sought) if self.submission.page else Evidence(*what)
-        return Matching(evidence, self.labels, ALARM / len(self.drawing.drawn))
+        return Matching(evidence, self.labels, ALARM / max(1, len(self.drawing.drawn)))
 
 
 def _on(matching: Matching, panel: str) -> Iterator[Match]:

@@ -20,6 +20,7 @@ from graphplan.sheet.plates.symbols import off, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
 from graphplan.words.tongue import ENGLISH, Tongue
 
+NOTHING = 1e-9  # of the mechanism: a plan that is no larger is a spot, and rounding all that it shows
 A_BIT = 1.4  # how much larger the mechanism plan may be for the paths of its points
 
 
@@ -153,12 +154,14 @@ class Plans:
         marks = [self.spot(i) for i in self.points(panel)]
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
-        nice = list(self.apexes(panel).values())
+        nice, tiny = list(self.apexes(panel).values()), NOTHING * float(self.drawing.scene.extent)
+        if max(box.width, box.height) < tiny:
+            box = around([(box.left, box.bottom)])
         if self.motion and panel == MECHANISM:
             box = self._with_paths(box, self.motion)
             nice += [*self.motion.path_ends, *self.motion.position_ends]
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
-        return Extent(box, tuple(spot for far, spot in extra if far > 0), tuple(nice))
+        return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice))
 
     def _with_paths(self, box: Rect, motion: TracedMotion) -> Rect:
         """The box with the paths of points, where that makes it but a bit larger and no scale is given."""

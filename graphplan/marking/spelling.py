@@ -28,6 +28,11 @@ def spelled(name: str) -> str:
     return stem + (f"_{index}" if index else "") + "'" * text.count("'")
 
 
+def bare(name: str) -> str:
+    """A name without what spellings differ in: A_3, a3 and "link A3" are one."""
+    return re.sub(r"^(link|point)\s+|[\s_]", "", spelled(name).casefold())
+
+
 def mark(name: str) -> str:
     """The name spelled, if it reads as that of a mark; else nothing."""
     found = spelled(name)

@@ -95,12 +95,14 @@ Frames = Mapping[str, PlanFrame]
 
 @dataclass(frozen=True)
 class Number:
-    """One entry of a result table: a vector's components or a single number, and the unit that was written."""
+    """One entry of a result table: a vector's components or a single number, the unit that was written, and the
+    standard deviation with which it was rounded, in that unit."""
 
     kind: str
     of: str
     value: tuple[float, ...]
     unit: str = ""
+    rounding: float = field(default=0.0, compare=False)
 
 
 class Searched(Protocol):
@@ -126,6 +128,7 @@ class Submission:
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
     they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
+    `stated` says that the blur of its traces is what the student gives; else it is the least that it may be.
     """
 
     name: str
@@ -136,3 +139,4 @@ class Submission:
     page: Searched | None = None
     tips: tuple[Spot, ...] = ()
     letters: tuple[Lettering, ...] = ()
+    stated: bool = False

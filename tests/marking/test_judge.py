@@ -14,6 +14,7 @@ import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.marking.judge.findings import twice
 from graphplan.marking.judge.judge import judge, judge_any_method
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, MISSING, RIGHT, UNSEEN, WRONG
@@ -245,14 +246,21 @@ def test_a_number_of_another_point_is_recognised() -> None:
     assert str(found.numbers[0].mistake) == "this is the number of B"
 
 
-@pytest.mark.parametrize(("others", "why"), [
-    ((Number("velocity", "Z", (1.0, 2.0), "mm/s"),), "the scene asks for no such result; one of A, B, M"),
-    ((_velocity("B"), _velocity("B")), "velocity of B: it is told twice")])
-def test_numbers_that_cannot_be_judged_are_refused(others: tuple[Number, ...], why: str) -> None:
-    """A result that is not asked for, or told twice, is bad input."""
+def test_a_result_that_is_not_asked_for_is_refused() -> None:
+    """It is bad input, and told with those that are."""
     drawing, sheet = composed("four-bar")
-    with pytest.raises(Refused, match=why):
-        judge(drawing, sheet, Submission("x.csv", numbers=others), PENCIL)
+    number = Number("velocity", "Z", (1.0, 2.0), "mm/s")
+    with pytest.raises(Refused, match="the scene asks for no such result; one of A, B, M"):
+        judge(drawing, sheet, Submission("x.csv", numbers=(number,)), PENCIL)
+
+
+def test_a_result_that_is_written_twice_is_judged_once() -> None:
+    """The first counts; the others, however they are spelled, are told beside it."""
+    drawing, sheet = composed("four-bar")
+    numbers = _velocity("B"), _velocity("A"), replace(_velocity("B", -1.0), of="b")
+    found = judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL).numbers
+    assert [(one.number.of, one.state, one.again) for one in found] == [("B", RIGHT, numbers[2:]), ("A", RIGHT, ())]
+    assert "written down twice" in str(twice(found[0]))
 
 
 def test_a_number_read_off_a_wrong_drawing_follows() -> None:

@@ -56,9 +56,24 @@ def test_lines_circles_plans_and_precision(tmp_path: Path) -> None:
             "9;1;2;;;2,5;Force plan 2, 3;\n")
     line, point, circle = submission(tmp_path, "sheet.csv", text).traces
     assert (line.kind, line.spots, line.panel, line.blur) == (LINE, ((0, 0), (3, 4)), "N-plan", 0.2)
-    assert (point.kind, point.panel, point.blur) == (POINT, "mechanism plan", 0)
+    assert (point.kind, point.panel, point.blur) == (POINT, "mechanism plan", pytest.approx(0.1 / 12**0.5))
     assert (circle.kind, circle.panel) == (CIRCLE, "force plan 2, 3")
     assert [math.dist(spot, (1, 2)) for spot in circle.spots] == pytest.approx([2.5] * 4)
+
+
+@pytest.mark.parametrize(("spots", "unit"), [
+    ([(12.5, 3), (4, 7)], 0.1), ([(12.25, 3), (4, 7)], 0.01), ([(12, 3), (4, 7)], 1.0), ([(1e1, 2.5e-1)], 0.01),
+    ([(x + 0.5, x) for x in range(8)], 0.5), ([(x + 0.4, x + 0.2) for x in range(8)], 0.2),
+    ([(5 * x, 10 * x) for x in range(8)], 5.0)])
+def test_how_finely_marks_were_read_is_seen_in_the_digits(tmp_path: Path, spots: list[tuple[float, float]],
+                                                          unit: float) -> None:
+    """In a table of either kind: one of the last digit, or where all are multiples of it, the half or the fifth mm."""
+    table = "mark,x,y\n" + "".join(f"P{i},{x},{y}\n" for i, (x, y) in enumerate(spots))
+    toml = "[marks]\n" + "".join(f"P{i} = [{x}, {y}]\n" for i, (x, y) in enumerate(spots))
+    for name, text in (("a.csv", table), ("a.toml", toml)):
+        found = submission(tmp_path, name, text)
+        assert not found.stated
+        assert [trace.blur for trace in found.traces] == pytest.approx([unit / math.sqrt(12)] * len(spots))
 
 
 TOML = """

@@ -40,6 +40,30 @@ def test_vectors_and_single_numbers(tmp_path: Path) -> None:
     assert moment == Number("balance moment", "1", (29.0,), "N·m")
 
 
+SYMBOLS = {"vA": ("velocity", "A"), "v_A": ("velocity", "A"), "a_B": ("acceleration", "B"), "aB": ("acceleration", "B"),
+           "v(B)": ("velocity", "B"), "ω2": ("omega", "2"), "ω₂": ("omega", "2"), "omega 2": ("omega", "2"),
+           "omega_2": ("omega", "2"), "α3": ("alpha", "3"), "epsilon 3": ("alpha", "3"), "v_A3": ("velocity", "A3")}
+
+
+@pytest.mark.parametrize("written", SYMBOLS)
+def test_symbols_are_read_as_quantities(tmp_path: Path, written: str) -> None:
+    """Where no thing is named beside it, a letter with an index says both."""
+    kind, of = SYMBOLS[written]
+    columns, value = ("value", "3") if KINDS[kind].single else ("x,y", "3,4")
+    found, = numbers(tmp_path, f"quantity,of,{columns}\n{written},,{value}\n")
+    assert (found.kind, found.of) == (kind, of)
+
+
+@pytest.mark.parametrize(("written", "value", "rounding"), [
+    ("12.5", 12.5, 0.1), ('"12,5"', 12.5, 0.1), ("12", 12.0, 1.0), ("1.25e3", 1250.0, 10.0),
+    ('"1,25·10^3"', 1250.0, 10.0), ("1.25×10³", 1250.0, 10.0), ("−0.50", -0.5, 0.01)])
+def test_numbers_as_students_write_them(tmp_path: Path, written: str, value: float, rounding: float) -> None:
+    """With decimal commas and powers of ten; the digits tell how far they were rounded."""
+    found, = numbers(tmp_path, f"quantity,of,value\nomega,3,{written}\n")
+    assert found.value == pytest.approx((value,))
+    assert found.rounding == pytest.approx(rounding / math.sqrt(12))
+
+
 MILLIMETRES, INCHES = Units(), Units("in", "lbf", "lb")
 CONVERTED = [
     ("velocity", "m/s", MILLIMETRES, 1000), ("velocity", "mm/s", MILLIMETRES, 1),
@@ -58,7 +82,11 @@ CONVERTED = [
     ("balance moment", "kN*m", MILLIMETRES, 1000), ("balance moment", "lbf·ft", INCHES, 0.3048),
     ("slide arm", "cm", MILLIMETRES, 10), ("velocity", "", INCHES, 1), ("velocity", "м/с", MILLIMETRES, 1000),
     ("acceleration", "мм/с²", MILLIMETRES, 1), ("omega", "рад/с", MILLIMETRES, 1),
-    ("balance moment", "Н·м", MILLIMETRES, 1), ("reaction", "кН", MILLIMETRES, 1000),
+    ("balance moment", "Nm", MILLIMETRES, 1), ("balance moment", "kNm", MILLIMETRES, 1000),
+    ("balance moment", "Nmm", MILLIMETRES, 0.001), ("velocity", "10^3 mm/s", MILLIMETRES, 1000),
+    ("velocity", "·10³ mm/s", MILLIMETRES, 1000), ("omega", "s-1", MILLIMETRES, 1),
+    ("balance moment", "Н·м", MILLIMETRES, 1), ("balance moment", "Нм", MILLIMETRES, 1),
+    ("reaction", "кН", MILLIMETRES, 1000),
 ]  # fmt: skip
 
 

@@ -93,8 +93,10 @@ def opinion(judgement: Judgement) -> Said:
 
 
 def read_as(judgement: Judgement) -> list[Said]:
-    """As what a drawing was read; nothing where it is drawn as the task's own sheet is."""
-    return [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+    """As what a drawing was read, where it is not drawn as the task's own sheet is, and which results are there twice.
+    """
+    told = [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+    return told + [twice(number) for number in judgement.numbers if number.again]
 
 
 def asked(judgement: Judgement) -> list[Said]:
@@ -167,6 +169,12 @@ def miss(verdict: NumberVerdict) -> Said:
     return said("Wrong result: {0}.", joined(parts if verdict.mistake is None else [*parts, verdict.mistake]))
 
 
+def twice(verdict: NumberVerdict) -> Said:
+    """That a result is written down more than once, and what counts."""
+    others = joined(map(written, verdict.again))
+    return said("{0} is written down twice: {1} counts, not {2}.", quantity(verdict), written(verdict.number), others)
+
+
 def record(judgement: Judgement, score: Score) -> dict[str, Any]:
     """Everything that was judged, step by step and number by number; lengths are mm of paper."""
     first = judgement.first
@@ -218,6 +226,7 @@ def _number(verdict: NumberVerdict) -> dict[str, Any]:
         "kind": number.kind, "of": number.of, "value": list(number.value), "unit": number.unit,
         "verdict": verdict.state, "true": list(verdict.true), "off": _finite(verdict.off),
         "tolerance": _finite(verdict.tolerance), "mistake": _told(verdict),
+        "again": [{"value": list(other.value), "unit": other.unit} for other in verdict.again],
     }  # fmt: skip
 
 

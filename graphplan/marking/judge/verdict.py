@@ -70,7 +70,8 @@ class Verdict:
 
 @dataclass(frozen=True)
 class NumberVerdict:
-    """What is said of one number of the table: `off` and `tolerance` in the scene's units, and the true value."""
+    """What is said of one number of the table: `off` and `tolerance` in the scene's units, and the true value; `again`
+    are the numbers that are written down for the same result after it, and not judged."""
 
     number: Number
     state: str
@@ -79,6 +80,7 @@ class NumberVerdict:
     true: tuple[float, ...]
     mistake: Said | None = None
     kind: str = ""
+    again: tuple[Number, ...] = ()
 
 
 @dataclass(frozen=True)

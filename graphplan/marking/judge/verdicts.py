@@ -37,7 +37,8 @@ from graphplan.marking.judge.verdict import (
     NumberVerdict,
     Verdict,
 )
-from graphplan.marking.tables.results import in_scene_units
+from graphplan.marking.spelling import bare
+from graphplan.marking.tables.results import in_scene_units, scene_unit
 from graphplan.marking.traces import Number
 from graphplan.methods.recorded import Reading
 from graphplan.phrases import Said, digits, said
@@ -217,6 +218,10 @@ class Expected:
     parts: tuple[Any, ...]
     reading: float
 
+    def rounded(self, rounding: float) -> Expected:
+        """The same as it was written down."""
+        return Expected(self.parts, math.hypot(self.reading, rounding))
+
     def residual(self, matching: Matching, value: Sequence[float]) -> Residual:
         """How far a value is from it, in its own unit."""
         partials = np.array([matching.sheet.domain.partials(part) for part in self.parts])
@@ -227,19 +232,28 @@ class Expected:
 
 
 def judged(matching: Matching, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
-    """What is said of every number of a table. Fails with `Refused` where one is not asked for, or told twice."""
+    """What is said of every number of a table, once of each: one that is written again is told beside the first.
+
+    Fails with `Refused` where one is not asked for.
+    """
     own, true = _expected(matching, matching.own), _expected(matching, matching.sheet.drawing.values)
-    told: set[Key] = set()
+    plainly = {key: plain(expected.parts) for key, expected in true.items()}
+    written: dict[Key, list[Number]] = {}
     for number in numbers:
-        key = number.kind, number.of
-        if key not in own:
-            alike = [of for kind, of in own if kind == number.kind] or list(dict.fromkeys(kind for kind, _ in own))
-            raise Refused(f"{number.kind} of {number.of}", "the scene asks for no such result",
-                          f"one of {', '.join(alike)}")
-        if key in told:
-            raise Refused(f"{number.kind} of {number.of}", "it is told twice", "tell it once")
-        told.add(key)
-        yield _judged(matching, number, own, {key: plain(expected.parts) for key, expected in true.items()})
+        written.setdefault(_asked(number, own), []).append(number)
+    for key, (first, *again) in written.items():
+        yield replace(_judged(matching, first, key, own, plainly), again=tuple(again))
+
+
+def _asked(number: Number, own: Mapping[Key, Expected]) -> Key:
+    """Which result a number is: the one of its name, or the only one of whose name it is another spelling."""
+    key = number.kind, number.of
+    alike = [(kind, of) for kind, of in own if kind == number.kind and bare(of) == bare(number.of)]
+    if key not in own and len(alike) != 1:
+        known = [of for kind, of in own if kind == number.kind] or list(dict.fromkeys(kind for kind, _ in own))
+        raise Refused(f"{number.kind} of {number.of}", "the scene asks for no such result",
+                      f"one of {', '.join(known)}")
+    return key if key in own else alike[0]
 
 
 def _expected(matching: Matching, values: Sequence[Any]) -> dict[Key, Expected]:
@@ -271,11 +285,12 @@ def _difference(matching: Matching, reading: Reading, marks: Sequence[Any], shif
     return float(abs(value((x + shift[0], y + shift[1])) - value((x, y))))
 
 
-def _judged(matching: Matching, number: Number, own: Mapping[Key, Expected], true: Mapping[Key, tuple[float, ...]]
-            ) -> NumberVerdict:
+def _judged(matching: Matching, number: Number, key: Key, own: Mapping[Key, Expected],
+            true: Mapping[Key, tuple[float, ...]]) -> NumberVerdict:
     """The verdict on one number: right by the student's own drawing, after a mistake if that is astray."""
-    value, key, chance = in_scene_units(number, matching.sheet.drawing.scene.units), (number.kind, number.of), \
-        matching.chance
+    units, chance = matching.sheet.drawing.scene.units, matching.chance
+    value, rounding = in_scene_units(number, units), number.rounding * scene_unit(number, units)
+    own = {other: one.rounded(rounding) for other, one in own.items()}
     expected, truth = own[key], true[key]
     residual = expected.residual(matching, value)
     straight = Expected(truth, expected.reading).residual(matching, plain(expected.parts))

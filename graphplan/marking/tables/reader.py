@@ -9,15 +9,17 @@ import math
 import tomllib
 from collections import defaultdict
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import SHORT, circle, ring
-from graphplan.marking.files.safe import MB, TRACES, Budget, number, on_paper, text
+from graphplan.marking.files.safe import MB, TRACES, Budget, on_paper, text
 from graphplan.marking.spelling import spelled
 from graphplan.marking.tables.results import entry, turned, wanted
+from graphplan.marking.tables.written import UNIFORM, Written, rounding, toml_float, unit_of, written
 from graphplan.marking.traces import Number, PlanFrame, Spot, Submission, Trace
 
 LARGEST_CSV, LARGEST_TOML = 4 * MB, MB // 2
@@ -36,11 +38,11 @@ def read_csv(path: Path, panels: Collection[str]) -> Submission:
 
 def read_toml(path: Path, panels: Collection[str]) -> Submission:
     """The marks, lines, circles, frames and results of a TOML file."""
-    written = text(path, LARGEST_TOML)
-    if sum(line.count(".") ** 2 for line in written.splitlines()) > DOTS**2:
+    said = text(path, LARGEST_TOML)
+    if sum(line.count(".") ** 2 for line in said.splitlines()) > DOTS**2:
         raise Refused(f"{path}", "its lines have too many dots", "a line for each mark")
     try:
-        tables = tomllib.loads(written)
+        tables = tomllib.loads(said, parse_float=toml_float)
     except RecursionError:
         raise Refused(f"{path}", "tables or lists are nested too deeply", "[marks] with A = [x, y]") from None
     except ValueError as error:
@@ -58,6 +60,7 @@ class _Reader:
 
     def __init__(self, path: Path, panels: Collection[str]):
         self.path, self.panels = path, {_short(panel): panel for panel in panels}
+        self.read_off: list[float] = []  # all coordinates and radii, as they were written
 
     def fault(self, where: str, why: str, do: str) -> Refused:
         shown = "".join([char if char.isprintable() else " " for char in where[:80]])
@@ -66,7 +69,7 @@ class _Reader:
     def number(self, where: str, value: Any) -> float:
         if isinstance(value, bool) or not isinstance(value, int | float) or not -1e300 < value < 1e300:
             raise self.fault(where, "this is no number", "a decimal number such as 12.5")
-        return float(value)
+        return value if isinstance(value, Written) else float(value)
 
     def length(self, where: str, value: Any) -> float:
         found = self.number(where, value)
@@ -103,18 +106,31 @@ class _Reader:
             raise fault
         if not isinstance(value[0], list):
             numbers = [self.length(where, part) for part in value]
+            self.read_off += numbers
             if kind == CIRCLE and len(numbers) == 3 and numbers[2] >= SHORT:
                 return ring((numbers[0], numbers[1]), numbers[2])
             value = [numbers] if kind == POINT else []
-        spots = [self.pair(where, spot) for spot in value]
+        else:
+            self.read_off += [part for spot in value for part in self.pair(where, spot)]
+        spots = [(float(x), float(y)) for x, y in (self.pair(where, spot) for spot in value)]
         good = {POINT: len(spots) == 1, LINE: len(spots) == 2 and math.dist(*spots) >= SHORT, CIRCLE: _bent(spots)}
         if not good[kind]:
             raise fault
         return tuple(spots)
 
-    def result(self, where: str, quantity: str, of: str, value: Sequence[float], unit: str, do: str) -> Number:
+    def rounded(self, traces: Sequence[Trace]) -> tuple[Trace, ...]:
+        """The marks with the precision that is stated, or else that with which they were written down."""
+        blur = rounding(self.read_off)
+        return tuple(trace if trace.blur else replace(trace, blur=blur) for trace in traces)
+
+    def result(self, where: str, quantity: str, of: str, parts: Sequence[float], unit: str, do: str, *,
+               polar: bool = False) -> Number:
+        """A result by its components or its only number, or by its size and angle."""
+        last = max(map(unit_of, parts))
+        if polar:
+            last = max(unit_of(parts[0]), abs(parts[0]) * math.radians(unit_of(parts[1])))
         try:
-            return entry(quantity, of, value, unit)
+            return entry(quantity, of, turned(*parts) if polar else tuple(map(float, parts)), unit, last / UNIFORM)
         except ValueError as error:
             raise self.fault(where, str(error), do) from None
 
@@ -143,7 +159,8 @@ class _CsvReader(_Reader):
         rows = self._rows(header, cells)
         if {"mark", "x", "y"} <= set(header):
             traces = [trace for where, row in rows if (trace := self._marked(where, row))]
-            return Submission(self.path.name, tuple(traces), shows=_shown(traces))
+            stated = any(trace.blur for trace in traces)
+            return Submission(self.path.name, self.rounded(traces), shows=_shown(traces), stated=stated)
         if "quantity" in header:
             numbers = [found for where, row in rows if (found := self._result(where, row))]
             return Submission(self.path.name, numbers=tuple(numbers))
@@ -170,12 +187,12 @@ class _CsvReader(_Reader):
                                  "as many; decimal commas need ; or tabs between columns")
             yield where, defaultdict(str, zip(header, cells, strict=False))
 
-    def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[float]:
+    def _numbers(self, where: str, row: Mapping[str, str], *columns: str) -> list[Written]:
         """The numbers in these columns; none where all are empty."""
         found = []
         for column in columns if any(row[column] for column in columns) else ():
             try:
-                found.append(number(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
+                found.append(written(row[column] if self.separator == "," else row[column].replace(",", ".", 1)))
             except ValueError as error:
                 raise self.fault(f"{where}: {column}", str(error), "a decimal number such as 12.5") from None
         return found
@@ -199,11 +216,12 @@ class _CsvReader(_Reader):
         """The result in a row; None where it is not filled in."""
         x, value = self._numbers(where, row, "x", "y"), self._numbers(where, row, "value")
         polar = self._numbers(where, row, "size", "angle")
-        given = [found for found in (x, polar and turned(*polar), value) if found]
+        given = [found for found in (x, polar, value) if found]
         if len(given) > 1:
             raise self.fault(where, "the result is given twice", "x and y, or size and angle, or value")
-        quantity, do = row["quantity"], wanted(row["quantity"])
-        return self.result(where, quantity, row["of"], given[0], row["unit"], do) if given else None
+        quantity, of, unit = row["quantity"], row["of"], row["unit"]
+        do = wanted(quantity, of)
+        return self.result(where, quantity, of, given[0], unit, do, polar=bool(polar)) if given else None
 
 
 def _shown(traces: Iterable[Trace]) -> frozenset[str]:
@@ -227,7 +245,8 @@ class _TomlReader(_Reader):
         frames = {self.panel("frames", panel): self._frame(f"frames.{panel}", table)
                   for panel, table in self._table("frames", tables.get("frames", {})).items()}
         shown = _shown(traces) if traces else frozenset()
-        return Submission(self.path.name, tuple(traces), tuple(numbers), shown, frames)
+        return Submission(self.path.name, self.rounded(traces), tuple(numbers), shown, frames,
+                          stated="precision" in tables)
 
     def _table(self, where: str, value: Any) -> Mapping[str, Any]:
         if not isinstance(value, dict):
@@ -256,8 +275,8 @@ class _TomlReader(_Reader):
             polar = isinstance(value, dict) and set(value) == {"size", "angle"}
             parts = [value["size"], value["angle"]] if polar else value if isinstance(value, list) else [value]
             numbers = [self.number(where, part) for part in parts]
-            yield self.result(where, kind, of, turned(*numbers) if polar else numbers, str(unit),
-                              "such as A = [1.5, 2] with unit = \"m/s\"")
+            yield self.result(where, kind, of, numbers, str(unit), "such as A = [1.5, 2] with unit = \"m/s\"",
+                              polar=polar)
 
     def _frame(self, where: str, table: Any) -> PlanFrame:
         """Where a plan lies: its origin in mm, its scale in mm for one of its units, how far it is turned."""

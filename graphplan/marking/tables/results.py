@@ -11,6 +11,7 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
+from graphplan.marking.spelling import LOW
 from graphplan.marking.traces import Number
 from graphplan.mechanism.model import Units
 from graphplan.mechanism.units import KILOGRAMS, METRES, MOMENT, NEWTONS, Dimension
@@ -20,15 +21,18 @@ from graphplan.words import LANGUAGES
 from graphplan.words.tongue import catalogue
 
 ALSO = {"angular velocity": "omega", "angular acceleration": "alpha", "ω": "omega", "α": "alpha", "ε": "alpha"}
+LETTERS = {"v": "velocity", "a": "acceleration", "ω": "omega", "omega": "omega", "w": "omega", "α": "alpha",
+           "alpha": "alpha", "ε": "alpha", "epsilon": "alpha"}
+SYMBOL = re.compile(rf"({'|'.join(sorted(LETTERS, key=len, reverse=True))})[\s_]*[({{]?\s*([^\W_][\w'’]*)\s*[)}}]?")
 LARGEST = 1e60  # beyond it squares leave the range of a float
 
 
-def entry(quantity: str, of: str, value: Sequence[float], unit: str) -> Number:
-    """One result, checked.
+def entry(quantity: str, of: str, value: Sequence[float], unit: str, rounding: float = 0.0) -> Number:
+    """One result, checked; it may be written as a symbol, such as v_A or ω2.
 
     Fails with `ValueError` where there is no such quantity, or its unit or number of components is another.
     """
-    kind = _kind(quantity)
+    kind, of = _named(quantity, of)
     if kind not in KINDS:
         raise ValueError(f"{quantity!r} is no quantity")
     if len(value) != (1 if KINDS[kind].single else 2):
@@ -37,7 +41,17 @@ def entry(quantity: str, of: str, value: Sequence[float], unit: str) -> Number:
         raise ValueError("a number is too large")
     if unit:
         factor(unit, KINDS[kind].dimension, Units())
-    return Number(kind, " ".join(of.split()), tuple(value), unit)
+    return Number(kind, " ".join(of.split()), tuple(value), unit, rounding)
+
+
+def _named(quantity: str, of: str) -> tuple[str, str]:
+    """The kind of a quantity and what it is of, whether it is written as words or as a symbol."""
+    name = " ".join(quantity.translate(LOW).casefold().split())
+    kind = LETTERS.get(ALSO.get(name, name), ALSO.get(name, name))
+    if kind in KINDS:
+        return kind, of
+    symbol = SYMBOL.fullmatch(" ".join(quantity.translate(LOW).split())) if not of.strip() else None
+    return (LETTERS[symbol[1]], symbol[2]) if symbol else (kind, of)
 
 
 def turned(size: float, angle: float) -> tuple[float, float]:
@@ -45,14 +59,9 @@ def turned(size: float, angle: float) -> tuple[float, float]:
     return size * math.cos(math.radians(angle)), size * math.sin(math.radians(angle))
 
 
-def _kind(quantity: str) -> str:
-    name = " ".join(quantity.casefold().split())
-    return ALSO.get(name, name)
-
-
-def wanted(quantity: str) -> str:
+def wanted(quantity: str, of: str = "") -> str:
     """What would be right for this quantity."""
-    kind = _kind(quantity)
+    kind, _ = _named(quantity, of)
     if kind not in KINDS:
         return f"one of {', '.join(KINDS)}"
     parts = "value" if KINDS[kind].single else "x and y, or size and angle"
@@ -61,10 +70,13 @@ def wanted(quantity: str) -> str:
 
 def in_scene_units(number: Number, units: Units) -> tuple[float, ...]:
     """A result in the scene's units; one without a unit is in them already. Units were checked as `entry` was made."""
-    if not number.unit:
-        return number.value
-    one = factor(number.unit, KINDS[number.kind].dimension, units)
+    one = scene_unit(number, units)
     return tuple([one * part for part in number.value])
+
+
+def scene_unit(number: Number, units: Units) -> float:
+    """What one of a result's unit is in the scene's units."""
+    return factor(number.unit, KINDS[number.kind].dimension, units) if number.unit else 1.0
 
 
 BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
@@ -76,8 +88,10 @@ BASES: dict[str, tuple[float, tuple[int, int, int]]] = {
     "rad": (1.0, (0, 0, 0)), "1": (1.0, (0, 0, 0)), "deg": (math.pi / 180, (0, 0, 0)),
     "°": (math.pi / 180, (0, 0, 0)), "rev": (2 * math.pi, (0, 0, 0)), "rpm": (math.pi / 30, (0, -1, 0)),
 }  # fmt: skip
+TEN, FORCES_NAMED = "10", (*NEWTONS, "kp", "MN", "daN")
 RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻−", "0123456789--")
 FACTOR = re.compile(r"(1|°|[^\W\d_]+)(?:\^?\(?([+-]?[0-9])\)?)?")
+TENS = re.compile(r"10\^?\(?([+-]?[0-9]{1,2})\)?")
 LONGEST = 30  # characters
 
 
@@ -88,6 +102,9 @@ def factor(written: str, dimension: Dimension, units: Units) -> float:
     """
     size, powers = 1.0, [0, 0, 0]
     for name, power in _factors(written):
+        if name == TEN:
+            size *= 10.0**power
+            continue
         one, bases = BASES[name]
         size *= one**power
         powers = [total + power * base for total, base in zip(powers, bases, strict=True)]
@@ -103,13 +120,29 @@ def _factors(written: str) -> list[tuple[str, int]]:
         raise ValueError(f"{written[:LONGEST]!r}... is no unit that is known")
     found = []
     for place, part in enumerate(written.translate(RAISED).split("/")):
-        for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()")):
+        for piece in re.split(r"[\s·*⋅×.]+", part.strip(" ()·*⋅×.")):
+            sign = -1 if place else 1
+            if tens := TENS.fullmatch(piece):
+                found.append((TEN, int(tens[1]) * sign))
+                continue
             fits = FACTOR.fullmatch(piece)
-            name = (fits[1] if fits[1] in BASES else _foreign().get(fits[1])) if fits else None
-            if not (fits and name):
+            names = _unit_names(fits[1]) if fits else []
+            if not (fits and names):
                 raise ValueError(f"{written!r} is no unit that is known")
-            found.append((name, int(fits[2] or 1) * (-1 if place else 1)))
+            found += [(name, 1 * sign) for name in names[:-1]] + [(names[-1], int(fits[2] or 1) * sign)]
     return found
+
+
+def _unit_names(written: str) -> list[str]:
+    """The unit, or the two of a force and a length that are written in one, as in Nm."""
+    known = written if written in BASES else _foreign().get(written)
+    if known:
+        return [known]
+    for place in range(1, len(written)):
+        parts = [part if part in BASES else _foreign().get(part) for part in (written[:place], written[place:])]
+        if parts[0] in FORCES_NAMED and parts[1] in METRES:
+            return [part for part in parts if part]
+    return []
 
 
 @cache

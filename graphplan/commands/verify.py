@@ -4,6 +4,10 @@ DRAWING is a file of measured points or results (.csv, .toml), of a CAD or geome
 or a photo (.png, .jpg, .pdf), or a folder of them, of a whole class. Say --plan, --method and --paper as for the
 handout that was drawn on.
 
+verify FOLDER STACK judges a stack of scans, a PDF or a folder of them, each sheet by the scene that the code in its
+corners names, and writes results.csv, .html and .json and each student's corrected sheet; FOLDER is what graphplan
+variants wrote. What was judged is kept, so that running again judges only what is new.
+
 Measured points are a table with a line for each mark, in mm on the student's sheet; panel, x2 and y2 of a line, r of a
 circle and precision may be left out:
   mark,x,y,panel
@@ -18,6 +22,7 @@ examples:
   graphplan verify scene.toml scan.png --report report.html
   graphplan verify four-bar points.csv --pencil point=0.2 --weights "follows=0.5,numbers=3,reversed=30"
   graphplan verify four-bar drawings/ --report class.html
+  graphplan verify class/ scans.pdf --assign "scans.pdf#7=Student 3"
 """
 
 from __future__ import annotations
@@ -30,7 +35,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from graphplan.commands.choices import add_choices, add_pencil, add_sheet, on_paper
+from graphplan.commands.choices import add_choices, add_pencil, add_sheet, count, on_paper
 from graphplan.commands.output import STANDARD, Messages, as_json, error, kind, paged, write, write_all
 from graphplan.errors import GraphplanError, Refused
 from graphplan.output import back_end
@@ -42,6 +47,7 @@ if TYPE_CHECKING:
     from graphplan.marking.traces import Frames, Submission
     from graphplan.phrases import Said
 
+MOST_JOBS = 256
 ENDINGS, CLASS_ENDINGS = (".html", ".svg", ".pdf", ".json"), (".html", ".json")
 
 
@@ -55,14 +61,25 @@ def options(command: argparse.ArgumentParser) -> None:
         "follows is right after an earlier mistake; and by its kind what the first such mistake costs at least, of "
         "100: such as \"reversed=30,wrong scale=5\" (by default 20, or 12 of mere slips); an unknown name lists all")
     add("--json", action="store_true", help="as data")
+    add("-o", "--output", metavar="FOLDER", help="where the results of a stack are written; without it FOLDER/results")
+    add("--assign", action="append", metavar="PAGE=STUDENT", help="whose a page of a stack is that bears no code; - "
+        "sets it aside; or a table with the columns page and student, or page and variant")
+    add("--jobs", type=count("--jobs", 1, MOST_JOBS), metavar="N", help="so many sheets of a stack at once; without it "
+        "one for each core")
     add_sheet(command)
     add_choices(command)
     add_pencil(command)
 
 
 def run(options: argparse.Namespace) -> int:
+    from graphplan.marking.classroom.register import is_class
     from graphplan.marking.judge.score import weights
 
+    if is_class(Path(options.scene)):
+        from graphplan.commands import verify_stack
+
+        return verify_stack.run(options)
+    _no_stack(options)
     path, weighed = Path(options.drawing), weights(options.weights)
     ending = _reported(options.report, path, options.scene)
     desk = Desk(on_paper(options), weighed, options)
@@ -73,6 +90,14 @@ def run(options: argparse.Namespace) -> int:
     say = desk.on_sheet.composition.plans.tongue
     write(as_json(found.data) if options.json else "".join(f"{say(line)}\n" for line in found.lines))
     return 0 if found.judged else 2
+
+
+def _no_stack(options: argparse.Namespace) -> None:
+    """Refuse options that only a stack of a class has."""
+    for name, value in (("--assign", options.assign), ("--jobs", options.jobs), ("--output", options.output)):
+        if value:
+            raise Refused(name, "this is for a stack of scans of a class", "verify FOLDER STACK, with the folder that "
+                          "graphplan variants wrote")
 
 
 class Findings(NamedTuple):
@@ -213,8 +238,8 @@ def _class(desk: Desk, folder: Path) -> Findings:
 
     messages, paths = Messages(desk.options.quiet), _files(folder, desk.options.report)
     marked, unread = [], []
-    for count, path in enumerate(paths):
-        messages.progress(f"{count}/{len(paths)} {printable(path.name)}")
+    for number, path in enumerate(paths):
+        messages.progress(f"{number}/{len(paths)} {printable(path.name)}")
         try:
             _enclosed(path)
             marked.append(desk.marked(path))

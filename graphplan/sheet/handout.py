@@ -11,7 +11,7 @@ from functools import partial
 
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import Said
-from graphplan.sheet.frames.corner_marks import corner_marks, sheet_code
+from graphplan.sheet.frames.corner_marks import corner_marks, page_code, sheet_code
 from graphplan.sheet.frames.frame import frame_of
 from graphplan.sheet.frames.title import GUIDED, SOLUTION, TASK
 from graphplan.sheet.layout.composition import Composition
@@ -66,9 +66,13 @@ def _pages(composition: Composition, document: Said) -> list[Sheet]:
     for plate in composition.plates:
         items += _begun(plate)
     first = sheet(composition, items, document)
-    marks = corner_marks(first.width, first.height, first.frame, code(composition))
-    marked = replace(first, items=(*first.items, *marks))
-    return [marked, *words_pages(first, composition, document)]
+    pages, own = [first, *words_pages(first, composition, document)], code(composition)
+    return [_marked(page, page_code(own, number)) for number, page in enumerate(pages, 1)]
+
+
+def _marked(page: Sheet, code: int) -> Sheet:
+    """A page with the marks of a code in its corners."""
+    return replace(page, items=(*page.items, *corner_marks(page.width, page.height, page.frame, code)))
 
 
 def _worded(composition: Composition, guided: bool) -> Composition:

@@ -18,7 +18,7 @@ from graphplan.mechanism.presentation import SIZES
 from graphplan.methods.kinds import KINDS
 from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.cycle_frames import posed, turning
-from graphplan.sheet.frames.corner_marks import corner_marks
+from graphplan.sheet.frames.corner_marks import MARKS, corner_marks, page_code
 from graphplan.sheet.handout import code, guided, solution, task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.paper import paged
@@ -104,13 +104,16 @@ def test_the_words_of_a_task_state_the_scales_and_where_plans_begin() -> None:
     assert "origin a" in told
 
 
-def test_only_sheets_with_plans_bear_marks() -> None:
-    """The first page of a task and of its guided version has the marks of this sheet, the pages of words have none."""
-    composition, solved, *parts = handout_of("alt-eight-link")
-    marks = corner_marks(solved.width, solved.height, solved.frame, code(composition))
-    for first, *others in parts:
-        assert [item for item in first.items if item in marks] == marks
-        assert not any(item in marks for page in others for item in page.items)
+def test_every_page_bears_its_marks() -> None:
+    """Each page of a task and of its guided version has the marks of this sheet and page: pages come apart."""
+    composition, _, *parts = handout_of("alt-eight-link")
+    codes = [page_code(code(composition), number) for number in (1, 2, 3)]
+    assert codes[0] == code(composition)
+    assert len(set(codes)) == 3
+    for pages in parts:
+        for page, own in zip(pages, codes, strict=False):
+            marks = corner_marks(page.width, page.height, page.frame, own)
+            assert [item for item in page.items if item.layer == MARKS] == marks
 
 
 def test_every_sheet_has_a_code_of_its_own() -> None:

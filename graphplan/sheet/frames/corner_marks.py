@@ -26,6 +26,11 @@ def sheet_code(text: str) -> int:
     return crc32(text.encode())
 
 
+def page_code(code: int, page: int) -> int:
+    """The code of a page of a task whose first page has this one."""
+    return code if page == 1 else sheet_code(f"{code}, page {page}")
+
+
 def numbers(code: int) -> tuple[int, int, int, int]:
     """The numbers of a sheet's marks, from the lower left corner, counter-clockwise: which corner, and a quarter of
     the code, never 255: the mark 1023 is the only one that looks the same upside down."""

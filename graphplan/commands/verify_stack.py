@@ -1,0 +1,264 @@
+"""Verify a stack of scans of a class: each sheet by the scene that the code in its corners names.
+
+What is found goes into a folder: results.csv, results.html, results.json, and corrected/NAME.pdf for every student to
+have back. Its folder `kept` has what was judged, so that running again judges only what is new.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from importlib.util import find_spec
+from pathlib import Path
+from typing import Any
+
+from graphplan import __version__
+from graphplan.commands.choices import on_paper
+from graphplan.commands.output import Messages, as_json, write
+from graphplan.commands.verify import Desk
+from graphplan.errors import GraphplanError, Refused
+from graphplan.marking.classroom import results as found_results
+from graphplan.marking.classroom import stack as fates
+from graphplan.marking.classroom.grading import Data, Failed, Keeper, done, file_digest, key
+from graphplan.marking.classroom.pages import StackPage, UnreadFile, look, pages, sight
+from graphplan.marking.classroom.register import FILE, Register, TaskSheet, is_class, load
+from graphplan.marking.classroom.results import Results, SheetResult, file_names
+from graphplan.marking.classroom.stack import Placed, Seen, assignments, instead, placed
+from graphplan.marking.judge.score import Weights, weights
+from graphplan.phrases import said
+from graphplan.words.tongue import Tongue, tongue
+
+FAULT = "fault"  # in the place of what is found of a page
+OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str}  # options
+
+
+def run(options: argparse.Namespace) -> int:
+    """Judge a stack; 2 where nothing could be judged."""
+    folder, stack = Path(options.scene), Path(options.drawing)
+    weighed, register = weights(options.weights), load(folder)
+    if not find_spec("cv2"):
+        raise Refused(f"{stack}", "scans are read by OpenCV, which is not installed", "pip install 'graphplan[scan]'")
+    if stack.is_dir() and is_class(stack):
+        raise Refused(f"{stack}", f"this folder has a {FILE}, and no scans", "the file or the folder of the scans")
+    into = Path(options.output or folder / "results")
+    classroom = StackDesk(folder, register, into, weighed, options)
+    found = classroom.results(*pages(stack))
+    classroom.write(found)
+    write(as_json(found.data) if options.json else "".join(f"{classroom.say(line)}\n" for line in found.findings()))
+    return 0 if found.of(found_results.JUDGED) else 2
+
+
+@dataclass(frozen=True)
+class Job:
+    """A sheet to be judged: its page, whether that is mirrored, pages that are joined to it, whose task it is, where
+    its corrections are written, and how it is weighed and drawn."""
+
+    page: StackPage
+    mirrored: bool
+    further: tuple[StackPage, ...]
+    sheet: TaskSheet
+    scene: Path
+    corrected: Path
+    weights: Weights
+    options: argparse.Namespace
+
+
+@dataclass(frozen=True)
+class StackDesk:
+    """Where the stacks of a class are judged."""
+
+    folder: Path
+    register: Register
+    into: Path
+    weights: Weights
+    options: argparse.Namespace
+
+    @property
+    def keeper(self) -> Keeper:
+        return Keeper(self.into / "kept")
+
+    @property
+    def processes(self) -> int:
+        return self.options.jobs or os.cpu_count() or 1
+
+    @property
+    def say(self) -> Tongue:
+        """The tongue of the sheets."""
+        return tongue(self.register.options.get("language", ""))
+
+    def results(self, stack: Sequence[StackPage], unread: Sequence[UnreadFile]) -> Results:
+        """What is found of a stack."""
+        word = assignments(self.options.assign or (), stack, self.register)
+        seen, broken = self._seen(stack)
+        whose = placed(seen, self.register, word)
+        judged = self._judged(whose)
+        whose = list(instead(whose, {page for page, data in judged.items() if FAULT in data}))
+        sheets = [*self._sheets(whose, judged), *broken]
+        blank = sum(one.fate == fates.BLANK for one in whose)
+        return Results(self.register.title, self.say.code, tuple(sheets), blank, tuple(unread))
+
+    # ---- page by page ----------------------------------------------------------------------------------------------
+
+    def _seen(self, stack: Sequence[StackPage]) -> tuple[list[Seen], list[SheetResult]]:
+        """What is seen on every page, and the pages that cannot be opened."""
+        files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
+        jobs = {key("sight", __version__, files[page.path], page.number): page for page in stack}
+        found = self._done(looked, jobs, "pages", lambda page: page.name)
+        seen, broken = [], []
+        for name, page in jobs.items():
+            if FAULT in found[name]:
+                broken.append(SheetResult(found_results.FAILED, page.name, look=(found[name][FAULT],)))
+            else:
+                seen.append(Seen(page, sight(found[name])))
+        return seen, broken
+
+    def _judged(self, whose: Sequence[Placed]) -> dict[str, Data]:
+        """What is found of every sheet, by the name of its page."""
+        jobs = dict[str, Job]()
+        for one in whose:
+            if one.fate in (fates.COUNTS, fates.AGAIN) and one.sheet is not None:
+                further = [other for other in whose if other.fate == fates.JOINED and _same(one, other)]
+                jobs.update([self._job(one, further if one.fate == fates.COUNTS else [])])
+        found = self._done(judged, jobs, "sheets", lambda job: job.page.name)
+        return {job.page.name: {**found[name], "kept": name} for name, job in jobs.items()}
+
+    def _job(self, one: Placed, further: Sequence[Placed]) -> tuple[str, Job]:
+        """The job of a sheet, by a digest of all that it hangs on."""
+        assert one.sheet is not None
+        scene = self.folder / one.sheet.scene
+        printed = {name: kind(self.register.options[name]) for name, kind in OF_THE_SHEETS.items()
+                   if self.register.options.get(name)}
+        options = argparse.Namespace(**{**vars(self.options), "scene": str(scene), **printed})
+        digests = [seen.seen.sight.digest for seen in (one, *further)]
+        how = sorted((name, repr(value)) for name, value in vars(options).items() if name not in NO_MATTER)
+        made_from = key("judged", __version__, digests, one.mirrored, one.sheet.code, file_digest(scene), how,
+                        self.weights)
+        return made_from, Job(one.seen.page, one.mirrored, tuple(other.seen.page for other in further), one.sheet,
+                              scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
+
+    def _done(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
+              ) -> dict[str, Data]:
+        """What comes of all jobs, told as they are done."""
+        messages, found = Messages(self.options.quiet), dict[str, Data]()
+        try:
+            for name, made in done(work, jobs, self.keeper, self.processes):
+                found[name] = {FAULT: made.why} if isinstance(made, Failed) else made
+                messages.progress(f"{what}: {len(found)}/{len(jobs)} {named(jobs[name])}")
+        except KeyboardInterrupt:
+            messages.remark(f"interrupted: {len(found)} of {len(jobs)} {what} are done and kept; run it again to go on")
+            raise
+        messages.progress("")
+        return found
+
+    # ---- put together ----------------------------------------------------------------------------------------------
+
+    def _sheets(self, whose: Sequence[Placed], judged: Mapping[str, Data]) -> Iterator[SheetResult]:
+        """The sheets by variant, students without one, then pages that are nobody's."""
+        named = [one for one in whose if one.sheet is not None]
+        for sheet in self.register.sheets:
+            own = [one for one in named if one.sheet == sheet]
+            yield from (self._sheet(one, judged.get(one.seen.page.name)) for one in own)
+            if sheet.student and not any(one.owner == sheet.student for one in named):
+                yield SheetResult(found_results.ABSENT, variant=sheet.variant, student=sheet.student)
+        for one in whose:
+            if one.sheet is None and one.fate != fates.BLANK:
+                yield self._sheet(one, None)
+
+    def _sheet(self, one: Placed, data: Data | None) -> SheetResult:
+        """One page as a line of the results."""
+        notes = tuple(self.say(note) for note in one.notes)
+        about = SheetResult(FATES[one.fate], one.seen.page.name, None if one.sheet is None else one.sheet.variant,
+                            one.owner, look=notes, thumbnail=one.seen.sight.thumbnail)
+        if data is None:
+            return about
+        if FAULT in data:
+            return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
+        told = {name: data[name] for name in ("score", "groups", "first", "words", "kind", "confidence", "detail",
+                                              "judgement")}
+        return replace(about, **told, look=(*notes, *data["look"]), corrected=data["kept"])
+
+    def write(self, found: Results) -> None:
+        """Write all that is found into the folder, and remove what an earlier run had to hand back."""
+        from graphplan.output.results_page import results_page
+
+        earlier = self.keeper.get("corrected") or {}
+        to_hand_back = [one for one in found.sheets if one.corrected and one.status == found_results.JUDGED]
+        names = file_names([one.student or self.say(said("variant {0}", one.variant)) for one in to_hand_back])
+        files = {one.page: f"corrected/{name}.pdf" for one, name in zip(to_hand_back, names, strict=True)}
+        (self.into / "corrected").mkdir(parents=True, exist_ok=True)
+        for one in to_hand_back:
+            write((self.keeper.folder / f"{one.corrected}.pdf").read_bytes(), str(self.into / files[one.page]))
+        for file in set(earlier.get("files", ())) - set(files.values()):
+            (self.into / "corrected" / Path(file).name).unlink(missing_ok=True)
+        self.keeper.put("corrected", {"files": sorted(files.values())})
+        found = replace(found, sheets=tuple(replace(one, corrected=files.get(one.page, "")) for one in found.sheets))
+        for name, content in (("results.csv", found.csv), ("results.json", as_json(found.data)),
+                              ("results.html", results_page(found, self.say))):
+            write(content, str(self.into / name))
+
+
+FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, fates.JOINED: found_results.JOINED,
+         fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
+NO_MATTER = {"scene", "drawing", "report", "json", "quiet", "run", "assign", "jobs", "output"}  # to what is judged
+
+
+def _same(one: Placed, other: Placed) -> bool:
+    """Whether two pages are of one student, or of one spare sheet."""
+    return one.owner == other.owner and (bool(one.owner) or one.sheet == other.sheet)
+
+
+# ---- in a process of its own ----------------------------------------------------------------------------------------
+
+
+def looked(page: StackPage) -> Data:
+    """What is seen on a page, or why it cannot be opened."""
+    try:
+        return look(page).data
+    except GraphplanError as fault:
+        return {FAULT: fault.lines[0].removeprefix(f"{page.path}: ")}
+
+
+def judged(job: Job) -> Data:
+    """What is found of a sheet, or why it cannot be judged; its corrections are written."""
+    try:
+        return _judged(job)
+    except GraphplanError as fault:
+        return {FAULT: fault.lines[0].removeprefix(f"{job.page.name}: ")}
+
+
+def _judged(job: Job) -> Data:
+    from graphplan.marking.classroom.corrections import Corrections
+    from graphplan.marking.judge.findings import lacking, record
+    from graphplan.marking.judge.verdict import UNSURE
+    from graphplan.marking.scans.facsimile import as_it_is, cut, photograph, straight
+    from graphplan.marking.scans.image import picture
+    from graphplan.marking.scans.scan import PencilPage, read_picture
+    from graphplan.output.pdf_png import pdf
+    from graphplan.output.report_page import picture as shown
+    from graphplan.sheet.handout import code, task
+
+    image = picture(job.page.path, job.page.number)
+    image = image[:, ::-1] if job.mirrored else image
+    desk = Desk(on_paper(job.options), job.weights, job.options)
+    composition = desk.on_sheet.composition
+    if code(composition) != job.sheet.code:
+        raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
+    submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
+    assert isinstance(submission.page, PencilPage)
+    one, say = desk.judged(submission), composition.plans.tongue
+    sheet = straight(image, submission.page.warp)
+    corrections = Corrections(one.judgement, one.score, composition, photograph(sheet))
+    further = [as_it_is(picture(page.path, page.number)) for page in job.further]
+    write(pdf(corrections.pages(further)), str(job.corrected))
+    detail = corrections.detail(lambda rect: cut(sheet, rect))
+    first, unsure = one.judgement.first, lacking(one.judgement, UNSURE)
+    sure = [verdict.confidence for verdict in one.judgement.judged] if first is None else [first.confidence]
+    notes = [*filter(None, [one.judgement.reading]), *([said("cannot be told: steps {0}", unsure)] if unsure else [])]
+    return {
+        "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
+        "words": say(one.told), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
+        "look": [say(note) for note in notes], "detail": shown(detail) if detail else "",
+        "judgement": record(one.judgement, one.score),
+    }  # fmt: skip

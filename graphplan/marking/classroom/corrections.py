@@ -1,0 +1,143 @@
+"""A student's own sheet, to hand back: its scan laid straight, and over it what is right, what is wrong and where it
+should be, the first wrong step in words, and the score."""
+
+from __future__ import annotations
+
+import cmath
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+from graphplan.kernel.kinds import POINT
+from graphplan.marking.judge.findings import opinion
+from graphplan.marking.judge.overlay import (
+    CALLED,
+    LAYER,
+    PENS,
+    SIZES,
+    StudentMark,
+    StudentStrokes,
+    boxed,
+    overlay,
+    told,
+)
+from graphplan.marking.judge.score import Score
+from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Verdict
+from graphplan.marking.traces import Trace
+from graphplan.phrases import joined
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.plates.clip import clipped
+from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, moved
+from graphplan.sheet.plates.view import View
+
+RING = 1.0  # mm about what is right
+CUT, ABOUT = (28.0, 20.0), 4.0  # mm to each side of the first wrong mark that its picture shows, and of its ring
+TURNED = 0.02  # radians by which a plan may be turned, and where its marks should be is still shown
+
+
+@dataclass(frozen=True)
+class ScanStrokes(StudentStrokes):
+    """A judged drawing as it lies on its own sheet, which was `printed` as a task."""
+
+    printed: Composition
+
+    @cached_property
+    def marks(self) -> list[StudentMark]:
+        """The marks where they were drawn; where they should be as the student's own plan has it, unless it is turned.
+        """
+        found = []
+        for verdict, step in zip(self.judgement.verdicts, self.judgement.composition.plates.steps, strict=True):
+            frame = self.judgement.frames.get(step.panel)
+            if verdict.trace is None or frame is None:
+                continue
+            view = View(self.rect(step.panel), abs(frame.unit), (frame.origin.real, frame.origin.imag))
+            own = verdict.own if abs(cmath.phase(frame.unit)) < TURNED else (math.nan,) * len(verdict.own)
+            found.append(StudentMark(verdict, verdict.trace, verdict.trace.spots,
+                                     replace(step, view=view, value=own), 1.0))
+        return found
+
+    def spots(self, trace: Trace, panel: str) -> tuple[Spot, ...]:
+        """A trace where it was drawn."""
+        return trace.spots
+
+    def rect(self, panel: str) -> Rect:
+        """Where a plan was printed; of one that was not, the whole frame of the sheet."""
+        views = self.printed.views
+        return views[panel].rect if panel in views else self.printed.arrangement.frame
+
+    def doubtful(self, verdict: Verdict) -> Spot | None:
+        """Where to look for what cannot be told and is not to be seen."""
+        panel = self.judgement.composition.plates.steps[verdict.step].panel
+        if panel not in self.judgement.frames:
+            return None
+        spot = self.judgement.composition.views[panel].back(self.about(verdict))
+        at = self.judgement.frames[panel].onto(complex(*spot))
+        return at.real, at.imag
+
+    def corrections(self) -> Iterator[Item]:
+        """What is drawn over the scan, but for words: rings about right points, what is wrong as a whole."""
+        for mark in sorted(self.marks, key=lambda mark: mark.verdict.state == WRONG):
+            state, rect = mark.verdict.state, mark.wanted.view.rect
+            items = [*mark.items(), *mark.tolerance()]
+            if state in EARNED:
+                ring = Circle(PENS.get(state, CALLED), LAYER, mark.verdict.step, mark.spots[0], RING)
+                items = [ring] if mark.trace.kind == POINT else []
+            for item in items:
+                yield from clipped(item, rect)
+        for verdict in self.judgement.verdicts:
+            if verdict.state == UNSURE and verdict.trace is None and (spot := self.doubtful(verdict)):
+                yield Circle(PENS[UNSURE], LAYER, verdict.step, spot, SIZES[UNSURE])
+
+
+@dataclass(frozen=True)
+class Corrections:
+    """A judged scan: the judgement, its score, how it was printed, and its picture, laid straight."""
+
+    judgement: Judgement
+    score: Score
+    printed: Composition
+    scan: Photograph
+
+    @cached_property
+    def true(self) -> list[Sheet]:
+        """The drawing over the true one, with all remarks."""
+        return overlay(self.judgement, self.score)
+
+    @cached_property
+    def student(self) -> ScanStrokes:
+        """The drawing on its own sheet."""
+        return ScanStrokes(self.judgement, self.printed)
+
+    def pages(self, further: Sequence[Photograph] = ()) -> list[Sheet]:
+        """The scan with the corrections on it, further pages as they are, then the drawing over the true one."""
+        own = self._page(self.scan, *self._marks())
+        return [own, *(self._page(photograph) for photograph in further), *self.true]
+
+    def detail(self, cut: Callable[[Rect], Photograph]) -> Sheet | None:
+        """The place of the first wrong step alone, as far as it can be seen; `cut` gives a piece of the scan, at the
+        origin."""
+        mark = next((mark for mark in self.student.marks if mark.verdict is self.judgement.first), None)
+        if mark is None:
+            return None
+        (x, y), whole = mark.at, self.scan.rect
+        left, low = (min(max(at - half, 0.0), most - 2 * half)
+                     for at, half, most in ((x, CUT[0], whole.width), (y, CUT[1], whole.height)))
+        rect = Rect(left, low, left + 2 * CUT[0], low + 2 * CUT[1])
+        ring = Circle(CALLED.filled("none"), LAYER, None, (x, y), ABOUT)
+        items = [piece for item in (*mark.items(), ring) for piece in clipped(item, rect)]
+        return self._page(cut(rect), *(moved(item, -rect.left, -rect.bottom) for item in items))
+
+    def _page(self, scan: Photograph, *items: Item) -> Sheet:
+        return replace(self.true[0], items=(scan, *items), panels={}, width=scan.rect.width, height=scan.rect.height)
+
+    def _marks(self) -> list[Item]:
+        """What is drawn over the scan; words cover as little as they can of it and of the true drawing."""
+        student, composition = self.student, self.judgement.composition
+        true, over = self.true[0].items, list(student.corrections())
+        for panel in self.judgement.frames:
+            over += told(student, panel, student.rect(panel), [*true, *over])
+        words = composition.plans.tongue(joined((self.score.told, opinion(self.judgement)), " "))
+        names = tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
+        rect = student.rect(next(iter(self.printed.views)))
+        return [*over, *boxed(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]

@@ -1,0 +1,155 @@
+"""Many things done at once, in processes of their own, and kept, so that doing them again does only what is new.
+
+What is kept is found by a digest of all that it was made from. A process that dies takes nothing else with it: what
+was under way is done once more, each alone, and what fails alone is told.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+from collections.abc import Callable, Iterator, Mapping
+from concurrent.futures import Future, ProcessPoolExecutor, as_completed
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import contextmanager
+from dataclasses import dataclass
+from hashlib import blake2b
+from multiprocessing import get_context
+from pathlib import Path
+from typing import Any, TypeVar
+
+from graphplan.errors import GraphplanError
+
+Data = dict[str, Any]
+Job = TypeVar("Job")
+BLOCK = 2**20  # bytes of a file that are read at a time
+ONE_THREAD = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"  # in each process, as there is one for each core
+DIED = "the process that worked on it died"
+
+
+@dataclass(frozen=True)
+class Failed:
+    """What could not be done, and why."""
+
+    why: str
+
+
+@dataclass(frozen=True)
+class Keeper:
+    """A folder in which results are kept."""
+
+    folder: Path
+
+    def get(self, key: str) -> Data | None:
+        """What is kept under a key; none where nothing is, or nothing that can be read."""
+        try:
+            found = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
+        except (OSError, ValueError, RecursionError):
+            return None
+        return found if isinstance(found, dict) else None
+
+    def put(self, key: str, data: Data) -> None:
+        """Keep data, whole or not at all."""
+        self.folder.mkdir(parents=True, exist_ok=True)
+        replaced(self.folder / f"{key}.json", json.dumps(data, ensure_ascii=False).encode())
+
+
+def replaced(path: Path, content: bytes) -> None:
+    """Write a file in one step, whole or not at all."""
+    temporary = path.with_name(f".{path.name}-{os.getpid()}")
+    try:
+        temporary.write_bytes(content)
+        os.replace(temporary, path)
+    finally:
+        temporary.unlink(missing_ok=True)
+
+
+def key(*parts: Any) -> str:
+    """A digest of what something is made from."""
+    return blake2b(repr(parts).encode(), digest_size=16, person=b"graphplan key").hexdigest()
+
+
+def file_digest(path: Path) -> str:
+    """A digest of a file's bytes."""
+    found = blake2b(digest_size=16, person=b"graphplan file")
+    with path.open("rb") as file:
+        while block := file.read(BLOCK):
+            found.update(block)
+    return found.hexdigest()
+
+
+def done(work: Callable[[Job], Data], jobs: Mapping[str, Job], keeper: Keeper, processes: int
+              ) -> Iterator[tuple[str, Data | Failed]]:
+    """What comes of each job, by its key, as it is done: what is kept first, and what is new is kept then.
+
+    A job is data that can go to another process, `work` a function of a module.
+    """
+    new = dict[str, Job]()
+    for name, job in jobs.items():
+        if (kept := keeper.get(name)) is not None:
+            yield name, kept
+        else:
+            new[name] = job
+    for name, made in _together(work, new, processes):
+        if not isinstance(made, Failed):
+            keeper.put(name, made)
+        yield name, made
+
+
+def _together(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
+                   ) -> Iterator[tuple[str, Data | Failed]]:
+    """The jobs, so many at once; each alone that was under way, or waited, when a process died."""
+    if min(processes, len(jobs)) < 2:
+        yield from ((name, _tried(work, job)) for name, job in jobs.items())
+        return
+    left = dict(jobs)
+    for name, made in _pooled(work, jobs, min(processes, len(jobs))):
+        del left[name]
+        yield name, made
+    for name, job in left.items():
+        yield next(iter(_pooled(work, {name: job}, 1)), (name, Failed(DIED)))
+
+
+def _pooled(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
+                 ) -> Iterator[tuple[str, Data | Failed]]:
+    """What is done until a process dies; one that is interrupted leaves what has begun to end by itself."""
+    with _one_thread_each():
+        pool = ProcessPoolExecutor(processes, get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN))
+        futures: dict[Future[Data | Failed], str] = {pool.submit(_tried, work, job): name for name, job in jobs.items()}
+    try:
+        for future in as_completed(futures):
+            yield futures[future], future.result()
+    except BrokenProcessPool:
+        return
+    finally:
+        pool.shutdown(wait=False, cancel_futures=True)
+
+
+def _tried(work: Callable[[Job], Data], job: Job) -> Data | Failed:
+    """What comes of a job, whatever happens in it."""
+    try:
+        return work(job)
+    except GraphplanError as fault:
+        return Failed(fault.lines[0])
+    except MemoryError:
+        return Failed("there is not enough memory for it")
+    except Exception as fault:  # nothing that is wrong with one page may stop the others
+        return Failed(f"{type(fault).__name__}: {fault}")
+
+
+@contextmanager
+def _one_thread_each() -> Iterator[None]:
+    """The processes that start meanwhile have one thread each for sums of arrays."""
+    before = {name: os.environ.get(name) for name in ONE_THREAD}
+    os.environ.update(dict.fromkeys(ONE_THREAD, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
+
+

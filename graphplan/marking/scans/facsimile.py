@@ -1,0 +1,40 @@
+"""The picture of a scanned sheet, to be drawn on: laid straight, or as it is."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+
+from graphplan.marking.scans.image import Grey, jpeg, smaller
+from graphplan.marking.scans.scan import PIXELS
+from graphplan.marking.scans.straighten import Warp
+from graphplan.sheet.frames.corner_marks import WHITE
+from graphplan.sheet.plates.display import Photograph, Rect
+
+FINE, QUALITY = 6.0, 75  # pixels per mm, and how well JPEG keeps them, of 100
+LAYER = "scan"
+A4 = 297.0  # mm: the longer side of a page whose size nobody knows
+
+
+def straight(image: Grey, warp: Warp) -> Grey:
+    """The sheet in a picture, laid straight, at `FINE` pixels per mm."""
+    columns, rows = warp.maps(FINE)
+    return np.asarray(cv2.remap(smaller(image, PIXELS), columns, rows, cv2.INTER_AREA, borderValue=255), np.uint8)
+
+
+def photograph(sheet: Grey) -> Photograph:
+    """A straight sheet, or a piece of it, as it lies on paper."""
+    high, wide = sheet.shape
+    return Photograph(WHITE, LAYER, None, Rect(0.0, 0.0, wide / FINE, high / FINE), jpeg(sheet, QUALITY), (wide, high))
+
+
+def as_it_is(image: Grey) -> Photograph:
+    """A whole picture of nobody knows what size, on A4."""
+    return photograph(smaller(image, (A4 * FINE) ** 2 * min(image.shape) / max(image.shape)))
+
+
+def cut(sheet: Grey, rect: Rect) -> Photograph:
+    """A piece of a straight sheet, at the origin."""
+    left, right = (round(side * FINE) for side in (rect.left, rect.right))
+    low, high = (sheet.shape[0] - round(side * FINE) for side in (rect.bottom, rect.top))
+    return photograph(np.ascontiguousarray(sheet[max(0, high) : low, max(0, left) : right]))

@@ -1,0 +1,99 @@
+"""The results of a stack of scans as one page for a browser, without scripts or a network."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from html import escape
+
+from graphplan.marking.classroom.class_list import mistaken
+from graphplan.marking.classroom.results import (
+    ABSENT,
+    FAILED,
+    JUDGED,
+    SHOWN,
+    STATUS,
+    UNASSIGNED,
+    Results,
+    SheetResult,
+)
+from graphplan.output.report_page import FIGURE, PICTURES, HtmlCell, HtmlPage
+from graphplan.phrases import said
+from graphplan.words.tongue import Tongue
+
+
+def results_page(found: Results, tongue: Tongue) -> str:
+    """The page of the results of a class, in this tongue."""
+    page = _ResultsPage(tongue, found)
+    return page.page(found.title, page.body(), PICTURES)
+
+
+@dataclass(frozen=True)
+class _ResultsPage(HtmlPage):
+    """The results of a class in words."""
+
+    found: Results
+
+    def body(self) -> Iterator[str]:
+        """What stands on the page."""
+        yield f"<h1>{escape(self.found.title)}</h1>"
+        yield from (f"<p>{self.say(told)}</p>" for told in self.found.findings())
+        yield from self._left()
+        yield from self._sheets()
+        if self.found.scores:
+            yield from self.bars(said("Scores"), self.found.histogram, len(self.found.scores))
+        yield from self._mistakes()
+        yield from self._no_scans()
+
+    def _left(self) -> Iterator[str]:
+        """The pages that the teacher has to name, as pictures."""
+        left = self.found.of(UNASSIGNED, FAILED)
+        if left:
+            yield f"<h2>{self.say(said('To be looked at'))}</h2><div class=\"pictures\">"
+            for one in left:
+                why = f"{one.page}: {'; '.join(one.look)}"
+                shown = (f'<img src="data:image/jpeg;base64,{escape(one.thumbnail)}" alt="{escape(one.page)}">'
+                         if one.thumbnail else "")
+                yield f"<figure>{shown}<figcaption>{escape(why)}</figcaption></figure>"
+            yield "</div>"
+
+    def _sheets(self) -> Iterator[str]:
+        heads = (said("Student"), said("Variant"), said("Page"), said("Score"), said("First wrong step"),
+                 said("Verdict"), said("Certainty"), said("Look here"))
+        rows = [("wrong" if one.first else "", self._row(one)) for one in self.found.sheets if one.status != UNASSIGNED]
+        caption = said("Each step is judged from the student's own earlier marks.")
+        yield from self.table(said("Sheets"), caption, heads, rows)
+
+    def _row(self, one: SheetResult) -> tuple[HtmlCell, ...]:
+        name = escape(one.student)
+        if one.corrected:
+            name = f'<a href="{escape(one.corrected)}">{name or escape(one.corrected)}</a>'
+        told = one.words if one.status == JUDGED else self.tongue(STATUS[one.status]())
+        sure = "" if one.confidence is None else f"{100 * one.confidence:.0f} %"
+        return (
+            HtmlCell(name), HtmlCell("" if one.variant is None else str(one.variant), FIGURE),
+            HtmlCell(escape(one.page)), HtmlCell("" if one.score is None else f"{one.score:.0f}", FIGURE),
+            HtmlCell(escape(one.first), FIGURE), HtmlCell(escape(told)),
+            HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape("; ".join(one.look))),
+        )  # fmt: skip
+
+    def _mistakes(self) -> Iterator[str]:
+        """The most frequent mistakes, with the places of some of them."""
+        found = self.found.mistakes
+        kinds = {self.say(mistaken(kind)): len(sheets) for kind, sheets in found.items()}
+        yield from self.bars(said("Mistakes"), kinds, len(self.found.of(JUDGED)))
+        for kind, sheets in list(found.items())[:SHOWN]:
+            shown = [one for one in sheets if one.detail][:SHOWN]
+            if not shown:
+                continue
+            yield f"<h3>{self.say(mistaken(kind))}</h3><div class=\"pictures\">"
+            for one in shown:
+                yield f"<figure>{one.detail}<figcaption>{escape(one.student or one.page)}: {escape(one.words)}"
+                yield "</figcaption></figure>"
+            yield "</div>"
+
+    def _no_scans(self) -> Iterator[str]:
+        if self.found.unread:
+            rows = [("", (HtmlCell(escape(file.name)), HtmlCell(escape(file.why)))) for file in self.found.unread]
+            yield from self.table(said("No scans"), said("Files that are left out."), (said("File"), said("Reason")),
+                                  rows)

@@ -11,19 +11,20 @@ import numpy as np
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, TABLE
+from graphplan.sheet.plates.display import Rect
 from judging.hand import Fault, Hand, Sketch, drawn
 from judging.task import Task, Value
 
 LEAST, MOST = 3.0, 90.0  # mm: what is less may be the pencil, what is more is off the paper
 
 
-def faulty(task: Task, seed: int, kinds: tuple[str, ...] = ()) -> Sketch:
-    """A drawing with one mistake of one of these kinds, of any where none is named."""
+def faulty(task: Task, seed: int, *, printed: bool = False) -> Sketch:
+    """A drawing with one mistake; what is given, where it is `printed`, is without."""
     chance = random.Random(f"fault {seed}")
     found = list(slips(task, chance))
     by_kind: dict[str, list[Fault]] = {}
     for fault in found:
-        if not kinds or fault.kind in kinds:
+        if not printed or task.number(fault.index):
             by_kind.setdefault(fault.kind, []).append(fault)
     for _ in range(400):
         if not by_kind:
@@ -33,10 +34,10 @@ def faulty(task: Task, seed: int, kinds: tuple[str, ...] = ()) -> Sketch:
         if not by_kind[kind]:
             del by_kind[kind]
         try:
-            made, right = drawn(task, seed, fault), drawn(task, seed)
+            made, right = (drawn(task, seed, one, printed=printed) for one in (fault, None))
         except (Undrawable, ValueError, ZeroDivisionError, OverflowError):
             continue
-        if seen(made, right, fault):
+        if seen(made, right, fault) and not (printed and off_panel(made, right)):
             return made
     raise LookupError(f"{task.scene}: no mistake of these kinds can be made here")
 
@@ -54,6 +55,18 @@ def seen(made: Sketch, right: Sketch, fault: Fault) -> bool:
     if fault.kind == "scale forgotten" and similar(made, right, task.places[fault.index]):
         return False  # all of the plan in another scale: right, too
     return LEAST <= apart(made, right, fault.index) <= MOST
+
+
+def off_panel(made: Sketch, right: Sketch) -> bool:
+    """Whether the mistake drives marks off their plan's panel that should be on it."""
+    views = made.task.composition.views
+    return any(not grown(views[plan].rect, made.places[at]) and grown(views[plan].rect, right.places[at])
+               for at, plan in enumerate(made.task.places) if made.task.steps[at].op.gives == POINT)
+
+
+def grown(rect: Rect, at: Value) -> bool:
+    """Whether a place is on a panel, or hardly off it."""
+    return abs(at[0] - rect.centre[0]) <= rect.width / 2 + 4 and abs(at[1] - rect.centre[1]) <= rect.height / 2 + 4
 
 
 def similar(made: Sketch, right: Sketch, plan: str) -> bool:

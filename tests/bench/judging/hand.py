@@ -110,18 +110,20 @@ class Fault:
     hidden: frozenset[int] = frozenset()
 
 
-def drawn(task: Task, seed: int, fault: Fault | None = None, wobble: Wobble | None = None) -> Sketch:
-    """A drawing of this task; fails with `Undrawable` where lines no longer meet."""
+def drawn(task: Task, seed: int, fault: Fault | None = None, *, printed: bool = False) -> Sketch:
+    """A drawing of this task; what is given is `printed` or drawn. Fails with `Undrawable` where lines no longer
+    meet."""
     chance = random.Random(f"hand {seed}")
     rough = chance.uniform(0.5, 1.4)
-    wobble = wobble or Wobble(0.1 * rough, 0.1 * rough, 0.1 * rough, 0.05 * rough)
+    wobble = Wobble(0.1 * rough, 0.1 * rough, 0.1 * rough, 0.05 * rough)
     hand = Hand(task, chance, wobble, [])
     for step in task.steps:
         act = fault.act if fault and fault.index == step.index else None
         value = act(hand, step.index) if act else hand.right(step.index)
         if fault and fault.later and step.index > fault.index:
             value = fault.later(hand, step.index, value)
-        hand.values.append(hand.shaken(step.index, value))
+        given = printed and step.op.name in {"given", "begin", "pole"}
+        hand.values.append(value if given else hand.shaken(step.index, value))
     letters = {step.index: task.letter(step.index) for step in task.steps}
     if fault and fault.letters:
         letters |= {mark: task.letter(other) for mark, other in fault.letters.items()}

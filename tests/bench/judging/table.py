@@ -7,11 +7,11 @@ import shutil
 import statistics
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 
 from graphplan.errors import GraphplanError
-from judging import cad, geogebra, tables, vector
+from judging import cad, geogebra, picture, tables, vector
 from judging.faults import faulty
 from judging.hand import Sketch, drawn
 from judging.outcome import Outcome, judged, one_sheet_each
@@ -22,6 +22,7 @@ SCENES = (
     "plough-lift", "ozols-5-2", "ozols-5-3", "ozols-5-4", "ozols-5-5", "class-four", "alt-eight-link", 
     "rosenauer-basic", "jaanimets-11", "alt-ten-link", "double-butterfly",
 )
+SMALL = (*SCENES[:14], "jaanimets-11", "alt-eight-link")  # sheets that go through a school's scanner
 Writer = Callable[[Sketch, int, Path], tuple[Path, set[int]]]
 
 
@@ -35,24 +36,39 @@ def written(suffix: str, write: Callable[[Sketch, int], tuple[str | bytes, set[i
     return into
 
 
+PICTURES = ("scans", "photos")
+TARGETS = {"points": (98, 85, 1), "points, precision left out": (98, 85, 3)}
+LABELLED, PICTURED = (95, 80, 2), (85, 70, 2)
+
+
+def pictured(take: Callable[[Sketch, int], tuple[bytes, str, set[int]]]) -> Writer:
+    """A writer of pictures."""
+    def into(sketch: Sketch, seed: int, folder: Path) -> tuple[Path, set[int]]:
+        data, suffix, shown = take(sketch, seed)
+        path = folder / f"{Path(sketch.task.scene).stem}-{seed}{suffix}"
+        path.write_bytes(data)
+        return path, shown
+    return into
+
+
 KINDS: Mapping[str, Writer] = {
     "points": written(".csv", lambda sketch, seed: tables.points(sketch, seed)),
     "points, precision left out": written(".csv", lambda sketch, seed: tables.points(sketch, seed, stated=False)),
     "svg": written(".svg", vector.svg),
     "dxf": written(".dxf", lambda sketch, seed: cad.dxf(cad.turned(sketch, seed), seed)),
     "ggb": written(".ggb", geogebra.ggb),
+    "scans": pictured(picture.scan),
+    "photos": pictured(picture.photo),
 }
-TARGETS = {"points": (98, 85, 1), "points, precision left out": (98, 85, 3)}
-LABELLED, PICTURES = (95, 80, 2), (85, 70, 2)
 
 
-def sketched(seed: int) -> Sketch:
-    """The drawing of a seed: of some scene, an odd one's with a mistake."""
+def sketched(seed: int, scenes: Sequence[str], printed: bool) -> Sketch:
+    """The drawing of a seed: of some scene, an odd one's with a mistake, on a sheet with what is given or without."""
     chance = random.Random(f"scene {seed}")
     while True:
-        scene = task(chance.choice(SCENES))
+        scene = task(chance.choice(scenes))
         try:
-            return faulty(scene, seed) if seed % 2 else drawn(scene, seed)
+            return (faulty if seed % 2 else drawn)(scene, seed, printed=printed)
         except LookupError:
             continue
 
@@ -62,7 +78,7 @@ def measure(kind: str, seeds: Iterable[int], keep: Path | None = None) -> list[O
     found: list[Outcome] = []
     with tempfile.TemporaryDirectory() as folder, one_sheet_each():
         for seed in seeds:
-            sketch = sketched(seed)
+            sketch = sketched(seed, *((SMALL, True) if kind in PICTURES else (SCENES, False)))
             try:
                 path, shown = KINDS[kind](sketch, seed, Path(folder))
             except GraphplanError as fault:
@@ -108,7 +124,7 @@ def lines(found: Mapping[str, list[Outcome]], seeds: str) -> Iterator[str]:
         wrong = [one for one in ones if one.sketch.fault]
         fair = [one for one in ones if not one.sketch.fault]
         told = [one for one in wrong if one.kind_right is not None]
-        exact, right, alarm = TARGETS.get(kind, PICTURES if kind in {"scans", "photos"} else LABELLED)
+        exact, right, alarm = TARGETS.get(kind, PICTURED if kind in PICTURES else LABELLED)
         yield (f"| {kind} | {len(wrong)} | {share(sum(one.exact for one in wrong), len(wrong))} [{exact}] "
                f"| {share(sum(bool(one.kind_right) for one in told), len(told))} [{right}] | {len(fair)} "
                f"| {share(sum(one.called_wrong for one in fair), len(fair))} [{alarm}] "

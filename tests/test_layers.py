@@ -47,7 +47,7 @@ OUTSIDE = {
     "pypdfium2": {"marking"},
     "svgelements": {"marking"},
     "llvmlite": {"kernel/tape/compiled.py"},
-    "distributed": {"methods/batch.py"},
+    "distributed": {"methods/executors.py"},
     "flint": {"kernel/numbers/enclosures.py"},
     "shtab": {"commands/completion.py"},
 }

@@ -15,7 +15,7 @@ from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout",
-               "verify", "chart", "gallery", "schema", "completion")
+               "variants", "verify", "chart", "gallery", "schema", "completion")
 MODULES = {"list": "catalogue"}  # a module called list would hide the built-in one here
 SCENELESS = ("new", "list", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
 

@@ -114,21 +114,21 @@ def add_preference(command: argparse.ArgumentParser) -> None:
 # --- asked for -----------------------------------------------------------------------------------------------------
 
 
-def given(options: argparse.Namespace) -> Scene:
-    """The scene that is named, with as many rounds of friction as the options ask for, if they do."""
+def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
+    """The scene, by default that which is named, with as many rounds of friction as the options ask for, if they do."""
     from graphplan.mechanism.scene import load
 
-    scene = load(options.scene)
+    scene = scene or load(options.scene)
     if options.rounds is None or scene.loads is None:
         return scene
     return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
 
 
-def presented(options: argparse.Namespace) -> Scene:
+def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     """The same with its sheet as the options have it, where they say; its title in the sheet's language."""
     from graphplan.words.tongue import tongue
 
-    scene = given(options)
+    scene = given(options, scene)
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     if options.curves:
         said["curves"] = _movable(scene, options.curves)

@@ -11,9 +11,10 @@ from __future__ import annotations
 
 import json
 import os
+import shutil
 import stat
 import sys
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from errno import EACCES, EBADF, EEXIST, EISDIR
@@ -55,6 +56,38 @@ def folder_at(path: str | os.PathLike[str]) -> None:
     """Refuse a folder that is not there."""
     if not os.path.isdir(path):
         raise Refused(f"{path}: folder", "there is no such folder", "make it first")
+
+
+def new_folder(path: str) -> None:
+    """Refuse a name at which no new folder can be made: what is there must be an empty folder."""
+    place = os.path.realpath(path)
+    try:
+        if os.path.lexists(place) and os.listdir(place):
+            raise Refused(f"{path}: folder", "it is there already, and not empty", "another name, or an empty one")
+        if not os.access(os.path.dirname(place), os.W_OK):
+            os.stat(os.path.dirname(place))
+            raise OSError(EACCES, os.strerror(EACCES))
+    except (OSError, ValueError) as error:
+        raise _unwritable(path, error) from None
+
+
+def write_folder(files: Mapping[str, str | bytes], path: str) -> None:
+    """Make a new folder with these files in one step, whole or not at all."""
+    new_folder(path)
+    place = os.path.realpath(path)
+    temporary = os.path.join(os.path.dirname(place), f".graphplan-{os.urandom(8).hex()}")
+    try:
+        os.mkdir(temporary)
+        for name, content in files.items():
+            with open(os.path.join(temporary, name), "xb") as file:
+                file.write(content.encode() if isinstance(content, str) else content)
+        if os.path.isdir(place):
+            os.rmdir(place)
+        os.rename(temporary, place)
+    except OSError as error:
+        raise _unwritable(path, error) from None
+    finally:  # not there any more where all went well
+        shutil.rmtree(temporary, ignore_errors=True)
 
 
 def write(content: str | bytes, path: str | None = STANDARD, *, new: bool = False) -> None:

@@ -145,7 +145,7 @@ class Presentation:
 
     `k_s`, `k_v`, `k_a` and `k_F` are what a millimetre of paper stands for, in the scene's units; `multiples` are by
     how much other plans are larger than the mechanism's; by `convention` scales are told as real per drawn, or as
-    drawn per real.
+    drawn per real. `student` and `variant` are whose task it is in a class, and its number.
     """
 
     paper: str = ""
@@ -164,6 +164,8 @@ class Presentation:
     convention: str = "real"
     curves: tuple[str, ...] = ()
     positions: int = 0
+    student: str = ""
+    variant: str = ""
 
     @property
     def kappa(self) -> Fraction | None:

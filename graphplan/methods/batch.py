@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-import multiprocessing
-from collections import deque
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
-from concurrent.futures import Executor, Future, ProcessPoolExecutor
-from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import partial
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 
@@ -17,6 +13,7 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.methods.executors import crew
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
@@ -25,8 +22,6 @@ Coordinates = dict[str | int, dict[str, Any]]
 Results = dict[str, dict[str, Any]]
 Faults = dict[int, str]
 Progress = Callable[[int, int], None]
-AHEAD = 2  # stretches for each worker that wait for it: it never idles, and memory stays small
-PATIENCE = "10s"  # for a scheduler to answer
 STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
 
 
@@ -85,12 +80,13 @@ def _filled(construction: Recorded, given: Coordinates, stretches: Iterable[slic
             yield _stretch(construction, _cut(given, place), _cut(results, place), compiled)
         return
     work = partial(_errand, construction, kinds=tuple(results), compiled=compiled)
-    found = _shared_out(work, (_cut(given, place) for place in stretches), workers)
-    for place, (values, faults) in zip(stretches, found, strict=True):
-        for kind, named in values.items():
-            for name, value in named.items():
-                results[kind][name][place] = value
-        yield faults
+    with crew(workers) as shared_out:
+        found = shared_out(work, (_cut(given, place) for place in stretches))
+        for place, (values, faults) in zip(stretches, found, strict=True):
+            for kind, named in values.items():
+                for name, value in named.items():
+                    results[kind][name][place] = value
+            yield faults
 
 
 def _cut(arrays: Mapping[Any, Mapping[str, Any]], place: Any) -> dict[Any, dict[str, Any]]:
@@ -180,45 +176,3 @@ def _poses(z: Any) -> Any:
 
 def _parts(z: Any, one: str, two: str) -> dict[str, Any]:
     return {one: z.real, two: z.imag}
-
-
-def _shared_out(work: Callable[[Any], Any], parts: Iterable[Any], workers: int | str) -> Iterator[Any]:
-    """What the work makes of each part, in order."""
-    with (_cluster(workers) if isinstance(workers, str) else _processes(workers)) as (executor, hands):
-        waiting: deque[Future[Any]] = deque()
-        for part in parts:
-            waiting.append(executor.submit(work, part))
-            if len(waiting) > AHEAD * hands:
-                yield waiting.popleft().result()
-        while waiting:
-            yield waiting.popleft().result()
-
-
-@contextmanager
-def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
-    """Processes of this machine, and how many they are."""
-    if workers < 1:
-        raise Refused(f"workers {workers}", "nobody would do the work", "at least 1")
-    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
-    try:
-        yield pool, workers
-    finally:
-        pool.shutdown(cancel_futures=True)
-
-
-@contextmanager
-def _cluster(address: str) -> Iterator[tuple[Executor, int]]:
-    """The workers of a dask scheduler, and how many they are."""
-    try:
-        from distributed import Client
-    except ImportError:
-        raise Refused(f"workers {address}", "dask is not installed", "pip install 'graphplan[dask]'") from None
-    try:
-        client: Any = cast(Any, Client)(address, timeout=PATIENCE)
-    except (OSError, ValueError) as error:
-        raise Refused(f"workers {address}", f"no dask scheduler answers there ({error})",
-                      "a number of processes, or an address such as tcp://host:8786") from None
-    try:
-        yield client.get_executor(), max(1, sum(client.nthreads().values()))
-    finally:
-        client.close()

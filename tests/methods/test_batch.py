@@ -177,9 +177,9 @@ def test_a_dask_cluster_gives_what_one_gives() -> None:
 @pytest.mark.parametrize("workers", [0, -3, "tcp://127.0.0.1:9"])
 def test_no_workers_are_refused(workers: int | str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Without anyone to do the work one line says so."""
-    from graphplan.methods import batch as crew
+    from graphplan.methods import executors
 
-    monkeypatch.setattr(crew, "PATIENCE", "0.5s")
+    monkeypatch.setattr(executors, "PATIENCE", "0.5s")
     with pytest.raises(Refused, match="workers"):
         gp.construct(gp.load("four-bar")).evaluate({"B": [1j]}, workers=workers)
 

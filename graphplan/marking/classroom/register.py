@@ -49,6 +49,16 @@ class Register:
         return next((sheet for sheet in self.sheets if student and sheet.student == student), None)
 
     @property
+    def alike(self) -> tuple[int, int] | None:
+        """The first two variants whose sheets have the same corner marks; None where all differ."""
+        seen: dict[tuple[int, ...], int] = {}
+        for sheet in self.sheets:
+            other = seen.setdefault(numbers(sheet.code), sheet.variant)
+            if other != sheet.variant:
+                return other, sheet.variant
+        return None
+
+    @property
     def data(self) -> dict[str, Any]:
         """The same as data."""
         return {"title": self.title, "seed": self.seed, "options": dict(self.options),

@@ -70,7 +70,8 @@ def values(scene: Scene, tongue: Tongue, page: Page) -> dict[str, str]:
         "title": scene.title, "source": scene.source, "language": tongue.code, "document": tongue(page.document),
         "sheet.k_s": tongue(page.scale), "format": page.paper.partition(" ")[0], "page": f"{page.number}/{page.of}",
         "number": str(page.number), "of": str(page.of),
-        **{f"sheet.{name}": getattr(sheet, name) for name in ("owner", "number", "date", "drawn_by", "approved_by")},
+        **{f"sheet.{name}": getattr(sheet, name)
+           for name in ("owner", "number", "date", "drawn_by", "approved_by", "student", "variant")},
     }  # fmt: skip
 
 
@@ -114,11 +115,15 @@ ALWAYS = (
     TitleCell(said("Scale"), "sheet.k_s"), TitleCell(said("Format"), "format"), TitleCell(said("Sheet"), "page"),
     TitleCell(said("Language"), "language"),
 )  # fmt: skip
-BY_HAND = (said("Name"), 38.0), (said("Group"), 18.0), (said("Date"), 18.0), (said("Variant"), 14.0)  # mm to write in
+BY_HAND = (  # each with mm to write in, where the scene does not say it
+    (TitleCell(said("Name"), "sheet.student"), 38.0), (TitleCell(said("Group")), 18.0), (TitleCell(said("Date")), 18.0),
+    (TitleCell(said("Variant"), "sheet.variant"), 14.0),
+)  # fmt: skip
 
 
 class _Filled(NamedTuple):
-    """What a cell tells. It is as wide as its text or, where that differs from page to page, as the `longest` is."""
+    """What a cell tells. It is as wide as its text, or where that differs from page to page as the `longest` is, or
+    where it is `least` mm wide, as that."""
 
     heading: str
     text: str
@@ -128,17 +133,18 @@ class _Filled(NamedTuple):
     @property
     def natural(self) -> float:
         """The width in which all stands on one line."""
-        return max(_long(self.heading) + 2 * CELL, _long(self.longest or self.text) + 2 * CELL, self.least)
+        return max(_long(self.heading) + 2 * CELL, self.least or _long(self.longest or self.text) + 2 * CELL)
 
     @property
     def size(self) -> float:
         """The size of the lettering, smaller only where the text is longer than what should be the longest."""
-        return SIZE * min(1.0, _long(self.longest) / _long(self.text)) if self.longest and self.text else SIZE
+        room = self.least - 2 * CELL if self.least else _long(self.longest)
+        return SIZE * min(1.0, room / _long(self.text)) if room and self.text else SIZE
 
     def lines(self, wide: float) -> list[Runs]:
         """The lettering on lines."""
         runs = sentence_runs(self.text)
-        return [runs] if self.longest else wrap(runs, SIZE, wide - 2 * CELL)
+        return [runs] if self.longest or self.least else wrap(runs, SIZE, wide - 2 * CELL)
 
 
 @dataclass(frozen=True)
@@ -215,7 +221,7 @@ class IsoBlock:
         found, longest = values(self.scene, self.tongue, page), self._longest()
         optional, always = ([_Filled(self.tongue(cell.words), found[cell.field], longest.get(cell.field, ""))
                              for cell in cells] for cells in (OPTIONAL, ALWAYS))
-        by_hand = [_Filled(self.tongue(words), "", least=least) for words, least in BY_HAND]
+        by_hand = [_Filled(self.tongue(cell.words), found.get(cell.field, ""), least=least) for cell, least in BY_HAND]
         for cells in ([cell for cell in optional if cell.text], by_hand if page.filled_by_hand else always):
             row: list[_Filled] = []
             for made in cells:
@@ -270,7 +276,8 @@ LIT, MASS, SCALE = (135.0, 35.0, 150.0, 40.0), (150.0, 35.0, 167.0, 40.0), (167.
 HEADS = said("Rev."), said("Sheet"), said("Doc. No."), said("Sign."), said("Date")
 ROLES = (said("Drawn"), "sheet.drawn_by"), (said("Checked"), ""), (said("Tech. check"), ""), ("", ""), (
     said("Std. check"), ""), (said("Approved"), "sheet.approved_by")
-ROLES_BY_HAND = (said("Name"), ""), (said("Checked"), ""), (said("Group"), ""), (said("Variant"), ""), *ROLES[4:]
+ROLES_BY_HAND = (said("Name"), "sheet.student"), (said("Checked"), ""), (said("Group"), ""), (
+    said("Variant"), "sheet.variant"), *ROLES[4:]
 CELLS = (  # from left to right, by columns; those of the roles stand before them
     *(TitleCell(head, "", (left, 30.0, right, 35.0), SMALL, middle=True)
       for head, (left, right) in zip(HEADS, pairwise(CHANGES), strict=True)),
@@ -338,7 +345,7 @@ def _roles(roles: Sequence[tuple[Said | str, str]]) -> Iterator[TitleCell]:
     for i, (role, name) in enumerate(roles):
         low, high = 25.0 - ROW * i, 30.0 - ROW * i
         yield TitleCell(role, "", (0.0, low, 17.0, high), SMALL)
-        yield TitleCell("", name, (17.0, low, 40.0, high))
+        yield TitleCell("", name, (17.0, low, 40.0, high), (*SMALL, 1.2))
 
 
 TitleBlock = IsoBlock | GostBlock  # its width follows from the frame and the pitch of columns, its height from that

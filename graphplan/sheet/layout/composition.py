@@ -114,14 +114,20 @@ class Composition:
         weights[MECHANISM] = 1.0
         large = sum(weight * math.log(self._scale(panel)) for panel, weight in weights.items())
         shown = (self._size(panel) / need for panel, need in self.needs.items() if need)
-        return round(large - SHORT * self.short, 9), min(shown, default=0.0)
+        return round(large - SHORT * len(self.short), 9), min(shown, default=0.0)
 
     @property
-    def short(self) -> int:
-        """How many vectors are too short for a ruler; those that are next to nothing beside their kind are left out."""
+    def short(self) -> list[float]:
+        """The mm of vectors that are too short for a ruler, without what is next to nothing beside its kind."""
         drawn = [(kind, length * self.views[panel].scale) for kind, panel, length in self.plans.lengths]
         largest = dict(sorted(drawn))
-        return sum(NOTHING * largest[kind] <= length < MEASURED for kind, length in drawn)
+        return [length for kind, length in drawn if NOTHING * largest[kind] <= length < MEASURED]
+
+    @property
+    def legible(self) -> bool:
+        """Whether it is large enough to be read, as is asked of a sheet that is chosen."""
+        paper = self.arrangement.paper
+        return _legible(self.plans, self.views, paper) and self.poor <= POOR[paper[:2]]
 
     @property
     def oversized(self) -> dict[str, float]:

@@ -1,0 +1,249 @@
+"""Variants: scenes that differ in the numbers of the table [vary], and make equally good tasks on equal scales.
+
+Numbers are drawn uniformly from the grid of all values, none twice before the grid is empty, by a seed of which alone
+the draw depends. A variant is kept whose sheet is without a flaw on the paper and at the scales of the class; these are
+the scene's own, or where too few variants fit those, the largest that most of the first variants fit.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import tomllib
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from itertools import islice
+from random import Random
+from typing import Any
+
+from graphplan.accuracy.drafted import Drafted
+from graphplan.errors import Refused
+from graphplan.marking.classroom.flaws import Draw, Flaw, Quality, flaw, sheet_of
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.numerals import decimal
+from graphplan.mechanism.scene_text import Tables, edited, with_keys, with_numbers, without_table, written
+from graphplan.mechanism.variation import Choices, parts
+from graphplan.methods.executors import SharedOut
+from graphplan.phrases import said
+from graphplan.sheet.layout.scales import Scales, round_up
+from graphplan.words.tongue import Tongue
+
+MOST_TRIES, PATIENCE = 8, 40  # draws for each variant, and more of them in all
+PILOTS, ENOUGH = 12, 0.75  # first variants by which scales are chosen, and the part of them that is to fit
+FEWEST = 1 / 6  # of them may be too large for a plan
+Values = Mapping[str, Fraction]  # by the paths of the numbers
+Keys = Mapping[str, str]  # of [sheet], as TOML
+Progress = Callable[[int, int], None]  # how many are done, of how many
+
+
+@dataclass(frozen=True)
+class Variant:
+    """A scene of the class: its number, what was drawn for it, and its text."""
+
+    number: int
+    values: Values
+    text: str
+
+    @property
+    def told(self) -> str:
+        """What was drawn."""
+        return told(self.values)
+
+
+@dataclass(frozen=True)
+class Series:
+    """The variants of a class, with what was drawn anew on the way: each draw with its flaw."""
+
+    variants: tuple[Variant, ...]
+    drawn_anew: tuple[tuple[int, Values, Flaw], ...]
+    repeated: int  # variants whose numbers another has, too
+
+    @property
+    def lines(self) -> Iterator[str]:
+        """What is to be told of the draw."""
+        kinds = Counter(found.kind for _, _, found in self.drawn_anew)
+        for kind, count in kinds.most_common():
+            number, values, found = next(one for one in self.drawn_anew if one[2].kind == kind)
+            yield f"drawn anew {count} times, as {kind}: such as variant {number}: {told(values)}: {found.told}"
+        if self.repeated:
+            yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
+
+
+def told(values: Values) -> str:
+    """What was drawn, in words."""
+    return ", ".join(f"{path} = {written(value)}" for path, value in values.items())
+
+
+def draws(choices: Choices, seed: int) -> Iterator[Values]:
+    """Values drawn uniformly, none twice, until the grid is empty."""
+    random, seen = Random(seed).random, set[tuple[int, ...]]()  # of which Python promises the same numbers for ever
+    while len(seen) < math.prod(map(len, choices.values())):
+        places = tuple(int(random() * len(values)) for values in choices.values())
+        if places not in seen:
+            seen.add(places)
+            yield {path: values[place] for (path, values), place in zip(choices.items(), places, strict=True)}
+
+
+# ---- the text of a variant -------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True)
+class Wording:
+    """How the scene of a class is worded: its text, its title, what all variants have in [sheet], their tongue."""
+
+    text: str
+    title: str
+    keys: Keys
+    tongue: Tongue
+
+    def variant(self, number: int, values: Values) -> Variant:
+        """The scene with these numbers, as a teacher would write it: without [vary], its comments kept."""
+        name = said("{0}, variant {1}", self.tongue.title(self.title), number) if self.title else \
+            said("Variant {0}", number)
+        title = self.tongue(name)
+
+        def edit(text: str) -> str:
+            text = without_table(with_numbers(text, values), "vary")
+            return with_keys(with_keys(text, "sheet", self.keys), "", {"title": json.dumps(title, ensure_ascii=False)})
+
+        def meant(tables: Tables) -> None:
+            for path, value in values.items():
+                _put(tables, parts(path), value)
+            tables.pop("vary", None)
+            tables["title"] = title
+            own = tomllib.loads("\n".join(f"{key} = {value}" for key, value in self.keys.items()), parse_float=decimal)
+            tables["sheet"] = tables.get("sheet", {}) | own
+
+        return Variant(number, values, edited(self.text, edit, meant))
+
+
+def _put(tables: Any, path: Sequence[str], value: Fraction) -> None:
+    for part in path[:-1]:
+        tables = tables[int(part) if isinstance(tables, list) else part]
+    tables[int(path[-1]) if isinstance(tables, list) else path[-1]] = value
+
+
+# ---- the scales of a class -------------------------------------------------------------------------------------------
+
+
+def keys_of(scene: Scene, scales: Scales, paper: str, *, multiples: bool = True) -> Keys:
+    """What [sheet] says so that a scene is drawn on this paper at these scales; what it says already is left out."""
+    own = scene.sheet
+    found = {"paper": json.dumps(paper), "language": json.dumps(own.language)}
+    rates = bool(scene.drives or scene.motions)
+    found |= {} if own.k_s else {"k_s": _plain(scales.k_s)}
+    found |= {} if own.k_v or not rates else {"k_v": _plain(scales.k_s / scales.kappa)}
+    found |= {} if own.k_F or not scene.loads else {"k_F": _plain(scales.k_s / scales.phi)}
+    if multiples and scales.multiples and not own.multiples:
+        plans = {panel.whole.twin: multiple for panel, multiple in scales.multiples.items()}  # type: ignore[attr-defined]
+        found["multiples"] = f"{{ {', '.join(f'{json.dumps(str(plan))} = {_plain(m)}' for plan, m in plans.items())} }}"
+    return found
+
+
+def _plain(value: Fraction | float) -> str:
+    return written(Fraction(f"{float(value):.12g}"))
+
+
+@dataclass(frozen=True)
+class Design:
+    """The scene of a class on its own sheet, and how variants of it are drawn."""
+
+    scene: Scene
+    drafted: Drafted
+    draw: Draw
+    shared_out: SharedOut
+
+    @property
+    def own(self) -> Quality:
+        """The quality of the scene's own sheet."""
+        return Quality.of(self.drafted)
+
+    @property
+    def tongue(self) -> Tongue:
+        """The language of the class."""
+        return self.drafted.composition.plans.tongue
+
+    def worded(self, keys: Keys) -> Wording:
+        """The scene's words with these keys in [sheet]."""
+        return Wording(self.scene.text, self.scene.title, keys, self.tongue)
+
+    def scales(self, pilots: Sequence[Values]) -> Keys:
+        """The scales of the class: the first of some that enough of the first variants fit, else what most fit."""
+        most: tuple[int, Keys] | None = None
+        for keys in self._proposals(pilots):
+            texts = [self.worded(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
+            fitting = sum(found is None for found in self.shared_out(self._work, texts))
+            if most is None or fitting > most[0]:
+                most = fitting, keys
+            if fitting >= ENOUGH * len(pilots):
+                break
+        assert most is not None
+        return most[1]
+
+    def _proposals(self, pilots: Sequence[Values]) -> Iterator[Keys]:
+        """The scales of the scene's own sheet; then by how large the other plans of most variants can be drawn at its
+        scale of lengths, and at the next coarser one."""
+        composition, given = self.drafted.composition, self.scene.sheet
+        own, paper = composition.scales, composition.arrangement.paper
+        yield keys_of(self.scene, own, paper)
+        coarser = round_up(own.k_s * (1 + 1e-6), (1, own.kappa, own.kappa**2))
+        for k_s in dict.fromkeys((own.k_s, own.k_s if given.k_s or given.k_v or given.k_F else float(coarser))):
+            scales = replace(own, k_s=k_s)
+            free = self.worded(keys_of(self.scene, scales, paper, multiples=False))
+            texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
+            work = partial(multiples, name=self.scene.name, draw=self.draw)
+            found = [one for one in self.shared_out(work, texts) if one is not None]
+            plans = [plan for plan in own.multiples if all(plan in one for one in found)]
+            if found and plans:
+                fitted = {plan: sorted(one[plan] for one in found)[int(FEWEST * len(found))] for plan in plans}
+                yield keys_of(self.scene, replace(scales, multiples=fitted), paper)
+
+    @property
+    def _work(self) -> Any:
+        """What is asked of the text of each variant: its flaw."""
+        return partial(flaw, name=self.scene.name, draw=self.draw, own=self.own)
+
+    # ---- the choice of variants --------------------------------------------------------------------------------------
+
+    def series(self, count: int, seed: int, progress: Progress) -> Series:
+        """So many variants; fails with `Refused` where too few of those drawn are without a flaw."""
+        choices = self.scene.vary
+        wording = self.worded(self.scales([*islice(draws(choices, seed), min(PILOTS, count + 2))]))
+        tried = [*islice(draws(choices, seed), MOST_TRIES * count + PATIENCE)]
+        found, drawn_anew = list[Values](), list[tuple[int, Values, Flaw]]()
+        flaws = self.shared_out(self._work, (wording.variant(count, values).text for values in tried))
+        for values, wrong in zip(tried, flaws, strict=False):
+            if wrong is None:
+                found.append(values)
+            else:
+                drawn_anew.append((len(found) + 1, values, wrong))
+            progress(len(found), count)
+            if len(found) == count or len(drawn_anew) > PATIENCE + MOST_TRIES * len(found):
+                break
+        if len(found) < count and not (found and len(found) + len(drawn_anew) == math.prod(map(len, choices.values()))):
+            raise self._too_wide(wording, count, found, drawn_anew)
+        variants = (wording.variant(number, found[(number - 1) % len(found)]) for number in range(1, count + 1))
+        return Series(tuple(variants), tuple(drawn_anew), count - len(found))
+
+    def _too_wide(self, wording: Wording, count: int, found: Sequence[Values],
+                  drawn_anew: Sequence[tuple[int, Values, Flaw]]) -> Refused:
+        """The refusal of ranges in which too little is good: of one whose end is not, with all else as in the scene."""
+        few = f"of {len(found) + len(drawn_anew)} variants drawn {len(found)} are good, {count} are wanted"
+        ends = [{path: values[end]} for path, values in self.scene.vary.items() for end in (0, -1)]
+        texts = [wording.variant(count, values).text for values in ends]
+        for values, wrong in zip(ends, self.shared_out(self._work, texts), strict=True):
+            if wrong is not None:
+                (path, value), = values.items()
+                return Refused(f'{self.scene.name}: vary."{path}"', f"{few}; already at {written(value)} {wrong.told}",
+                               "a narrower range")
+        kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
+        return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges")
+
+
+def multiples(text: str, name: str, draw: Draw) -> Mapping[str, Fraction] | None:
+    """How large the other plans of a scene are drawn; None where it is not."""
+    found = sheet_of(text, name, draw)
+    return None if isinstance(found, Flaw) else found.composition.scales.multiples

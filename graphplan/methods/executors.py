@@ -1,0 +1,75 @@
+"""Who does work that can be shared out: this process, several processes of this machine, or a dask cluster."""
+
+from __future__ import annotations
+
+import multiprocessing
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator
+from concurrent.futures import Executor, Future, ProcessPoolExecutor
+from contextlib import contextmanager
+from functools import partial
+from typing import Any, cast
+
+from graphplan.errors import Refused
+
+AHEAD = 2  # parts for each worker that wait for it: it never idles, and memory stays small
+PATIENCE = "10s"  # for a scheduler to answer
+SharedOut = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]  # the work and its parts: what it makes
+
+
+@contextmanager
+def crew(workers: int | str) -> Iterator[SharedOut]:
+    """What does work part by part and gives what is made of each, in order: so many processes, or the dask scheduler at
+    an address. One worker is this process.
+
+    Fails with `Refused` where there is nobody to do it.
+    """
+    if workers == 1:
+        yield map
+        return
+    with (_cluster(workers) if isinstance(workers, str) else _processes(workers)) as (executor, hands):
+        yield partial(_shared_out, executor, hands)
+
+
+def _shared_out(executor: Executor, hands: int, work: Callable[[Any], Any], parts: Iterable[Any]) -> Iterator[Any]:
+    waiting: deque[Future[Any]] = deque()
+    try:
+        for part in parts:
+            waiting.append(executor.submit(work, part))
+            if len(waiting) > AHEAD * hands:
+                yield waiting.popleft().result()
+        while waiting:
+            yield waiting.popleft().result()
+    finally:  # nobody wants the rest
+        for future in waiting:
+            future.cancel()
+
+
+@contextmanager
+def _processes(workers: int) -> Iterator[tuple[Executor, int]]:
+    """Processes of this machine, and how many they are."""
+    if workers < 1:
+        raise Refused(f"workers {workers}", "nobody would do the work", "at least 1")
+    pool = ProcessPoolExecutor(workers, mp_context=multiprocessing.get_context("spawn"))
+    try:
+        yield pool, workers
+    finally:
+        pool.shutdown(cancel_futures=True)
+
+
+@contextmanager
+def _cluster(address: str) -> Iterator[tuple[Executor, int]]:
+    """The workers of a dask scheduler, and how many they are."""
+    try:
+        from distributed import Client
+    except ImportError:
+        raise Refused(f"workers {address}", "dask is not installed", "pip install 'graphplan[dask]'") from None
+    try:
+        client: Any = cast(Any, Client)(address, timeout=PATIENCE)
+    except (OSError, ValueError) as error:
+        raise Refused(f"workers {address}", f"no dask scheduler answers there ({error})",
+                      "a number of processes, or an address such as tcp://host:8786") from None
+    try:
+        yield client.get_executor(), max(1, sum(client.nthreads().values()))
+    finally:
+        client.close()

@@ -97,7 +97,8 @@ class Search:
             except Undrawable:
                 return -math.inf
             # what is there, though poor, was drawn by somebody; and what is not there speaks for no unseen mistake
-            if index in other.dead and (match.place is not None or other.matches[guess.index].place is None):
+            unseen = len(other.matches) > guess.index and other.matches[guess.index].place is None
+            if index in other.dead and (match.place is not None or unseen):
                 other.weight += min(match.weight, 0.0)
             if other.weight + hope < least:
                 return -math.inf

@@ -102,12 +102,12 @@ def complaint(one: Outcome) -> str:
     said = (one.error or "refused") if one.data is None else (
         f"step {one.first['step']} ({one.first['mark']}): {one.first['mistake'] or one.first['kind']}"
         if one.first else "no step is wrong") + f", {one.points:.0f} of 100"
-    if fault is None:
-        bad = one.called_wrong or one.points < 90
-    else:
-        bad = not one.exact or one.kind_right is False or one.points >= 90
+    fair = not one.called_wrong and one.points >= 90
+    right_told = one.exact and one.kind_right is not False
+    if fair if fault is None else right_told:
+        return ""
     called = " ".join(["verify", task.scene, one.path.name, *task.options])
-    return f"- `{called}`: right is: {right}; judged: {said}" if bad else ""
+    return f"- `{called}`: right is: {right}; judged: {said}"
 
 
 def share(count: int, of: int) -> str:

@@ -10,28 +10,32 @@ import argparse
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
 from graphplan import __version__
-from graphplan.commands.choices import on_paper
+from graphplan.commands import parser
 from graphplan.commands.output import Messages, as_json, write
+from graphplan.commands.variants import drafted
 from graphplan.commands.verify import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
-from graphplan.marking.classroom.grading import Data, Failed, Keeper, done, file_digest, key
+from graphplan.marking.classroom.grading import FILES, Data, Failed, Keeper, done, file_digest, key
 from graphplan.marking.classroom.pages import StackPage, UnreadFile, look, pages, sight
 from graphplan.marking.classroom.register import FILE, Register, TaskSheet, is_class, load
 from graphplan.marking.classroom.results import Results, SheetResult, file_names
 from graphplan.marking.classroom.stack import Placed, Seen, assignments, instead, placed
 from graphplan.marking.judge.score import Weights, weights
+from graphplan.mechanism.scene import load as load_scene
 from graphplan.phrases import said
 from graphplan.words.tongue import Tongue, tongue
 
 FAULT = "fault"  # in the place of what is found of a page
-OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str}  # options
+OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str,
+                 "frame": str, "protocol": str, "curves": str, "faint": int}  # options, as they are kept
 
 
 def run(options: argparse.Namespace) -> int:
@@ -83,10 +87,11 @@ class StackDesk:
     def processes(self) -> int:
         return self.options.jobs or os.cpu_count() or 1
 
-    @property
+    @cached_property
     def say(self) -> Tongue:
         """The tongue of the sheets."""
-        return tongue(self.register.options.get("language", ""))
+        named = self.register.options.get("language")
+        return tongue(named or load_scene(str(self.folder / self.register.sheets[0].scene)).sheet.language)
 
     def results(self, stack: Sequence[StackPage], unread: Sequence[UnreadFile]) -> Results:
         """What is found of a stack."""
@@ -104,10 +109,11 @@ class StackDesk:
     def _seen(self, stack: Sequence[StackPage]) -> tuple[list[Seen], list[SheetResult]]:
         """What is seen on every page, and the pages that cannot be opened."""
         files = {path: file_digest(path) for path in dict.fromkeys(page.path for page in stack)}
-        jobs = {key("sight", __version__, files[page.path], page.number): page for page in stack}
+        keys = {page: key("sight", __version__, files[page.path], page.number) for page in stack}
+        jobs = {name: page for page, name in reversed(keys.items())}
         found = self._done(looked, jobs, "pages", lambda page: page.name)
         seen, broken = [], []
-        for name, page in jobs.items():
+        for page, name in keys.items():
             if FAULT in found[name]:
                 broken.append(SheetResult(found_results.FAILED, page.name, look=(found[name][FAULT],)))
             else:
@@ -115,28 +121,37 @@ class StackDesk:
         return seen, broken
 
     def _judged(self, whose: Sequence[Placed]) -> dict[str, Data]:
-        """What is found of every sheet, by the name of its page."""
-        jobs = dict[str, Job]()
+        """What is found of every sheet, by the name of its page; of equal pictures it is found once."""
+        jobs, keys = dict[str, Job](), dict[str, str]()
         for one in whose:
-            if one.fate in (fates.COUNTS, fates.AGAIN) and one.sheet is not None:
+            if one.fate in (fates.COUNTS, fates.AGAIN):
                 further = [other for other in whose if other.fate == fates.JOINED and _same(one, other)]
-                jobs.update([self._job(one, further if one.fate == fates.COUNTS else [])])
+                name, job = self._job(one, further if one.fate == fates.COUNTS else [])
+                keys[one.seen.page.name] = name
+                jobs.setdefault(name, job)
         found = self._done(judged, jobs, "sheets", lambda job: job.page.name)
-        return {job.page.name: {**found[name], "kept": name} for name, job in jobs.items()}
+        return {page: found[name] for page, name in keys.items()}
 
     def _job(self, one: Placed, further: Sequence[Placed]) -> tuple[str, Job]:
         """The job of a sheet, by a digest of all that it hangs on."""
         assert one.sheet is not None
-        scene = self.folder / one.sheet.scene
-        printed = {name: kind(self.register.options[name]) for name, kind in OF_THE_SHEETS.items()
-                   if self.register.options.get(name)}
-        options = argparse.Namespace(**{**vars(self.options), "scene": str(scene), **printed})
+        scene, options = self.folder / one.sheet.scene, self._drawn_by()
         digests = [seen.seen.sight.digest for seen in (one, *further)]
-        how = sorted((name, repr(value)) for name, value in vars(options).items() if name not in NO_MATTER)
-        made_from = key("judged", __version__, digests, one.mirrored, one.sheet.code, file_digest(scene), how,
-                        self.weights)
+        made_from = key("judged", __version__, digests, one.mirrored, one.sheet, file_digest(scene),
+                        sorted(self.register.options.items()), options.pencil, self.weights)
         return made_from, Job(one.seen.page, one.mirrored, tuple(other.seen.page for other in further), one.sheet,
                               scene, self.keeper.folder / f"{made_from}.pdf", self.weights, options)
+
+    def _drawn_by(self) -> argparse.Namespace:
+        """The options by which the sheets of the class were drawn, and the pencil of this run."""
+        options = parser(("verify",)).parse_args(["verify", self.options.scene, self.options.drawing])
+        if spoken := [name for name in OF_THE_SHEETS if getattr(self.options, name) != getattr(options, name)]:
+            raise Refused(f"--{spoken[0]}", f"the sheets of this class were drawn as its {FILE} says", "leave it out")
+        for name, kind in OF_THE_SHEETS.items():
+            if value := self.register.options.get(name):
+                setattr(options, name, kind(value))
+        options.pencil = self.options.pencil
+        return options
 
     def _done(self, work: Callable[[Any], Data], jobs: Mapping[str, Any], what: str, named: Callable[[Any], str]
               ) -> dict[str, Data]:
@@ -177,7 +192,7 @@ class StackDesk:
             return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
         told = {name: data[name] for name in ("score", "groups", "first", "words", "kind", "confidence", "detail",
                                               "judgement")}
-        return replace(about, **told, look=(*notes, *data["look"]), corrected=data["kept"])
+        return replace(about, **told, look=(*notes, *data["look"]), corrected=data[FILES][0])
 
     def write(self, found: Results) -> None:
         """Write all that is found into the folder, and remove what an earlier run had to hand back."""
@@ -189,10 +204,10 @@ class StackDesk:
         files = {one.page: f"corrected/{name}.pdf" for one, name in zip(to_hand_back, names, strict=True)}
         (self.into / "corrected").mkdir(parents=True, exist_ok=True)
         for one in to_hand_back:
-            write((self.keeper.folder / f"{one.corrected}.pdf").read_bytes(), str(self.into / files[one.page]))
-        for file in set(earlier.get("files", ())) - set(files.values()):
+            write((self.keeper.folder / one.corrected).read_bytes(), str(self.into / files[one.page]))
+        for file in set(earlier.get("written", ())) - set(files.values()):
             (self.into / "corrected" / Path(file).name).unlink(missing_ok=True)
-        self.keeper.put("corrected", {"files": sorted(files.values())})
+        self.keeper.put("corrected", {"written": sorted(files.values())})
         found = replace(found, sheets=tuple(replace(one, corrected=files.get(one.page, "")) for one in found.sheets))
         for name, content in (("results.csv", found.csv), ("results.json", as_json(found.data)),
                               ("results.html", results_page(found, self.say))):
@@ -201,7 +216,6 @@ class StackDesk:
 
 FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, fates.JOINED: found_results.JOINED,
          fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
-NO_MATTER = {"scene", "drawing", "report", "json", "quiet", "run", "assign", "jobs", "output"}  # to what is judged
 
 
 def _same(one: Placed, other: Placed) -> bool:
@@ -241,7 +255,9 @@ def _judged(job: Job) -> Data:
 
     image = picture(job.page.path, job.page.number)
     image = image[:, ::-1] if job.mirrored else image
-    desk = Desk(on_paper(job.options), job.weights, job.options)
+    scene = load_scene(str(job.scene))
+    named = replace(scene.sheet, student=job.sheet.student, variant=str(job.sheet.variant))
+    desk = Desk(drafted(job.options, replace(scene, sheet=named)), job.weights, job.options)
     composition = desk.on_sheet.composition
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
@@ -260,5 +276,5 @@ def _judged(job: Job) -> Data:
         "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
         "words": say(one.told), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
         "look": [say(note) for note in notes], "detail": shown(detail) if detail else "",
-        "judgement": record(one.judgement, one.score),
+        "judgement": record(one.judgement, one.score), FILES: [job.corrected.name],
     }  # fmt: skip

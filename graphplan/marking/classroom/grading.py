@@ -23,6 +23,7 @@ from graphplan.errors import GraphplanError
 
 Data = dict[str, Any]
 Job = TypeVar("Job")
+FILES = "files"  # of data: names of files beside it that belong to it
 BLOCK = 2**20  # bytes of a file that are read at a time
 ONE_THREAD = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"  # in each process, as there is one for each core
 DIED = "the process that worked on it died"
@@ -42,12 +43,13 @@ class Keeper:
     folder: Path
 
     def get(self, key: str) -> Data | None:
-        """What is kept under a key; none where nothing is, or nothing that can be read."""
+        """What is kept under a key; none where nothing is, nothing that can be read, or one of its files is gone."""
         try:
             found = json.loads((self.folder / f"{key}.json").read_text(encoding="utf-8"))
         except (OSError, ValueError, RecursionError):
             return None
-        return found if isinstance(found, dict) else None
+        whole = isinstance(found, dict) and all((self.folder / name).is_file() for name in found.get(FILES, ()))
+        return found if whole else None
 
     def put(self, key: str, data: Data) -> None:
         """Keep data, whole or not at all."""

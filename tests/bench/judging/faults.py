@@ -249,5 +249,5 @@ def scale_forgotten(task: Task) -> Iterator[Fault]:
         (x, y), (u, v) = hand.values[task.steps[index].args[-1]], value
         return x + factor * (u - x), y + factor * (v - y)
 
-    yield Fault(bear[0], "scale forgotten", r"(?i)scale|times as|long|short",
+    yield Fault(bear[0], "scale forgotten", r"(?i)scale|times as|long|short|halved|doubled",
                 lambda hand, at: later(hand, at, hand.right(at)), later)

@@ -14,15 +14,17 @@ from graphplan.errors import GraphplanError
 from judging import cad, geogebra, picture, tables, vector
 from judging.faults import faulty
 from judging.hand import Sketch, drawn
+from judging.mechanisms import mechanism
 from judging.outcome import Outcome, judged, one_sheet_each
 from judging.task import task
 
-SCENES = (
-    "four-bar", "slider-crank", "stephenson", "triad", "shaper", "slotted-link", "open-chain", "five-bar", 
-    "plough-lift", "ozols-5-2", "ozols-5-3", "ozols-5-4", "ozols-5-5", "class-four", "alt-eight-link", 
-    "rosenauer-basic", "jaanimets-11", "alt-ten-link", "double-butterfly",
-)
-SMALL = (*SCENES[:14], "jaanimets-11", "alt-eight-link")  # sheets that go through a school's scanner
+SMALL = (
+    "four-bar", "slider-crank", "stephenson", "triad", "shaper", "slotted-link", "open-chain", "five-bar",
+    "plough-lift", "ozols-5-1", "ozols-5-2", "ozols-5-3", "ozols-5-4", "ozols-5-5", "jaanimets-11",
+)  # sheets that go through a school's scanner
+LARGE = ("class-four", "alt-eight-link", "rosenauer-basic", "alt-ten-link", "double-butterfly")
+OWN = 0.4  # of all drawings, the share of mechanisms that are in no scene file
+SCENES = (*SMALL, *SMALL, *LARGE)
 Writer = Callable[[Sketch, int, Path], tuple[Path, set[int]]]
 
 
@@ -62,11 +64,13 @@ KINDS: Mapping[str, Writer] = {
 }
 
 
-def sketched(seed: int, scenes: Sequence[str], printed: bool) -> Sketch:
-    """The drawing of a seed: of some scene, an odd one's with a mistake, on a sheet with what is given or without."""
+def sketched(seed: int, folder: Path, scenes: Sequence[str], printed: bool) -> Sketch:
+    """The drawing of a seed: of some scene or one of its own; an odd seed's with a mistake, on a sheet with what is
+    given or without."""
     chance = random.Random(f"scene {seed}")
     while True:
-        scene = task(chance.choice(scenes))
+        own = chance.random() < OWN
+        scene = task(mechanism(chance.randrange(10**6), folder) if own else chance.choice(scenes))
         try:
             return (faulty if seed % 2 else drawn)(scene, seed, printed=printed)
         except LookupError:
@@ -78,7 +82,7 @@ def measure(kind: str, seeds: Iterable[int], keep: Path | None = None) -> list[O
     found: list[Outcome] = []
     with tempfile.TemporaryDirectory() as folder, one_sheet_each():
         for seed in seeds:
-            sketch = sketched(seed, *((SMALL, True) if kind in PICTURES else (SCENES, False)))
+            sketch = sketched(seed, Path(folder), *((SMALL, True) if kind in PICTURES else (SCENES, False)))
             try:
                 path, shown = KINDS[kind](sketch, seed, Path(folder))
             except GraphplanError as fault:
@@ -90,6 +94,8 @@ def measure(kind: str, seeds: Iterable[int], keep: Path | None = None) -> list[O
             if keep is not None and (told := complaint(one)):
                 keep.mkdir(parents=True, exist_ok=True)
                 shutil.copy(path, keep / path.name)
+                if sketch.task.scene.endswith(".toml"):
+                    shutil.copy(sketch.task.scene, keep)
                 with (keep / "README.md").open("a") as file:
                     file.write(told + "\n")
     return found
@@ -106,7 +112,7 @@ def complaint(one: Outcome) -> str:
     right_told = one.exact and one.kind_right is not False
     if fair if fault is None else right_told:
         return ""
-    called = " ".join(["verify", task.scene, one.path.name, *task.options])
+    called = " ".join(["verify", Path(task.scene).name, one.path.name, *task.options])
     return f"- `{called}`: right is: {right}; judged: {said}"
 
 

@@ -152,7 +152,7 @@ class _Report(HtmlPage):
 
     def _steps(self) -> Iterator[str]:
         heads = (said("Step"), said("Plan"), said("What is drawn"), said("Verdict"), said("Off, mm"),
-                 said("Allowed, mm"), said("Likely mistake"))
+                 said("Allowed, mm"), said("Sure, %"), said("Likely mistake"))
         givens = self.judgement.drawing.drawn.givens
         rows = [(verdict.state, self._step(verdict)) for verdict in self.judgement.verdicts
                 if verdict.step >= givens or verdict.state != UNSEEN]
@@ -168,6 +168,7 @@ class _Report(HtmlPage):
             HtmlCell(self.set(drawn.sentence(verdict.step))),
             HtmlCell(self.say(STATES[verdict.state]()), STATE),
             *(HtmlCell(size, FIGURE) for size in sizes),
+            HtmlCell(f"{100 * verdict.confidence:.0f}", FIGURE),
             HtmlCell(self.set(self._mistake(verdict))),
         )  # fmt: skip
 

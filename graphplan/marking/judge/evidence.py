@@ -216,7 +216,7 @@ class ImageSearch(Evidence):
             elif isinstance(mistake, tuple):  # what it makes
                 known[index] = mistake
             else:
-                args = (*mistake.step.args, *(mistake.mirror or ())) if mistake else step.args
+                args = mistake.reads if mistake else step.args
                 read = {arg: self._value(arg, known, own) for arg in args}
                 known[index] = None if None in read.values() else value_of(
                     mistake.step if mistake else step, read, mistake)

@@ -185,7 +185,9 @@ class Judge:
     def matching(self, fits: Mapping[str, Fit], mistakes: int = 0) -> Matching:
         """The way through the construction, with the mistakes, not more than so many, that make it likelier."""
         matching = self._start(fits)
-        found = Search(matching.fork()).found(mistakes) if mistakes and self.unlabelled else {}
+        search = Search(matching.fork())
+        found = search.found(mistakes) if mistakes and self.unlabelled else {}
+        matching.odds = search.odds
         return matching.until(len(matching.steps), found)
 
     def _start(self, fits: Mapping[str, Fit]) -> Matching:

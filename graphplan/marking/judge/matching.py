@@ -65,6 +65,7 @@ class Matching:
         self.found: Mapping[int, int | Mistake] = {}  # what some steps are taken for
         self.dead: set[int] = set()  # the steps that nobody could draw from what is there
         self.weight = 0.0  # what speaks for this way
+        self.odds: Mapping[int, float] = {}  # what speaks for the mistakes that were found
         self._now: list[tuple[Any, Sequence[Any]]] | None = None  # what the next step should make
 
     def fork(self, other: Matching | None = None) -> Matching:

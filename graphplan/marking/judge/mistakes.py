@@ -39,6 +39,12 @@ class Mistake:
     start: int | None = None
     radii: tuple[int, int, int, int] | None = None
 
+    @property
+    def reads(self) -> tuple[int, ...]:
+        """All marks that it is made of."""
+        start = () if self.start is None else (self.start,)
+        return *self.step.args, *(self.mirror or ()), *start, *(self.radii or ())
+
     def value(self, domain: Domain, values: Sequence[Any] | Mapping[int, Any]) -> Any:
         """What it makes of these marks; fails as the step's rule does."""
         made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -45,6 +45,7 @@ class Guess:
     one: int | Mistake
     prior: float
     promise: float
+    odds: float = 0.0  # what the whole way with it won
 
 
 class Search:
@@ -53,6 +54,7 @@ class Search:
     def __init__(self, start: Matching):
         self.start = start
         self.gone = 0  # how many steps were gone through
+        self.odds: dict[int, float] = {}  # what speaks for each mistake that was found
 
     def found(self, most: int) -> Found:
         """What up to so many steps were mistaken for; empty where nothing speaks for a mistake."""
@@ -62,6 +64,7 @@ class Search:
             if more is None:
                 break
             found[more.index] = more.one
+            self.odds[more.index] = more.odds
         return found
 
     def _more(self, found: Found) -> Guess | None:
@@ -78,7 +81,7 @@ class Search:
                 break
             weight = self._weight(matching, forks, found, guess, most)
             if weight > most:
-                best, most = guess, weight
+                best, most = replace(guess, odds=weight - matching.weight), weight
         return best
 
     def _weight(self, matching: Matching, forks: Sequence[Matching], found: Found, guess: Guess, least: float) -> float:

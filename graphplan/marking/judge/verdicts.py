@@ -8,7 +8,7 @@ uncertain as its marks, and as the reading of lengths; so a number has its own t
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -21,22 +21,11 @@ from graphplan.kernel.kinds import POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
-from graphplan.marking.judge.asked import shown_by
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
+from graphplan.marking.judge.states import States
 from graphplan.marking.judge.student_sheet import PointResidual, Residual, apart, bound, plain
-from graphplan.marking.judge.verdict import (
-    EARNED,
-    FOLLOWS,
-    IMPLIED,
-    MISSING,
-    RIGHT,
-    UNSEEN,
-    WRONG,
-    Ellipse,
-    NumberVerdict,
-    Verdict,
-)
+from graphplan.marking.judge.verdict import FOLLOWS, RIGHT, UNSURE, WRONG, Ellipse, NumberVerdict, Verdict
 from graphplan.marking.spelling import bare
 from graphplan.marking.tables.results import in_scene_units, scene_unit
 from graphplan.marking.traces import Number
@@ -125,59 +114,13 @@ def _carried(matching: Matching, step: Step, values: Sequence[Any], suspect: Sus
     return drawn[step.index] if step.index in follows else None
 
 
-def rests(matching: Matching) -> list[bool]:
-    """For each step whether it is seen, or a mark that rests on it is: then it was drawn somehow."""
-    found = [match.place is not None for match in matching.matches]
-    for step in reversed(matching.steps):
-        for arg in step.args if found[step.index] else ():
-            found[arg] = True
-    return found
-
-
-def asked_for(matching: Matching, numbers: Iterable[NumberVerdict]) -> tuple[set[int], set[int]]:
-    """The marks that show results of which a right number was handed in; and those that show others, and cannot be read
-    off where they are not marked: they are missing then, whatever rests on them."""
-    drawing, told = matching.sheet.drawing, {(one.number.kind, one.number.of) for one in numbers if one.state in EARNED}
-    there, others = set[int](), set[int]()
-    for reading in drawing.readings:
-        if reading.given is None:
-            (there if (reading.kind, reading.of) in told else others).update(shown_by(drawing, reading))
-    return there, others - there - _legible(matching)
-
-
-def borne_out(matching: Matching, there: Collection[int], lost: Collection[int]) -> list[bool]:
-    """For each step whether it is there otherwise, or a right mark rests on it, itself or through others that are not
-    to be seen; of those that are lost none."""
-    found = [match.step.index in there for match in matching.matches]
-    for match in reversed(matching.matches):
-        index, seen = match.step.index, match.place is not None or match.state == WRONG
-        found[index] = found[index] and index not in lost
-        for arg in match.step.args if (match.state in EARNED if seen else found[index]) else ():
-            found[arg] = True
-    return found
-
-
-def _legible(matching: Matching) -> set[int]:
-    """The marks that need no dot: on strokes that are seen, too small to draw, or in a picture, where dots are lost."""
-    if matching.evidence.picture:
-        return {match.step.index for match in matching.matches}
-    strokes = [match.step.index for match in matching.matches if match.place is not None and match.state in EARNED]
-    return {*matching.sheet.hidden, *(mark for stroke in strokes for mark in matching.sheet.marks_on.get(stroke, ()))}
-
-
 def verdicts(matching: Matching, numbers: Iterable[NumberVerdict] = ()) -> Iterator[Verdict]:
-    """What is said of every step; one that is not to be seen is implied where something right rests on it, merely not
-    to be seen where something wrong does, and else missing, if anything was drawn."""
-    there, lost = asked_for(matching, numbers)
-    borne, drawn = borne_out(matching, there, lost), rests(matching)
+    """What is said of every step."""
+    states = States(matching, numbers)
     for match in matching.matches:
-        state, index = match.state, match.step.index
-        if state in (MISSING, UNSEEN) and not match.step.op.free:
-            if borne[index]:
-                state = IMPLIED
-            elif index not in matching.sheet.hidden and matching.traces:
-                state = UNSEEN if drawn[index] and index not in lost else MISSING
-        yield _verdict(matching, match, state)
+        state, confidence = states.of(match)
+        found = replace(_verdict(matching, match, state), confidence=confidence)
+        yield replace(found, trace=states.beside(match)) if state == UNSURE and not found.trace else found
 
 
 def _verdict(matching: Matching, match: Match, state: str) -> Verdict:

@@ -6,6 +6,7 @@ lie, as on a printed handout, its frame says so.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol
@@ -28,7 +29,7 @@ class Trace:
     A point has one spot, a line two of its own (the ends that were drawn), a circle three or more of its rim, as far
     as it was drawn. `label` is what it is called, `panel` the plan it is said to lie on, both empty where nobody says;
     `blur` is the standard deviation, in mm, with which it was read. A label that only stands `beside` it may be that of
-    its neighbour.
+    its neighbour; `crossed` is one where strokes only cross, without a dot.
     """
 
     kind: str
@@ -37,6 +38,7 @@ class Trace:
     panel: str = ""
     blur: float = 0.0
     beside: bool = False
+    crossed: bool = False
 
     def __post_init__(self) -> None:
         if len(self.spots) < SPOTS[self.kind]:
@@ -129,6 +131,7 @@ class Submission:
     they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
     `stated` says that the blur of its traces is what the student gives; else it is the least that it may be.
+    `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.
     """
 
     name: str
@@ -140,3 +143,4 @@ class Submission:
     tips: tuple[Spot, ...] = ()
     letters: tuple[Lettering, ...] = ()
     stated: bool = False
+    millimetres: float = math.inf

@@ -7,10 +7,14 @@ import math
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
+from shapely import STRtree
+
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.traces import Spot, Trace
 
-DOT = 1.5  # mm: no compass strikes so small a circle, a pair's symbol has 1.2
+DOT, SMALL = 1.5, 100  # mm: no compass strikes so small a circle, a pair's symbol has 1.2; nor so small a part of all
+RING = 4  # spots of a whole circle
+HALVED, SQUARED = 0.05, 0.7  # of their length that strokes of a cross may miss their middles; the sine of their angle
 NEAR = 0.01  # how far spots may lie off a line or circle that they are to show, beside its size
 FLAT, FAR_CLOSER = 1e-6, 10  # what bulges less is straight; so many times closer an arc is no line
 ROUND = 12  # straight pieces at least that show a circle
@@ -35,19 +39,49 @@ def bow(centre: Spot, radius: float, start: float, end: float) -> tuple[Spot, ..
 
 
 def full(centre: Spot, radius: float) -> Trace:
+    """A circle."""
+    return Trace(CIRCLE, ring(centre, radius))
+
+
+def dotted(traces: Sequence[Trace]) -> list[Trace]:
+    """The things with points for what stands for them: circles and crosses that are small beside all."""
+    size = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
+    return _uncrossed([dot(trace, min(DOT, size / SMALL)) for trace in traces], size / SMALL)
+
+
+def dot(trace: Trace, radius: float = DOT) -> Trace:
     """A circle, or the point that a small one stands for."""
-    return Trace(POINT, (centre,)) if radius < DOT else Trace(CIRCLE, ring(centre, radius))
+    if trace.kind != CIRCLE or len(trace.spots) != RING:
+        return trace
+    found = circle(*trace.spots[:3])
+    return Trace(POINT, (found[0],)) if found and found[1] < radius else trace
 
 
-def pieces(spots: Sequence[Spot]) -> Iterator[Trace]:
-    """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line."""
-    if len(spots) > 2 and (far := _size(spots)) > SHORT and _bulge(spots) <= NEAR * far:
+def _uncrossed(traces: Sequence[Trace], most: float) -> list[Trace]:
+    """With a point for every two short strokes that halve each other."""
+    short = [trace for trace in traces if trace.kind == LINE and math.dist(*trace.spots) < 3 * most]
+    found, crosses = dict[Trace, Trace | None](), STRtree([trace.figure.centroid for trace in short])
+    for one in short:
+        for place in crosses.query(one.figure.centroid, "dwithin", HALVED * one.figure.length):
+            other = short[place]
+            ways = [complex(*trace.spots[1]) - complex(*trace.spots[0]) for trace in (one, other)]
+            across = abs((ways[0].conjugate() * ways[1]).imag)
+            if one not in found and other not in found and across > SQUARED * max(abs(way) for way in ways) ** 2:
+                at = one.figure.centroid
+                found |= {one: Trace(POINT, ((at.x, at.y),)), other: None}
+    return [kept for trace in traces if (kept := found.get(trace, trace))]
+
+
+def pieces(spots: Sequence[Spot], short: float = 0.0) -> Iterator[Trace]:
+    """A chain of straight pieces: one line where it is straight, a circle where it is as round, else line by line;
+    what is not longer than `short` shows none."""
+    if len(spots) > 2 and (far := extent(spots)) > short and _bulge(spots) <= NEAR * far:
         yield Trace(LINE, (spots[0], spots[-1]))
     elif len(spots) > ROUND and (found := curved(spots)):
         yield found
     else:
         for start, end in pairwise(spots):
-            if math.dist(start, end) > SHORT:
+            if math.dist(start, end) > short:
                 yield Trace(LINE, (start, end))
 
 
@@ -56,7 +90,7 @@ def curved(spots: Sequence[Spot]) -> Trace | None:
 
     A flat arc is as good as straight; it is an arc where it lies closer to its circle by far.
     """
-    count, far = len(spots) - 1, _size(spots)
+    count, far = len(spots) - 1, extent(spots)
     closed = math.dist(spots[0], spots[-1]) < NEAR * far
     parts = [spots[count * i // 4] for i in range(4)] if closed else [spots[0], spots[count // 2], spots[-1]]
     found = circle(*parts[:3])
@@ -66,7 +100,7 @@ def curved(spots: Sequence[Spot]) -> Trace | None:
         return Trace(LINE, (spots[0], spots[-1])) if far > SHORT else None
     if found is None or off > NEAR * found[1]:
         return None
-    return full(*found) if closed and found[1] < DOT else Trace(CIRCLE, tuple(parts))
+    return Trace(CIRCLE, tuple(parts))
 
 
 def tips(corners: Sequence[Spot]) -> Iterator[Spot]:
@@ -107,7 +141,7 @@ def aside(line: Sequence[Spot], spot: Spot) -> float:
     return abs(((complex(*spot) - a) * (b - a).conjugate()).imag) / abs(b - a) if a != b else math.dist(line[0], spot)
 
 
-def _size(spots: Iterable[Spot]) -> float:
+def extent(spots: Iterable[Spot]) -> float:
     """The diagonal of what spots cover."""
     xs, ys = zip(*spots, strict=True)
     return math.hypot(max(xs) - min(xs), max(ys) - min(ys))
@@ -117,7 +151,7 @@ def _bulge(spots: Sequence[Spot]) -> float:
     """How far spots lie off the stretch from the first to the last."""
     a, b = complex(*spots[0]), complex(*spots[-1])
     if a == b:
-        return _size(spots)
+        return extent(spots)
     along = (b - a) / abs(b - a)
     offs = [(complex(*spot) - a) * along.conjugate() for spot in spots]
     return max(max(abs(off.imag), -off.real, off.real - abs(b - a)) for off in offs)

@@ -15,12 +15,13 @@ from shapely import Point, STRtree
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE, POINT
-from graphplan.marking.files.curves import aside
+from graphplan.marking.files.curves import aside, dotted
 from graphplan.marking.files.safe import FARTHEST, TRACES, Budget, on_paper
 from graphplan.marking.spelling import lined
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, Run, width
 
+STATED = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
 WORDS = 1000  # that may be names; more name nothing
 LED = 0.6  # of their size that a leader begins beside letters
 AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and from the other to anything; of a leader
@@ -114,13 +115,13 @@ def same_paper(size: tuple[float, float], asked: tuple[float, float] | None) -> 
 
 
 def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], frames: Frames,
-            tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None
+            tips: Sequence[Spot] = (), leaders: Sequence[Trace] | None = None, millimetres: float = 0.0
             ) -> Submission:
     """A drawing as it was handed in: what is drawn twice is one thing, and letters are tied to their leaders.
 
     Fails with `Refused` where something lies on no sheet, there is too much of it, or nothing at all.
     """
-    once = list(dict.fromkeys(traces))
+    once = list(dict.fromkeys(dotted(list(traces))))
     Budget(path, TRACES, "points, lines and circles").spend(len(once))
     for trace in once:
         if not on_paper(*chain.from_iterable(trace.spots)):
@@ -132,4 +133,5 @@ def drawing(path: Path, traces: Iterable[Trace], words: Sequence[Lettering], fra
     letters, found = led(joined(sound), once, leaders)
     shows = frozenset({LINE, *(trace.kind for trace in found)})
     ends = tuple(tip for tip in tips if on_paper(*tip))
-    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends, letters=tuple(letters[:WORDS]))
+    return Submission(path.name, tuple(found), shows=shows, frames=frames, tips=ends, letters=tuple(letters[:WORDS]),
+                      millimetres=millimetres)

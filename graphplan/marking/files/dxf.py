@@ -16,8 +16,8 @@ from ezdxf.units import MM, conversion_factor
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.files.curves import bow, curved, full, pieces, reach, tips
-from graphplan.marking.files.drawing import NO_DRAWING, drawing, lettering, same_paper
+from graphplan.marking.files.curves import SHORT, bow, curved, dot, full, pieces, reach, tips
+from graphplan.marking.files.drawing import NO_DRAWING, STATED, drawing, lettering, same_paper
 from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
@@ -45,7 +45,8 @@ def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None)
+    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
+                   reader.millimetres)
 
 
 def _document(data: bytes) -> Any:
@@ -74,6 +75,7 @@ class _DxfReader:
 
     def __init__(self, path: Path, document: Any):
         self.path, self.own = path, OWN in document.appids
+        self.millimetres, self.short = (STATED, SHORT) if document.units else (0.0, 0.0)
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
         corners = (document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX"))
         (left, bottom), (right, top) = (self._spot(corner) for corner in corners)
@@ -122,7 +124,7 @@ class _DxfReader:
             case "POINT":
                 yield Trace(POINT, (self._spot(entity.dxf.location),))
             case "LINE":
-                yield from pieces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)])
+                yield from pieces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)], self.short)
             case "XLINE" | "RAY":
                 start, along = entity.dxf.start, entity.dxf.unit_vector
                 self.lines.append((complex(start.x, start.y) * self.mm, complex(along.x, along.y)))
@@ -137,6 +139,8 @@ class _DxfReader:
                 yield from filter(None, [curved([self._spot(vertex) for vertex in entity.vertices(at)])])
             case "LWPOLYLINE" | "POLYLINE":
                 yield from self._polyline(entity)
+            case "HATCH":
+                yield from self._filled(entity)
             case "SPLINE":
                 self.budget.spend(len(entity.control_points) + len(entity.fit_points))
                 spots = [self._spot(vertex) for vertex in entity.construction_tool().approximate(STEPS)]
@@ -153,17 +157,37 @@ class _DxfReader:
     def _polyline(self, polyline: Any) -> Iterator[Trace]:
         """Straight pieces together, bulges as arcs."""
         self.budget.spend(len(polyline))
+        if polyline.dxftype() == "LWPOLYLINE" and polyline.closed and [abs(bulge) for *_, bulge in polyline] == [1, 1]:
+            yield self._halves(*polyline.vertices_in_wcs())
+            return
         chain: list[Spot] = []
         for part in polyline.virtual_entities():
             if part.dxftype() == "LINE":
                 ends = [self._spot(part.dxf.start), self._spot(part.dxf.end)]
                 if chain and chain[-1] != ends[0]:
-                    yield from pieces(chain)
+                    yield from pieces(chain, self.short)
                     chain = []
                 chain += ends[len(chain) > 0 :]
             elif part.dxftype() == "ARC":
                 yield self._arc(part)
-        yield from pieces(chain)
+        yield from pieces(chain, self.short)
+
+    def _halves(self, one: Any, other: Any) -> Trace:
+        """A circle of two halves, as rings and filled dots are drawn."""
+        (x, y), (u, v) = self._spot(one), self._spot(other)
+        return full(((x + u) / 2, (y + v) / 2), math.hypot(u - x, v - y) / 2)
+
+    def _filled(self, hatch: Any) -> Iterator[Trace]:
+        """The dots of a filling; anything larger has its outline."""
+        for path in hatch.paths.rendering_paths(hatch.dxf.hatch_style):
+            if hasattr(path, "vertices"):
+                corners = [self._spot(vertex) for vertex in [*path.vertices, *path.vertices[:1]]]
+                found = self._halves(*path.vertices) if len(path.vertices) == 2 else curved(corners)
+            else:
+                rings = [edge for edge in path.edges if edge.type.name == "ARC" and len(path.edges) == 1]
+                found = full(self._spot(rings[0].center), rings[0].radius * self.mm) if rings else None
+            if found and (seen := dot(found)).kind == POINT:
+                yield seen
 
     def endless(self) -> None:
         """Lines without ends, as far as they lie beside the rest."""

@@ -20,13 +20,14 @@ from svgelements import Circle, Close, Ellipse, Line, Matrix, Move, Path, Polygo
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.files.curves import DOT, curved, pieces, tips
-from graphplan.marking.files.drawing import NO_DRAWING, drawing, lettering, same_paper
+from graphplan.marking.files.curves import DOT, SHORT, curved, dot, pieces, tips
+from graphplan.marking.files.drawing import NO_DRAWING, STATED, drawing, lettering, same_paper
 from graphplan.marking.files.safe import DEEPEST, MB, TRACES, Budget, contents, on_paper, tree
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.plates.pens import LEADER
 
 MM = {"mm": 1.0, "cm": 10.0, "in": 25.4, "px": 25.4 / 96, "pt": 25.4 / 72, "pc": 25.4 / 6, "q": 0.25}
+PHYSICAL = re.compile("mm|cm|in|pt|pc|q", re.IGNORECASE)  # not so px
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 NUMBERS = re.compile(NUMBER)
 LONGEST = 7  # numerals of a path's command: an arc's
@@ -256,7 +257,8 @@ def read_svg(path: File, frames: Frames, size: tuple[float, float] | None = None
         raise Refused(f"{path}", f"this is XML of another kind ({root.tag[:20]})", "give an SVG drawing")
     reader = _SvgReader(path, root)
     known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None)
+    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
+                   reader.millimetres)
 
 
 @dataclass(frozen=True)
@@ -283,6 +285,7 @@ class _SvgReader:
         self.looks = Looks(root)
         self.budget, self.things = Budget(path, VISITS, "elements"), Budget(path, TRACES, "things drawn")
         self.letters = Budget(path, LETTERS, "letters of attributes and words")
+        self.millimetres = STATED if PHYSICAL.search(root.get("width", "")) else 0.0
         self.own = any(element.get("class") == "layer-paper" for element in root)
         try:
             onto, view, self.size = paper(root)
@@ -347,7 +350,7 @@ class _SvgReader:
             self.things.spend(len(corners))
             self.tips += tips([spot(place.onto, corner) for corner in corners])
         leads = self.own and (element.get("stroke"), element.get("stroke-width")) == LEADING
-        for trace in _traces(element, place.onto, place.view):
+        for trace in map(dot, _traces(element, place.onto, place.view)):
             self.things.spend()
             if stroked or trace.kind == POINT:
                 (self.leaders if leads else self.traces).append(trace)
@@ -374,6 +377,6 @@ def _traces(element: Element, onto: Matrix, view: Viewport) -> Iterator[Trace]:
         shape = made(**sizes | ({"rx": radii[0] or radii[1], "ry": radii[1] or radii[0]} if "rx" in sizes else {}))
     for smooth, spots in chains(Path(shape), onto):
         if not smooth:
-            yield from pieces(spots)
+            yield from pieces(spots, SHORT)
         elif one := curved(spots):
             yield one

@@ -23,6 +23,7 @@ from graphplan.kernel.kinds import POINT
 from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.register import SAME_WAY, SIGMAS, Pair, agreed, best, fitted
 from graphplan.marking.judge.student_sheet import Fit
+from graphplan.marking.judge.units import in_mm
 from graphplan.marking.spelling import spelled
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.mechanism.model import Scene
@@ -49,8 +50,9 @@ WRITTEN: Mapping[ResultKind, tuple[str, ...]] = {  # how the ends of a point's v
 
 
 def seen_right_way(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil) -> Reading:
-    """The drawing as the task has it; mirrored, where only then more than two of the given points are in their places.
-    """
+    """The drawing as the task has it, in mm; mirrored, where only then more than two of the given points are in their
+    places."""
+    submission, told = in_mm(drawing, composition, submission, pencil)
     given = [(complex(*map(float, drawing.scene.points[trace.label])), complex(*trace.spots[0]))
              for trace in submission.traces if trace.kind == POINT and trace.label in drawing.scene.points]
     if len(given) > 2 and not submission.frames and not submission.page:
@@ -60,8 +62,8 @@ def seen_right_way(drawing: Construction, composition: Composition, submission: 
             traces = tuple(replace(trace, spots=tuple((x, -y) for x, y in trace.spots)) for trace in submission.traces)
             tips = tuple((x, -y) for x, y in submission.tips)
             submission = replace(submission, traces=traces, tips=tips)
-            return Reading(drawing, composition, submission, (said("a mirrored sheet"),), prior=MIRRORED)
-    return Reading(drawing, composition, submission)
+            return Reading(drawing, composition, submission, (*told, said("a mirrored sheet")), prior=MIRRORED)
+    return Reading(drawing, composition, submission, told)
 
 
 def _held(pairs: Sequence[Pair], fit: Fit | None, pencil: Pencil) -> list[Pair]:

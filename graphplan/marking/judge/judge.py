@@ -24,6 +24,7 @@ from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
+from graphplan.marking.judge.units import in_mm
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
 from graphplan.marking.judge.verdicts import judged, verdicts
 from graphplan.marking.traces import PlanFrame, Submission, Trace
@@ -46,7 +47,8 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
 
     Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
-    return Judge(Reading(drawing, composition, submission), pencil).judgement
+    submission, told = in_mm(drawing, composition, submission, pencil)
+    return Judge(Reading(drawing, composition, submission, told), pencil).judgement
 
 
 class Judge:
@@ -130,7 +132,7 @@ class Judge:
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.reading.composition.views.items()}
-        register = Register(self.reading, self.pencil, self.labels)
+        register = Register(replace(self.reading, submission=self.submission), self.pencil, self.labels)
         if self.submission.frames.keys() >= set(register.panels):
             return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()

@@ -10,18 +10,21 @@ from graphplan.marking.spelling import spelled
 from graphplan.marking.traces import Trace
 from graphplan.phrases import Said
 
+LOOSELY = 2  # as how loosely a label may be read
+
 
 def labelled(program: Program, plan_of_step: Sequence[str], traces: Sequence[Trace]) -> dict[int, int]:
-    """For each step that a trace is labelled as, the place of that trace; the first of several.
+    """For each step that a trace is labelled as, the place of that trace; of several that which says it best, or first.
 
     A number beside a line may be that of a link, or of the line next to it: unless the plan is named it tells nothing.
     """
-    names, found = Names(program, plan_of_step), dict[int, int]()
-    for place, trace in enumerate(traces):
-        numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
-        step = names.step(trace.kind, trace.panel, trace.label) if trace.label and not numbered else None
-        if step is not None and program.steps[step].op.gives == trace.kind:
-            found.setdefault(step, place)
+    names, found, told = Names(program, plan_of_step), dict[int, int](), set[int]()
+    for loosely in range(LOOSELY + 1):
+        for place, trace in enumerate(traces):
+            numbered = trace.kind != POINT and not trace.panel and trace.label.isdigit()
+            step = names.step(trace.kind, trace.panel, trace.label, loosely) if trace.label and not numbered else None
+            if step is not None and program.steps[step].op.gives == trace.kind and place not in told:
+                told.add(found.setdefault(step, place))
     return found
 
 
@@ -36,14 +39,12 @@ class Names:
     def __init__(self, program: Program, plan_of_step: Sequence[str]):
         self._steps = _names(program, plan_of_step)
 
-    def step(self, kind: str, panel: str, label: str) -> int | None:
-        """The step that makes a thing of this kind and label, by the label as it stands, or else more loosely read."""
+    def step(self, kind: str, panel: str, label: str, loosely: int) -> int | None:
+        """The step that makes a thing of this kind and label, by the label as it stands, or more loosely read: without
+        the subscript's mark, and in small letters."""
         read = spelled(label.replace(" ", ""))
-        for text in (read, read.replace("_", ""), read.replace("_", "").casefold()):
-            for home in dict.fromkeys((panel, "")):
-                if (kind, home, text) in self._steps:
-                    return self._steps[kind, home, text]
-        return None
+        text = (read, read.replace("_", ""), read.replace("_", "").casefold())[loosely]
+        return self._steps.get((kind, panel, text), self._steps.get((kind, "", text)))
 
 
 def _names(program: Program, plan_of_step: Sequence[str]) -> dict[tuple[str, str, str], int]:

@@ -9,7 +9,7 @@ letter could not name a mistaken one.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Container, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import combinations
@@ -22,7 +22,8 @@ from shapely import Point, STRtree
 from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.assignment import assigned
-from graphplan.marking.judge.labels import Names
+from graphplan.marking.judge.crossings import meetings
+from graphplan.marking.judge.labels import LOOSELY, Names, labelled
 from graphplan.marking.judge.student_sheet import apart, plain, sampled
 from graphplan.marking.spelling import lined
 from graphplan.marking.traces import Lettering, PlanFrame, Submission, Trace
@@ -39,8 +40,9 @@ ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be 
 NOTHING, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
 CLEAR = 3.0  # by so much cheaper letters are certainly those of their mark
 HELD = 8.0  # standard deviations within which letters agree on a frame
-FREE = 0.8  # letters more than in the expected one that have to agree on another frame
-PROPOSED = 3000  # frames that are tried
+FREE, MORE = 0.8, 0.3  # letters more than in the expected frame that have to agree on another, and the part more of
+# them for every spot that a letter may name: of many some agree by chance
+PER_MARK, MARKS, PROPOSED = 5, 100, 3000  # spots of a mark, and of all, by which frames are proposed; that are tried
 Wish = dict[int, float]  # what letters may name, and what that costs
 
 
@@ -60,21 +62,22 @@ def lettered(drawing: Construction, composition: Composition, submission: Submis
 
 
 class Letters:
-    """The letters of one drawing beside its construction."""
+    """The letters of one drawing beside its construction; `within` is how far marks may be off a frame, in mm."""
 
-    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil):
-        self.drawing, self.submission, self.pencil = drawing, submission, pencil
+    def __init__(self, drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
+                 within: float = 0.0):
+        self.drawing, self.submission, self.within = drawing, submission, within or HELD * pencil.point
         self.multiples = composition.scales.multiples
         self.task = composition.views[MECHANISM].scale if MECHANISM in composition.views else 1.0
         self.plan_of_step: Sequence[Any] = Plans(drawing).plan_of_step
-        self.traces = submission.traces
+        self.traces: Sequence[Trace] = submission.traces
+        self.ends: set[int] = set()  # of the traces, those where lines end
         names = Names(drawing.drawn, self.plan_of_step)
-        self.words = []
-        for word in submission.letters:
-            if called := word.names:
-                steps = {kind: step for kind in (POINT, LINE) if (step := names.step(kind, "", called[0])) is not None
-                         and not (kind == LINE and called[0].isdigit())}
-                self.words.append(Lettered(word, called, steps, self._near(word, called[0], steps)))
+        self.sure = labelled(drawing.drawn, self.plan_of_step, self.traces)
+        steps = _spoken(names, [word.names[0] for word in submission.letters if word.names], self.sure)
+        words = [(word, name, steps[name]) for word in submission.letters if word.names and (name := word.names[0])]
+        self._undotted([word for word, _, steps in words if POINT in steps])
+        self.words = [Lettered(word, word.names, steps, self._near(word, name, steps)) for word, name, steps in words]
 
     # ---- what is near ----------------------------------------------------------------------------------------------
 
@@ -82,11 +85,21 @@ class Letters:
     def _things(self) -> STRtree:
         return STRtree([trace.figure for trace in self.traces])
 
+    def _undotted(self, words: Sequence[Lettering]) -> None:
+        """Add where strokes cross about the letters of points, if most of those can have no dot."""
+        points = sum(trace.kind == POINT for trace in self.traces)
+        if 2 * points < len(words):
+            figures = self._things
+            for word in words:
+                crossed, ends = meetings(word.box, _reach(word), self.submission.traces, figures)
+                self.traces = (*self.traces, *crossed, *ends)
+                self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
+            del self._things
+
     def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
         """What letters may name, and what their distance costs: those of points name points, Greek ones lines."""
         box = Point(*word.leads) if word.leads else word.box
-        reach = AT_TIP if word.leads else max(BESIDE, SIZES * word.size)
-        places = self._things.query(box, "dwithin", reach)
+        places = self._things.query(box, "dwithin", AT_TIP if word.leads else _reach(word))
         gaps = shapely.distance(self._things.geometries[places], box)
         named = LINE in steps or (not steps and lined(name))
         found: list[tuple[float, int]] = []
@@ -103,33 +116,33 @@ class Letters:
     def frames(self) -> dict[str, PlanFrame]:
         """Where plans lie, as far as letters agree."""
         known = dict(self.submission.frames)
-        if MECHANISM not in known:
-            given = self._candidates(MECHANISM, self.drawing.drawn.givens)
-            found = agreed(given, (), self._tolerance, self.task) or agreed(
-                self._candidates(MECHANISM), (), self._tolerance, self.task)
-            if found:
-                known[MECHANISM] = found
+        if MECHANISM not in known and self.mechanism:
+            known[MECHANISM] = self.mechanism
         if MECHANISM in known:
             unit = known[MECHANISM].unit
             for panel in dict.fromkeys(self.plan_of_step):
                 tied = unit * float(self.multiples.get(panel, 1))
                 if panel not in known and (
-                        found := agreed(self._candidates(panel), (tied,), self._tolerance, abs(tied))):
+                        found := agreed(self._candidates(panel), (tied,), self.within, abs(tied))):
                     known[panel] = found
         return known
 
-    @property
-    def _tolerance(self) -> float:
-        return HELD * self.pencil.point
+    @cached_property
+    def mechanism(self) -> PlanFrame | None:
+        """Where the mechanism lies, by its given points or else by all that are lettered."""
+        return agreed(self._candidates(MECHANISM, self.drawing.drawn.givens), (), self.within, self.task) or agreed(
+            self._candidates(MECHANISM), (), self.within, self.task)
 
     def _candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
         """The lettered points of a plan: where each truly is, and the points on the sheet that it may be."""
-        found = [Candidates(complex(*plain(self.drawing.values[step])[:2]),
-                            [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
-                             if self.traces[place].kind == POINT])
-                 for one in self.words if (step := one.steps.get(POINT)) is not None
-                 and self.plan_of_step[step] == panel and (before is None or step < before)]
-        return [one for one in found if one.spots]
+        points = {step: [(complex(*self.traces[place].spots[0]), 0.0)] for step, place in self.sure.items()
+                  if self.traces[place].kind == POINT}
+        for one in self.words:
+            if (step := one.steps.get(POINT)) is not None:
+                points[step] = [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
+                                if self.traces[place].kind == POINT]
+        return [Candidates(complex(*plain(self.drawing.values[step])[:2]), spots) for step, spots in points.items()
+                if spots and self.plan_of_step[step] == panel and (before is None or step < before)]
 
     def _off(self, step: int, trace: Trace) -> float:
         """How far a trace is from what a step truly makes, in mm; infinite where its plan is not known to lie."""
@@ -148,7 +161,7 @@ class Letters:
             frame = self.frames.get(self.plan_of_step[step.index])
             if step.op.gives == POINT and step.index not in named and frame:
                 at = frame.onto(complex(*plain(self.drawing.values[step.index])[:2]))
-                for place in self._things.query(Point(at.real, at.imag), "dwithin", self._tolerance / 2):
+                for place in self._things.query(Point(at.real, at.imag), "dwithin", self.within / 2):
                     if self.traces[place].kind == POINT:
                         found[int(place)] = step.index
         return found
@@ -164,7 +177,7 @@ class Letters:
                 beside = not self._sure(one, place, found)
                 names.setdefault(place, []).extend((name, beside) for name in one.names)
         first = [replace(trace, label=names[place][0][0], beside=names[place][0][1]) if place in names else trace
-                 for place, trace in enumerate(self.traces)]
+                 for place, trace in enumerate(self.traces) if place < len(self.submission.traces) or place in names]
         more = [replace(self.traces[place], label=name, beside=beside) for place, several in names.items()
                 for name, beside in several[1:]]
         return replace(self.submission, traces=(*first, *more))
@@ -175,20 +188,54 @@ class Letters:
         for place, cost in one.wish.items():
             trace = self.traces[place]
             off = self._off(one.steps[trace.kind], trace) if trace.kind in one.steps else math.inf
+            if place >= len(self.submission.traces) and not self._meant(one, place, off):
+                continue
             astray = ASTRAY / (1 + (HALFWAY / off) ** 2) if off else 0.0
             found[place] = cost + astray + (CLAIMED if place in self._claimed and off > HALFWAY else 0.0)
         return found
 
+    def _meant(self, one: Lettered, place: int, off: float) -> bool:
+        """Whether letters may mean a place without a dot: where the mark should be; or a crossing, if they do not stand
+        there."""
+        step = one.steps.get(POINT)
+        if step is None:
+            return False
+        frame = self.frames.get(self.plan_of_step[step])
+        if off < HALFWAY or frame is None:
+            return off < HALFWAY or place not in self.ends
+        at = frame.onto(complex(*plain(self.drawing.values[step])[:2]))
+        return place not in self.ends and one.word.box.distance(Point(at.real, at.imag)) > _reach(one.word)
+
     def _sure(self, one: Lettered, place: int, found: Sequence[int | None]) -> bool:
         """Whether letters are certainly those of a point: no other is nearly as near, nor has it other letters; a
         number may be one of the student's own."""
-        if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1:
+        if self.traces[place].kind != POINT or POINT not in one.steps or found.count(place) > 1 or (
+                place >= len(self.submission.traces)):
             return False
         if one.names[0].isdigit() and self._off(one.steps[POINT], self.traces[place]) > 2 * HALFWAY:
             return False
         least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
                     default=math.inf)
         return one.wish[place] < CLEAR and least - one.wish[place] > CLEAR and place not in self._claimed
+
+
+def _reach(word: Lettering) -> float:
+    """How far off a mark may be from its letters, in mm."""
+    return max(BESIDE, SIZES * word.size)
+
+
+def _spoken(names: Names, called: Sequence[str], sure: Container[int]) -> dict[str, dict[str, int]]:
+    """The steps that letters may speak of, by kind; as loosely as they must be read, if none says it better."""
+    found: dict[str, dict[str, int]] = {name: {} for name in called}
+    told: dict[int, int] = {}
+    for loosely in range(LOOSELY + 1):
+        for name, steps in found.items():
+            for kind in (POINT,) if name.isdigit() else (POINT, LINE):
+                step = names.step(kind, "", name, loosely)
+                if step is not None and step not in sure and kind not in steps and told.setdefault(
+                        step, loosely) == loosely:
+                    steps[kind] = step
+    return found
 
 
 @dataclass(frozen=True)
@@ -221,12 +268,12 @@ def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float,
 
     tied, free = _proposed(at, owner, spots, units)
     best: tuple[float, complex, complex] | None = None
-    for (unit, origin), bar in ((tied, 0.0), (free, FREE if units else 0.0)):
+    for unit, origin in (tied, free):
         if len(unit):
             taste = 0.05 * np.abs(np.log(np.abs(unit) / usual)) + 0.01 * np.abs(np.angle(unit))
-            votes = score(unit, origin) - bar - taste
+            votes = score(unit, origin) - taste
             top = int(votes.argmax())
-            if best is None or votes[top] > best[0]:
+            if best is None or votes[top] > FREE + (1 + MORE * len(spots) / len(marks)) * best[0]:
                 best = float(votes[top]), complex(unit[top]), complex(origin[top])
     if best is None or best[0] < min(1.3, len(marks)) - 0.5:
         return None
@@ -237,7 +284,9 @@ def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tupl
     """Units and origins of frames: with the expected unit through every spot, and any through two of two marks."""
     tied = np.repeat(np.array(units, dtype=complex), len(spots))
     origins = np.tile(spots, len(units)) - tied * np.tile(at[owner], len(units))
-    pairs = sorted(((i, j) for i, j in combinations(range(len(spots)), 2) if at[owner[i]] != at[owner[j]]
+    near = np.flatnonzero(np.concatenate([np.arange(count) < PER_MARK for count in np.bincount(owner)]))
+    near = near[:: max(1, len(near) // MARKS)]
+    pairs = sorted(((i, j) for i, j in combinations(near.tolist(), 2) if at[owner[i]] != at[owner[j]]
                     and spots[i] != spots[j]), key=lambda ij: -abs(at[owner[ij[0]]] - at[owner[ij[1]]]))[:PROPOSED]
     i, j = np.array(pairs, dtype=int).reshape(-1, 2).T
     free = (spots[j] - spots[i]) / (at[owner[j]] - at[owner[i]])

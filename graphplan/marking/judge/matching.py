@@ -32,6 +32,7 @@ REACH = 25.0  # standard deviations of a point within which a picture is searche
 FARTHER, CLEARLY = 2.0, 2.0  # tolerances off: nothing that is farther fits; and it is a mistake if nothing else is
 ASIDE = 3.0  # mm that a line may end before a point that it goes through
 UNMARKED = -1  # the place of a mark that is not to be seen, whatever else is there
+CROSSED = 8.0  # mm from a mark, beside whose letter other strokes cross
 ASTRAY = 60.0  # mm: no mark is sought further off
 
 
@@ -131,7 +132,12 @@ class Matching:
             best = self._begun(step, expected, drawn) if begun else self._drawn(step, expected, drawn)
             if best is not None:
                 return best
-        return lettered
+        return None if lettered is None or self._by_chance(step, lettered) else lettered
+
+    def _by_chance(self, step: Step, place: int) -> bool:
+        """Whether strokes that cross beside a letter, not far from its mark, need not be that mark."""
+        return self.traces[place].crossed and any(
+            self.residual(step, expected, place, drawn).size < CROSSED for expected, drawn in self._asked(step))
 
     def _begun(self, step: Step, expected: Any, drawn: Sequence[Any]) -> int | None:
         """The dot, or else the end of a stroke, where the frame of a plan has its beginning: it is free, so that no

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Any
 
 import numpy as np
@@ -71,6 +72,16 @@ class Gradients(Domain):
         partials = np.zeros(self.count)
         partials[place] = size
         return Gradient(0.0, partials)
+
+    def shaken(self, value: float, errors: Iterable[tuple[int, float]]) -> Any:
+        """A number with these errors, each by its place and with its derivative; without any that is not nothing it is
+        steady."""
+        partials = None
+        for place, partial in errors:
+            if partial:
+                partials = np.zeros(self.count) if partials is None else partials
+                partials[place] += partial
+        return value if partials is None else Gradient(value, partials)
 
     def partials(self, number: Any) -> Any:
         """The derivatives of a number by all errors."""

@@ -68,11 +68,12 @@ class Matching:
         self.weight = 0.0  # what speaks for this way
         self.odds: Mapping[int, float] = {}  # what speaks for the mistakes that were found
         self._now: list[tuple[Any, Sequence[Any]]] | None = None  # what the next step should make
+        self._off: dict[tuple[int, int], Residual] = {}  # how far traces are from that, as long as it lasts
 
     def fork(self, other: Matching | None = None) -> Matching:
         """Another one that goes on from here, in the frames of the other, which differ only in plans to come."""
         fork, other = copy(self), other or self
-        fork.evidence, fork._now = other.evidence, None
+        fork.evidence, fork._now, fork._off = other.evidence, None, {}
         fork.own, fork.mended, fork.matches = [*self.own], [*self.mended], [*self.matches]
         fork.used, fork.over, fork.dead = {*self.used}, {*self.over}, {*self.dead}
         return fork
@@ -226,7 +227,11 @@ class Matching:
 
     def residual(self, step: Step, expected: Any, place: int, drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what is expected."""
-        return self.sheet.residual(step, expected, self.sheet.spots(step.index, self.traces[place]), drawn)
+        key = int(place), id(expected)
+        if key not in self._off:
+            spots = self.sheet.spots(step.index, self.traces[place])
+            self._off[key] = self.sheet.residual(step, expected, spots, drawn)
+        return self._off[key]
 
     def take(self, place: int | None) -> Matching:
         """Take a trace, or none, for what the next step made, and judge it."""
@@ -237,7 +242,7 @@ class Matching:
             shown = step.op.gives in self.evidence.shows and not (step.op.free or step.index in self.sheet.hidden)
             return self._go_on(Match(step, MISSING if shown else UNSEEN, own, weight=self._missed(own)), own, mended)
         spots = self.sheet.spots(step.index, self.traces[place])
-        found = [self.sheet.residual(step, value, spots, drawn) for value, drawn in asked]
+        found = [self.residual(step, value, place, drawn) for value, drawn in asked]
         fits = [step.op.movement is Movement.BEGUN or residual.fits(self.chance) for residual in found]
         if not any(fits) and (told := self._as_told(step)):
             asked.append(told)
@@ -318,5 +323,5 @@ class Matching:
         self.erred = self.erred or match.state == WRONG
         if match.place is not None:
             self.used |= {match.place} | self.evidence.twins(match.place)
-        self.weight, self._now = self.weight + match.weight, None
+        self.weight, self._now, self._off = self.weight + match.weight, None, {}
         return self

@@ -23,7 +23,7 @@ from graphplan.marking.judge.mistakes import Mistake, mistakes, value_of
 from graphplan.marking.judge.student_sheet import GONE, apart, plain, weighed
 from graphplan.marking.judge.verdict import WRONG
 
-TRIED = 16  # how many whole ways are gone through, to try the most promising mistakes
+TRIED = 8  # how many whole ways are gone through, to try the most promising mistakes
 CLEAR, UNLIKELY = 2.5, -4.0  # the weight of a mark that is right, and of a mistake that is none
 SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected, as a sum of squares
 SPREAD = 16.0  # how much more may be won than was promised
@@ -86,7 +86,7 @@ class Search:
 
     def _weight(self, matching: Matching, forks: Sequence[Matching], found: Found, guess: Guess, least: float) -> float:
         """The weight of a way with one more mistake; less than everything as soon as it cannot come to the least."""
-        touched = self._touched(guess.index)
+        touched, picture = self._touched(guess.index), matching.evidence.picture
         other = forks[min(touched)].fork()
         other.found = {**found, guess.index: guess.one}
         hope = guess.prior + sum(self._hope(match, touched) for match in matching.matches[len(other.own):])
@@ -94,7 +94,8 @@ class Search:
             index = match.step.index
             hope -= self._hope(match, touched)
             try:
-                if index in touched or index in other.found or not other.repeat(matching):
+                anew = index in touched and (picture or index == guess.index)  # files show strokes as far as drawn
+                if anew or index in other.found or not other.repeat(matching):
                     other.go(other.found.get(index))
                     self.gone += 1
             except Undrawable:

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Callable, Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache, cached_property
 from typing import Any
@@ -60,6 +60,8 @@ class Residual:
     @cached_property
     def _parts(self) -> tuple[Any, Any]:
         """The variances along the axes of the covariance, none of them nothing, and the deviation along them."""
+        if len(self.off) == 1:
+            return np.maximum(self.covariance[0], NONE), self.off
         variances, axes = np.linalg.eigh(self.covariance)
         return np.maximum(variances, max(FLAT * variances[-1], NONE)), axes.T @ self.off
 
@@ -154,10 +156,6 @@ class StudentSheet:
         start = self._starts[index]
         return [self.domain.error(start + i, size) for i, size in enumerate(self.hand.slips[index])]
 
-    def _frame_error(self, panel: str, place: int, size: float) -> Any:
-        start = self._starts[-1] + FRAME_ERRORS * list(self.fits).index(panel)
-        return self.domain.error(start + place, size)
-
     def expected(self, step: Step, drawn: Sequence[Any]) -> Any:
         """What a step should make of these marks, with the errors of the hand; fails as its rule does."""
         return self.hand.made(step, self.domain, drawn, self.errors)
@@ -174,22 +172,29 @@ class StudentSheet:
 
     # ---- what is seen ----------------------------------------------------------------------------------------------
 
-    def spots(self, index: int, trace: Trace) -> list[tuple[Any, Any]]:
+    @cached_property
+    def _spots(self) -> dict[tuple[int, Trace], Spots]:
+        """What was read off so far."""
+        return {}
+
+    def spots(self, index: int, trace: Trace) -> Spots:
         """The spots of a step's trace on its plan, with the errors of the frame and of reading them."""
-        panel = self.plan_of_step[index]
+        if (index, trace) not in self._spots:
+            self._spots[index, trace] = Spots(self._read(index, trace))
+        return self._spots[index, trace]
+
+    def _read(self, index: int, trace: Trace) -> Iterator[tuple[Any, Any]]:
+        panel, panels = self.plan_of_step[index], list(self.fits)
         fit, first = self.fits[panel], self._starts[index] + len(self.hand.slips[index])
-        lead = fit.tied or panel
-        turn = [self._frame_error(lead, i, self.fits[lead].turn) for i in (0, 1)]
-        shift = [self._frame_error(panel, 2 + i, fit.shift / self.mm(panel)) for i in (0, 1)]
-        found = []
+        lead, own = (self._starts[-1] + FRAME_ERRORS * panels.index(name) for name in (fit.tied or panel, panel))
+        turn, mm = self.fits[fit.tied or panel].turn, self.mm(panel)
+        shift, blur = fit.shift / mm, trace.blur / mm
         for k, spot in enumerate(sampled(trace)):
             z = fit.frame.back(complex(*spot))
-            arm = z - fit.centre
-            blur = [self.domain.error(first + 2 * k + i, trace.blur / self.mm(panel)) for i in (0, 1)]
-            x = z.real + turn[0] * arm.real - turn[1] * arm.imag + shift[0] + blur[0]
-            y = z.imag + turn[0] * arm.imag + turn[1] * arm.real + shift[1] + blur[1]
-            found.append((x, y))
-        return found
+            arm, here = (z - fit.centre) * turn, first + 2 * k
+            x = (lead, arm.real), (lead + 1, -arm.imag), (own + 2, shift), (here, blur)
+            y = (lead, arm.imag), (lead + 1, arm.real), (own + 3, shift), (here + 1, blur)
+            yield self.domain.shaken(z.real, x), self.domain.shaken(z.imag, y)
 
     def residual(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], drawn: Sequence[Any]) -> Residual:
         """How far a trace is from what a step should make."""
@@ -208,15 +213,41 @@ class StudentSheet:
         off = np.array([_plain(part) for part in parts]) * scale
         return (PointResidual if kind == POINT else Residual)(off, partials @ partials.T)
 
-    def seen(self, step: Step, expected: Any, spots: Sequence[tuple[Any, Any]], steady: bool) -> Any:
+    def seen(self, step: Step, expected: Any, spots: Spots, steady: bool) -> Any:
         """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough
         to tell, a short arc has the centre that it should."""
         if step.op.gives == POINT:
             return spots[0]
         if step.op.gives == LINE:
-            return _line(expected, *spots)
+            return spots.line(expected)
         told = steady or _span(expected, spots) > SHORT_ARC
-        return _around(*spots) if told and len({plain(spot) for spot in spots}) == 3 else _about(expected, spots)
+        return spots.rim if told and len({plain(spot) for spot in spots}) == 3 else _about(expected, spots)
+
+
+class Spots(list[tuple[Any, Any]]):
+    """The spots of a trace on its plan, and what goes through them, made once: a value that is the same thing on two
+    ways through a drawing needs no second look."""
+
+    def line(self, expected: Any) -> Any:
+        """The line through two, running as the expected one does."""
+        a, b, _ = line = self._through
+        return line if _plain(a) * _plain(expected[0]) + _plain(b) * _plain(expected[1]) >= 0 else self._back
+
+    @cached_property
+    def _through(self) -> tuple[Any, Any, Any]:
+        P, Q = self
+        a, b = P[1] - Q[1], Q[0] - P[0]
+        return a, b, -(a * P[0] + b * P[1])
+
+    @cached_property
+    def _back(self) -> tuple[Any, Any, Any]:
+        a, b, c = self._through
+        return -a, -b, -c
+
+    @cached_property
+    def rim(self) -> Any:
+        """The circle through three."""
+        return _around(*self)
 
 
 def sampled(trace: Trace) -> tuple[tuple[float, float], ...]:
@@ -253,14 +284,6 @@ def _off_circle(domain: Gradients, circle: Any, spot: tuple[Any, Any]) -> Any:
     x, y, r2 = circle
     u, v = spot[0] - x, spot[1] - y
     return domain.sqrt(u * u + v * v, "", "") - domain.sqrt(r2, "", "")
-
-
-def _line(expected: Any, P: tuple[Any, Any], Q: tuple[Any, Any]) -> Any:
-    """The line through two spots, running as the expected one does."""
-    a, b = P[1] - Q[1], Q[0] - P[0]
-    if _plain(a) * _plain(expected[0]) + _plain(b) * _plain(expected[1]) < 0:
-        a, b = -a, -b
-    return a, b, -(a * P[0] + b * P[1])
 
 
 def _span(circle: Any, spots: Sequence[tuple[Any, Any]]) -> float:

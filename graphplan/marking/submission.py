@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+import os
+from collections.abc import Callable, Collection, Iterator
+from contextlib import contextmanager
 from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -15,6 +17,7 @@ if TYPE_CHECKING:
 
 Size = tuple[float, float] | None  # width and height in mm, where they are known
 FILES, IMAGES = (".csv", ".toml", ".svg", ".dxf", ".ggb"), (".png", ".jpg", ".jpeg", ".pdf")
+STANDARD_ERROR = 2  # the file in which libraries in other languages write, whatever Python does
 EXTRAS = {".svg": ("svgelements", "svg"), ".dxf": ("ezdxf", "dxf")}  # the package that reads a kind, and its extra
 
 
@@ -49,7 +52,25 @@ def _scanned(path: Path, frames: Frames, printed: Callable[[], Sheet] | None, co
         raise Refused(f"{path}", "pictures are read by OpenCV, which is not installed", "pip install 'graphplan[scan]'")
     from graphplan.marking.scans.scan import read_scan
 
-    return read_scan(path, printed(), frames, code)
+    with hushed():
+        return read_scan(path, printed(), frames, code)
+
+
+@contextmanager
+def hushed() -> Iterator[None]:
+    """Within, libraries write nothing where errors are written: what they say of a picture is not for the reader."""
+    try:
+        kept = os.dup(STANDARD_ERROR)
+    except OSError:  # it is closed
+        yield
+        return
+    try:
+        with open(os.devnull, "wb") as nowhere:
+            os.dup2(nowhere.fileno(), STANDARD_ERROR)
+        yield
+    finally:
+        os.dup2(kept, STANDARD_ERROR)
+        os.close(kept)
 
 
 def _read(path: Path, suffix: str, panels: Collection[str], frames: Frames, size: Size) -> Submission:

@@ -45,6 +45,8 @@ def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[S
            ) -> Iterator[Trace]:
     """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
     than along a line, and `least` how much it must be for how many strokes."""
+    if not found:
+        return
     lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
     crossed = np.bincount(lines.query(at, "dwithin", CROSSED)[0], minlength=len(found))
     for dot, count in zip(found, crossed, strict=True):

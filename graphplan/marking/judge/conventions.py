@@ -10,6 +10,7 @@ from __future__ import annotations
 import cmath
 import math
 from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -33,12 +34,13 @@ from graphplan.methods.panels import ACCELERATION_PLAN, MECHANISM, VELOCITY_PLAN
 from graphplan.phrases import Said, said
 from graphplan.sheet.layout.composition import Composition
 
-OTHER_FORM, OTHER_PLAN, OWN_SCALE, TURNED, AT_JOINTS, MIRRORED, NUMBERED = -1.0, *6 * [-2.0]  # how unlikely each is
+OTHER_FORM, OTHER_PLAN, OWN_SCALE, TURNED, AT_JOINTS, MIRRORED, NUMBERED = -1.0, -2.0, -1.0, *4 * [-2.0]  # how unlikely
 EACH, ANYHOW = 14.0, -4.0  # of a plan turned as a whole: what each mark more speaks for that; turned by no right angle
 SQUARE = 0.15  # radians that a vector may be off a quarter turn
-ROUND, CLOSE = (1, 2, 2.5, 4, 5, 8), 4.0  # the numbers that scales are; standard deviations within which one is meant
+ROUND = tuple(map(Fraction, (1, 2, 2.5, 4, 5, 8)))  # the numbers that scales are
+CLOSE = 4.0  # standard deviations within which one is meant
 SHORTEST, NEAR = 3.0, 2.0  # mm: the shortest vector that tells a scale; how far off a mark of a plan may be at a glance
-A_LITTLE = 1 + 1e-9  # a vector that ends just in a point has a mark of its own
+A_LITTLE = 1 + Fraction(1, 10**9)  # a vector that ends just in a point has a mark of its own
 POLES = ("p", "pi", "o", "ov", "pv", "oa", "pa", "o1", "o2", "p1", "p2")  # what the poles of polar plans are called
 SENSES: Mapping[int, tuple[tuple[Said, ...], float]] = {  # by the quarter turns from the task's velocities
     0: ((), 0.0), 2: ((said("velocities turned clockwise"),), TURNED),
@@ -106,13 +108,20 @@ class Proposer:
         if "polar" in (self.plan or "polar") and not self.seen.page:
             yield from self._polar()
 
+    def with_all_ends(self) -> Reading | None:
+        """As the task has it, but every velocity that is marked ends in a mark of its own; None where steps are called
+        by their numbers, which would be others then."""
+        numbered = any(trace.label.isdigit() for trace in self.seen.traces)
+        drawing = None if numbered else self.at_tempo(Fraction(1), self.seen)
+        return replace(self.task, drawing=drawing, submission=self.seen) if drawing else None
+
     def forms(self, reading: Reading) -> Iterator[Reading]:
         """A reading by the other forms of its loci, which have other marks."""
         drawing = reading.drawing
         plan = self.plan or ("orthogonal" if drawing.turned else "polar")
         for methods, other in constructions(drawing.scene, plan=plan, strict=drawing.strict, inertia=self.inertia,
                                             construct=self.construct):
-            if isinstance(other, Construction) and other.drawn.steps != drawing.drawn.steps:
+            if isinstance(other, Construction) and _keys(other) != _keys(drawing):
                 yield replace(reading, drawing=other, prior=reading.prior + OTHER_FORM,
                               told=(*reading.told, said("drawn by the form {0}", called(methods))))
 
@@ -139,38 +148,45 @@ class Proposer:
                 start = self.frame.onto(self._place(point))
                 sigma = math.hypot(2 * self.pencil.point, trace.blur) / abs(drawn)
                 votes.append(((complex(*trace.spots[0]) - start) / drawn, sigma))
-        found = (self._turned(ratio, sigma) for count, ratio, sigma in agreed(votes) if count > 1)
+        found = (self._turned(ratio, sigma) for count, ratio, sigma in agreed(votes)
+                 if count > 1 or abs(_astray(ratio)) < CLOSE * sigma / abs(ratio))
         return [reading for reading in found if reading]
 
     def _turned(self, ratio: complex, sigma: float) -> Reading | None:
         """With velocities drawn as this ratio to those of the task has it, if they can be meant so."""
         quarters = round(cmath.phase(ratio) / (math.pi / 2)) % 4
-        if abs(cmath.phase(ratio * (-1j) ** quarters)) > SQUARE or quarters == 1:  # true ones would be reversed
+        if abs(_astray(ratio)) > SQUARE or quarters == 1:  # true ones would be reversed
             return None
         size = self._meant(abs(ratio), sigma / abs(ratio))
-        if size == 1.0 and quarters == 0:
+        if size == 1 and quarters == 0:
             return None
         told, prior = SENSES[quarters]
-        prior += OWN_SCALE if size != 1.0 else 0.0
-        scene = _at_tempo(self.task.drawing.scene, self.task.drawing.kappa * size * (-1 if quarters == 2 else 1))
         submission = self._turned_back() if quarters == 3 else self.seen
-        try:
-            drawing = self._construct(scene)
-        except GraphplanError:
-            return None
-        return replace(self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
-                       scaled=MECHANISM if size != 1.0 else "", prior=self.task.prior + prior)
+        drawing = self.at_tempo(size * (-1 if quarters == 2 else 1), submission)
+        return replace(
+            self.task, drawing=drawing, submission=submission, told=(*self.task.told, *told),
+            scaled=MECHANISM if size != 1 else "", prior=self.task.prior + prior + (OWN_SCALE if size != 1 else 0.0)
+        ) if drawing else None
 
-    def _meant(self, size: float, sigma: float) -> float:
+    def at_tempo(self, size: Fraction, submission: Submission) -> Construction | None:
+        """The construction with velocities so many times as long; every one that is marked ends in a mark of its own.
+        """
+        for tempo in (size, size * A_LITTLE):
+            with suppress(GraphplanError):
+                drawing = self._construct(_at_tempo(self.task.drawing, tempo))
+                if not orphans(drawing, submission):
+                    return drawing
+        return None
+
+    def _meant(self, size: float, sigma: float) -> Fraction:
         """The factor of a scale as it is meant: such that it is a round one, or that of a drive, if one is so near."""
-        drawing = self.task.drawing
-        speed = 1 / (abs(drawing.kappa) * abs(self.frame.unit))  # k_v of the task
-        rates = [abs(float(drive.rate)) for drive in drawing.scene.drives if drive.rate]
-        near = [1.0, *_round(size), *(speed / k_v for k_v in _round(speed / size))]
-        for rate in rates:
-            near += [A_LITTLE * part / rate / abs(drawing.kappa) for part in _round(size * rate * abs(drawing.kappa))]
-        nearest = min(near, key=lambda one: abs(math.log(one / size)))
-        return nearest if abs(nearest / size - 1) < CLOSE * sigma else size
+        kappa = Fraction(self.task.drawing.tempo.kappa)
+        speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(10**6)  # k_v of the task
+        rates = [abs(Fraction(drive.rate)) * kappa for drive in self.task.drawing.scene.drives if drive.rate]
+        near = [Fraction(1), *_round(size), *(speed / k_v for k_v in _round(float(speed) / size)),
+                *(part / rate for rate in rates for part in _round(size * float(rate)))]
+        nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
+        return nearest if abs(float(nearest) / size - 1) < CLOSE * sigma else Fraction(size).limit_denominator(10**6)
 
     def _turned_back(self) -> Submission:
         """With every velocity that is drawn at its point turned a quarter, as on the task's sheet."""
@@ -221,7 +237,7 @@ class Proposer:
             if reading.kind == kind:
                 start, end = (drawing.drawn.wanted[mark] for mark in reading.marks[-2:])
                 ends[reading.of] = start, end
-        for written in WRITTEN[kind]:
+        for written in WRITTEN[kind] if ends else ():
             marks = {place: end for point, (_, end) in ends.items()
                      if (place := self._named(point, written)) is not None}
             pole = next(iter(ends.values()))[0]
@@ -237,8 +253,8 @@ class Proposer:
     def _agreed(self, pairs: Mapping[int, Pair]) -> PolarPlan | None:
         """The frame that holds most marks of a plan; None where too few agree on one.
 
-        Three marks have no frame by chance; two have, where one is the pole and the other lies the way it should. What
-        is turned as a whole by a right angle is wrong at once: it keeps the scale, and has the mechanism's direction.
+        Three marks have no frame by chance, nor have two of which one lies the way it should from the other. What is
+        turned as a whole by a right angle is wrong at once: it keeps the scale, and has the mechanism's direction.
         """
         speaks, held = 0.0, list[int]()
         for one, two in combinations(pairs, 2):
@@ -248,7 +264,7 @@ class Proposer:
             unit = (there - sheet) / (other - plan)
             near = [place for place, (z, spot) in pairs.items() if abs(sheet + unit * (z - plan) - spot) < NEAR]
             aligned = abs(cmath.phase(unit / self.frame.unit)) < SAME_WAY + NEAR / abs(there - sheet) / 2
-            if len(near) + (aligned and not (plan and other)) > 2 and len(near) + aligned / 2 > speaks:
+            if len(near) + aligned > 2 and len(near) + aligned / 2 > speaks:
                 speaks, held = len(near) + aligned / 2, near
         fit = fitted([pairs[place] for place in held], self.pencil.point) if held else None
         if fit is None:
@@ -286,17 +302,37 @@ class Proposer:
                                         "inertia": self.inertia} | how)
 
 
+def _keys(drawing: Construction) -> list[Any]:
+    """What makes two programs one."""
+    return [step.key for step in drawing.drawn.steps]
+
+
+def orphans(drawing: Construction, submission: Submission) -> list[int]:
+    """The places of the marks that are called as ends of velocities for which the construction has no mark of its own,
+    as they end in another point."""
+    own = {_bare(step.name) for step in drawing.drawn.steps if step.name}
+    names = {f"v{point.casefold()}" for point in drawing.velocity} - own if drawing.turned else set()
+    return [place for place, trace in enumerate(submission.traces)
+            if trace.kind == POINT and not trace.beside and _bare(trace.label) in names]
+
+
 def _bare(label: str) -> str:
     """A letter as it is compared: v_{A}, vA and v_a are one."""
     return spelled(label.replace(" ", "")).replace("_", "").casefold()
 
 
-def _round(size: float) -> Iterator[float]:
+def _astray(ratio: complex) -> float:
+    """The angle, in radians, that a ratio of vectors is off the next right angle."""
+    return cmath.phase(ratio * (-1j) ** round(cmath.phase(ratio) / (math.pi / 2)))
+
+
+def _round(size: float) -> Iterator[Fraction]:
     """The round numbers next to a number."""
-    power = 10.0 ** math.floor(math.log10(size))
-    yield from (number * power * tens for number in ROUND for tens in (1.0, 10.0))
+    power = Fraction(10) ** math.floor(math.log10(size))
+    yield from (number * power * tens for number in ROUND for tens in (1, 10))
 
 
-def _at_tempo(scene: Scene, kappa: float) -> Scene:
-    """The same scene with velocities drawn so long for each unit; the other way round where that is negative."""
-    return replace(scene, sheet=replace(scene.sheet, k_s=Fraction(1), k_v=1 / Fraction(kappa)))
+def _at_tempo(drawing: Construction, factor: Fraction) -> Scene:
+    """The scene with velocities so many times as long; the other way round where that is negative."""
+    k_v = 1 / (Fraction(drawing.tempo.kappa) * factor)
+    return replace(drawing.scene, sheet=replace(drawing.scene.sheet, k_s=Fraction(1), k_v=k_v))

@@ -15,7 +15,7 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
-from graphplan.marking.judge.conventions import Proposer, seen_right_way
+from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
@@ -64,7 +64,8 @@ class Judge:
         traces = self.submission.traces
         self.traces = [wobbly(trace) for trace in traces] if self.submission.page else list(traces)
         self.labels = labelled(self.drawing.drawn, plan_of_step, traces)
-        taken = {place for place in self.labels.values() if sure(traces[place])}
+        self.orphans = orphans(self.drawing, self.submission)
+        taken = {*self.orphans, *(place for place in self.labels.values() if sure(traces[place]))}
         self.unlabelled = [place for place, trace in enumerate(traces) if place not in taken and not (
             self.submission.page and trace.kind == LINE and math.dist(*trace.spots[:2]) < STUMP)]
 
@@ -80,7 +81,7 @@ class Judge:
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
-        self._weight = matching.weight
+        self._matching = matching
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdicts(matching, numbers)),
@@ -88,8 +89,8 @@ class Judge:
 
     @property
     def lacks(self) -> bool:
-        """Whether something is wrong or missing."""
-        return any(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts)
+        """Whether something is wrong or missing, or cannot be judged."""
+        return bool(self.orphans) or any(verdict.state in (WRONG, MISSING) for verdict in self.judgement.verdicts)
 
     @property
     def unexplained(self) -> bool:
@@ -103,13 +104,15 @@ class Judge:
         found = self.judgement
         wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
         numbers = sum(NUMBER if number.state != WRONG else -NUMBER for number in found.numbers)
-        return self.reading.prior + self._weight + numbers + sum(KNOWN if kind else UNNAMED for kind in wrong)
+        return (self.reading.prior + likelihood(self._matching) + numbers
+                + sum(KNOWN if kind else UNNAMED for kind in wrong))
 
     @property
     def glance(self) -> float:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
-        return self.reading.prior + matching.weight + KNOWN * sum(match.state == WRONG for match in matching.matches)
+        wrong = sum(match.state == WRONG for match in matching.matches)
+        return self.reading.prior + likelihood(matching) + KNOWN * wrong
 
     @cached_property
     def hidden(self) -> set[int]:
@@ -211,10 +214,27 @@ def _wrong(matching: Matching, panel: str) -> int:
     return sum(match.state == WRONG for match in _on(matching, panel))
 
 
+SHARP, MISSED = 1.0, 3.0  # mm within which a mark is as sure as any; what it speaks against a plan that one is missing
 KNOWN, UNNAMED = -8.0, -14.0  # the odds, as logarithms, of a mistake of the table at a step, and of any other
 NUMBER = 5.0  # what a number that a drawing bears out speaks for its reading
 CLOSELY = 2  # how many other readings are looked at closely
 DOUBT = 20.0  # what a closer look may find that a glance does not
+
+
+def likelihood(matching: Matching) -> float:
+    """What the marks of a drawing speak for the construction beside which they were matched.
+
+    A mark that might as well be elsewhere tells less. What is missing of a plan was left out together: each mark more
+    tells less than the one before.
+    """
+    found, left_out = 0.0, Counter[str]()
+    for match in matching.matches:
+        if match.place is None and match.weight < 0 and match.mistake is None:
+            left_out[matching.sheet.plan_of_step[match.step.index]] += 1
+            continue
+        vague = match.residual.vague(SHARP) if match.residual and match.state != WRONG else 0.0
+        found += max(match.weight - vague, min(match.weight, 0.0))
+    return found - sum(MISSED * (1 + math.log(count)) for count in left_out.values())
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,
@@ -228,9 +248,12 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     if best.lacks:
         seen = replace(best.submission, letters=())
         proposer = Proposer(best.reading, seen, best.fits[MECHANISM].frame, pencil, plan, inertia, construct)
-        best = _likelier(best, proposer.proposed())
+        if best.orphans and (own := proposer.with_all_ends()):
+            best = Judge(own, pencil)
+        task, best = best, _likelier(best, proposer.proposed())
         if best.unexplained:
-            best = _likelier(best, proposer.forms(best.reading))
+            readings = [best.reading] if best is task else [best.reading, task.reading]
+            best = _likelier(best, (form for reading in readings for form in proposer.forms(reading)))
     return best.judgement
 
 

@@ -84,6 +84,11 @@ class Residual:
             return self.size * math.sqrt(most / square)
         return math.sqrt(most * float(np.mean(self._parts[0])))
 
+    def vague(self, sharp: float) -> float:
+        """How much less it tells to be there than within so many mm: by how much larger its tolerance is, as a
+        logarithm."""
+        return float(np.sum(np.log(np.maximum(self._parts[0] / sharp**2, 1.0)))) / 2
+
     def fits(self, chance: float) -> bool:
         return self.square <= bound(len(self.off), chance)
 

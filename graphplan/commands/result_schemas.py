@@ -41,7 +41,7 @@ PLAIN: dict[str, Fragment] = {
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},
 }
 EITHER = {"balance": "moment|force", "reaction": "joint reaction|slide reaction", "each": "positive|positive[]",
-          "verify": "one drawing|a class"}
+          "verify": "one drawing|a class|a stack"}
 
 
 def printed(command: str) -> Fragment:

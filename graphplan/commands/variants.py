@@ -16,7 +16,6 @@ examples:
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Sequence
 from functools import partial
 from pathlib import Path
@@ -63,7 +62,7 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     from graphplan.marking.classroom.variants import Design
-    from graphplan.methods.executors import crew
+    from graphplan.methods.executors import cores, crew
 
     messages = Messages(options.quiet)
     new_folder(options.output)
@@ -74,7 +73,7 @@ def run(options: argparse.Namespace) -> int:
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
     draw = partial(drafted, options)
     own = draw(scene)
-    jobs = options.jobs or (len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1)
+    jobs = options.jobs or cores()
     with crew(jobs if len(students) > FEW else 1) as shared_out:
         series = Design(scene, own, draw, shared_out).series(
             len(students), options.seed, lambda done, of: messages.progress(f"variants: {done}/{of}"))

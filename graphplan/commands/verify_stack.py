@@ -7,7 +7,6 @@ have back. Its folder `kept` has what was judged, so that running again judges o
 from __future__ import annotations
 
 import argparse
-import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -23,14 +22,16 @@ from graphplan.commands.verify import Desk
 from graphplan.errors import GraphplanError, Refused
 from graphplan.marking.classroom import results as found_results
 from graphplan.marking.classroom import stack as fates
+from graphplan.marking.classroom.class_list import Unread
 from graphplan.marking.classroom.grading import FILES, Data, Failed, Keeper, done, file_digest, key
-from graphplan.marking.classroom.pages import StackPage, UnreadFile, look, pages, sight
+from graphplan.marking.classroom.pages import StackPage, look, pages, sight
 from graphplan.marking.classroom.register import FILE, Register, TaskSheet, is_class, load
 from graphplan.marking.classroom.results import Results, SheetResult, file_names
 from graphplan.marking.classroom.stack import Placed, Seen, assignments, instead, placed
 from graphplan.marking.judge.score import Weights, weights
 from graphplan.mechanism.scene import load as load_scene
-from graphplan.phrases import said
+from graphplan.methods.executors import cores
+from graphplan.phrases import arranged, joined, said
 from graphplan.words.tongue import Tongue, tongue
 
 FAULT = "fault"  # in the place of what is found of a page
@@ -47,6 +48,8 @@ def run(options: argparse.Namespace) -> int:
     if stack.is_dir() and is_class(stack):
         raise Refused(f"{stack}", f"this folder has a {FILE}, and no scans", "the file or the folder of the scans")
     into = Path(options.output or folder / "results")
+    if options.report:
+        raise Refused(f"--report {options.report}", f"the results of a class are written into {into}", "-o FOLDER")
     classroom = StackDesk(folder, register, into, weighed, options)
     found = classroom.results(*pages(stack))
     classroom.write(found)
@@ -85,7 +88,7 @@ class StackDesk:
 
     @property
     def processes(self) -> int:
-        return self.options.jobs or os.cpu_count() or 1
+        return self.options.jobs or cores()
 
     @cached_property
     def say(self) -> Tongue:
@@ -93,9 +96,11 @@ class StackDesk:
         named = self.register.options.get("language")
         return tongue(named or load_scene(str(self.folder / self.register.sheets[0].scene)).sheet.language)
 
-    def results(self, stack: Sequence[StackPage], unread: Sequence[UnreadFile]) -> Results:
+    def results(self, stack: Sequence[StackPage], unread: Sequence[Unread]) -> Results:
         """What is found of a stack."""
         word = assignments(self.options.assign or (), stack, self.register)
+        if stack:
+            _made(self.keeper.folder)
         seen, broken = self._seen(stack)
         whose = placed(seen, self.register, word)
         judged = self._judged(whose)
@@ -202,7 +207,7 @@ class StackDesk:
         to_hand_back = [one for one in found.sheets if one.corrected and one.status == found_results.JUDGED]
         names = file_names([one.student or self.say(said("variant {0}", one.variant)) for one in to_hand_back])
         files = {one.page: f"corrected/{name}.pdf" for one, name in zip(to_hand_back, names, strict=True)}
-        (self.into / "corrected").mkdir(parents=True, exist_ok=True)
+        _made(self.into / "corrected")
         for one in to_hand_back:
             write((self.keeper.folder / one.corrected).read_bytes(), str(self.into / files[one.page]))
         for file in set(earlier.get("written", ())) - set(files.values()):
@@ -216,6 +221,15 @@ class StackDesk:
 
 FATES = {fates.COUNTS: found_results.JUDGED, fates.AGAIN: found_results.AGAIN, fates.JOINED: found_results.JOINED,
          fates.SET_ASIDE: found_results.ASIDE, fates.UNASSIGNED: found_results.UNASSIGNED}
+
+
+def _made(folder: Path) -> None:
+    """Make a folder, unless it is there."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except (OSError, ValueError) as fault:
+        raise Refused(f"{folder}", f"it cannot be made ({getattr(fault, 'strerror', None) or fault})",
+                      "-o FOLDER, where it can be") from None
 
 
 def _same(one: Placed, other: Placed) -> bool:
@@ -245,7 +259,7 @@ def judged(job: Job) -> Data:
 def _judged(job: Job) -> Data:
     from graphplan.marking.classroom.corrections import Corrections
     from graphplan.marking.judge.findings import lacking, record
-    from graphplan.marking.judge.verdict import UNSURE
+    from graphplan.marking.judge.verdict import MISSING, STATES, UNSURE
     from graphplan.marking.scans.facsimile import as_it_is, cut, photograph, straight
     from graphplan.marking.scans.image import picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
@@ -269,12 +283,13 @@ def _judged(job: Job) -> Data:
     further = [as_it_is(picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
     detail = corrections.detail(lambda rect: cut(sheet, rect))
-    first, unsure = one.judgement.first, lacking(one.judgement, UNSURE)
+    first, unsure, missing = one.judgement.first, lacking(one.judgement, UNSURE), lacking(one.judgement)
+    words = joined((one.told, *([arranged("{0}: {1}", STATES[MISSING](), missing)] if missing else [])), "; ")
     sure = [verdict.confidence for verdict in one.judgement.judged] if first is None else [first.confidence]
     notes = [*filter(None, [one.judgement.reading]), *([said("cannot be told: steps {0}", unsure)] if unsure else [])]
     return {
         "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
-        "words": say(one.told), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
+        "words": say(words), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
         "look": [say(note) for note in notes], "detail": shown(detail) if detail else "",
         "judgement": record(one.judgement, one.score), FILES: [job.corrected.name],
     }  # fmt: skip

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, Future, ProcessPoolExecutor
@@ -15,6 +16,11 @@ from graphplan.errors import Refused
 AHEAD = 2  # parts for each worker that wait for it: it never idles, and memory stays small
 PATIENCE = "10s"  # for a scheduler to answer
 SharedOut = Callable[[Callable[[Any], Any], Iterable[Any]], Iterator[Any]]  # the work and its parts: what it makes
+
+
+def cores() -> int:
+    """How many processors this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
 
 
 @contextmanager

@@ -94,6 +94,6 @@ class _ResultsPage(HtmlPage):
 
     def _no_scans(self) -> Iterator[str]:
         if self.found.unread:
-            rows = [("", (HtmlCell(escape(file.name)), HtmlCell(escape(file.why)))) for file in self.found.unread]
+            rows = [("", (HtmlCell(escape(one.file)), HtmlCell(escape(one.why)))) for one in self.found.unread]
             yield from self.table(said("No scans"), said("Files that are left out."), (said("File"), said("Reason")),
                                   rows)

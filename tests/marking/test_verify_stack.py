@@ -21,6 +21,7 @@ from raster import printed, scan  # noqa: E402
 from graphplan.accuracy.drafted import Drafted  # noqa: E402
 from graphplan.accuracy.pencil import Pencil  # noqa: E402
 from graphplan.commands import main, parser  # noqa: E402
+from graphplan.commands.result_schemas import printed as printed_schema  # noqa: E402
 from graphplan.commands.variants import drafted  # noqa: E402
 from graphplan.commands.verify import Desk  # noqa: E402
 from graphplan.marking.classroom.register import Register, TaskSheet  # noqa: E402
@@ -208,7 +209,7 @@ def test_what_is_handed_back(judged: Judged) -> None:
         pages = [page.get_textpage().get_text_bounded() for page in document]
         first = document[0].render(scale=2).to_numpy()
     assert "First wrong is" in pages[0]
-    assert judged.rows[0]["mistake"] in " ".join(pages[0].split())
+    assert judged.rows[0]["verdict"] in " ".join(pages[0].split())
     assert "Legend" in " ".join(pages[1:])
     red = (first[..., 0].astype(int) - first[..., 2] > 100) | (first[..., 2].astype(int) - first[..., 0] > 100)
     assert red.sum() > 200  # corrections in colour on a grey scan
@@ -259,3 +260,9 @@ def test_marks_are_read_any_way_up(made: Class, quarters: int) -> None:
     half = image[: high // 2] if quarters % 2 else image[:, : wide // 2]
     assert len(sheet_marks(half)) == 2
     assert not blank(image)
+
+
+def test_data_is_after_its_schema(judged: Judged) -> None:
+    """results.json is what the schema of `graphplan verify` says."""
+    validator = pytest.importorskip("jsonschema")
+    validator.validate(json.loads((judged.into / "results.json").read_text()), printed_schema("verify"))

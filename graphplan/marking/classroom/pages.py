@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from graphplan.errors import GraphplanError, Refused, by_name, printable
+from graphplan.marking.classroom.class_list import Unread
 from graphplan.marking.submission import IMAGES
 
 THUMBNAIL, QUALITY = 480, 70  # pixels of its longer side, and how well JPEG keeps it
@@ -22,14 +23,6 @@ class StackPage:
     path: Path
     number: int
     name: str
-
-
-@dataclass(frozen=True)
-class UnreadFile:
-    """What is in a stack and cannot be read, and why."""
-
-    name: str
-    why: str
 
 
 @dataclass(frozen=True)
@@ -54,18 +47,18 @@ def sight(data: dict[str, Any]) -> Sight:
     return Sight(**{**data, "marks": tuple(data["marks"]), "mirrored": tuple(data["mirrored"])})
 
 
-def pages(stack: Path) -> tuple[list[StackPage], list[UnreadFile]]:
+def pages(stack: Path) -> tuple[list[StackPage], list[Unread]]:
     """All pages of a file or of the files in a folder, in the order of their names, and what is no scan.
 
     Fails with `Refused` where there is nothing to be read.
     """
-    found, unread = list[StackPage](), list[UnreadFile]()
+    found, unread = list[StackPage](), list[Unread]()
     for path in _files(stack):
         name = printable(path.name)
         try:
             found += _numbered(path, name)
         except GraphplanError as fault:
-            unread.append(UnreadFile(name, fault.lines[0].removeprefix(f"{path}: ")))
+            unread.append(Unread(name, fault.lines[0].removeprefix(f"{path}: ")))
     return found, unread
 
 

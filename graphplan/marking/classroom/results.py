@@ -11,8 +11,7 @@ from dataclasses import asdict, dataclass, field
 from statistics import fmean
 from typing import Any
 
-from graphplan.marking.classroom.class_list import mistaken
-from graphplan.marking.classroom.pages import UnreadFile
+from graphplan.marking.classroom.class_list import Unread, mistaken
 from graphplan.marking.judge.score import GROUPS
 from graphplan.phrases import Phrase, Said, phrase, said
 
@@ -65,7 +64,7 @@ class Results:
     language: str
     sheets: tuple[SheetResult, ...]
     blank: int = 0
-    unread: tuple[UnreadFile, ...] = ()
+    unread: tuple[Unread, ...] = ()
 
     def of(self, *status: str) -> list[SheetResult]:
         """The sheets of which this is so."""
@@ -118,19 +117,19 @@ class Results:
         if self.blank:
             yield said("Blank pages: {0}.", self.blank)
         if self.unread:
-            yield said("No scans: {0}.", ", ".join(file.name for file in self.unread))
+            yield said("No scans: {0}.", ", ".join(one.file for one in self.unread))
 
     @property
     def csv(self) -> str:
         """A table with a line for each sheet."""
         written = io.StringIO()
         table = csv.writer(written, lineterminator="\n")
-        table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "mistake",
+        table.writerow(["page", "variant", "student", "status", "score", *GROUPS, "first_wrong_step", "verdict",
                         "kind", "confidence", "look", "corrected"])
         for one in self.sheets:
             groups = (_rounded(one.groups.get(group)) for group in GROUPS)
             table.writerow([one.page, one.variant, one.student, one.status, _rounded(one.score), *groups, one.first,
-                            one.words if one.first else "", one.kind, one.confidence, "; ".join(one.look),
+                            one.words, one.kind, one.confidence, "; ".join(one.look),
                             one.corrected])
         return written.getvalue()
 

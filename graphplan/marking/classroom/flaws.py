@@ -12,7 +12,7 @@ from graphplan.mechanism.model import Scene
 from graphplan.mechanism.scene import parse
 
 FLATTEST = 12.0  # degrees: two lines that cross flatter have no clear point
-COARSEST = 0.15  # of the largest of its kind: a result that a careful hand misses by more is nearly singular
+COARSEST = 0.15  # of the largest of its kind: a result that a careful hand misses by more is none
 WORSE = 1.25  # times: so much worse than the scene itself a variant may be where that is no better
 
 Draw = Callable[[Scene], Drafted]  # a scene on its sheet, as the options say
@@ -28,13 +28,15 @@ class Flaw(NamedTuple):
 @dataclass(frozen=True)
 class Quality:
     """What is measured of a sheet: vectors too short, in mm; steps outside the paper; the part of letters without a
-    good place; whether it is legible; the flattest crossing in degrees; the worst relative error of a careful hand."""
+    good place; whether it is legible; the flattest crossing in degrees; the result that a careful hand draws worst, and
+    by how much of the largest it is off."""
 
     short: tuple[float, ...]
     outside: tuple[int, ...]
     poor: float
     legible: bool
     flattest: float
+    worst: str
     error: float
 
     @classmethod
@@ -42,17 +44,20 @@ class Quality:
         """The quality of a sheet."""
         composition, cost = drafted.composition, drafted.cost
         return cls(tuple(composition.short), cost.off_sheet, composition.poor, composition.legible,
-                   cost.flattest.degrees if cost.flattest else 90.0, drafted.error)
+                   cost.flattest.degrees if cost.flattest else 90.0, drafted.worst.named if drafted.worst else "",
+                   drafted.error)
 
     def flaw(self, own: Quality) -> Flaw | None:
         """What makes it worse than a class's sheet may be; `own` is the quality of the scene's own sheet."""
-        if self.error > max(COARSEST, WORSE * own.error) or self.flattest < min(FLATTEST, own.flattest / WORSE):
-            return Flaw("it is nearly singular", f"its lines cross at {self.flattest:.0f}°, a careful hand is off by "
-                        f"{100 * self.error:.0f} %")
+        if self.flattest < min(FLATTEST, own.flattest / WORSE):
+            return Flaw("it is nearly singular", f"lines cross at {self.flattest:.0f}°")
         if len(self.short) > len(own.short):
             return Flaw("vectors are too short", f"vectors of {min(self.short):.1f} mm are too short")
         if len(self.outside) > len(own.outside):
             return Flaw("steps are outside the paper", f"step {self.outside[0]} is outside the paper")
+        if self.error > max(COARSEST, WORSE * own.error):
+            return Flaw("a careful hand draws it too far off", f"a careful hand is off by {100 * self.error:.0f} % in "
+                        f"{self.worst}")
         if own.legible and not self.legible:
             return Flaw("the sheet is crowded", f"the sheet is crowded, {100 * self.poor:.0f} % of its letters have no "
                         "good place")

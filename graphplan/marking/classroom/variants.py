@@ -184,7 +184,7 @@ class Design:
         return most[1]
 
     def _proposals(self, pilots: Sequence[Values]) -> Iterator[Keys]:
-        """The scales of the scene's own sheet; then by how large the other plans of most variants can be drawn at its
+        """The scales of the scene's own sheet; then by how large the other plans of most good variants are drawn at its
         scale of lengths, and at the next coarser one."""
         composition, given = self.drafted.composition, self.scene.sheet
         own, paper = composition.scales, composition.arrangement.paper
@@ -194,7 +194,7 @@ class Design:
             scales = replace(own, k_s=k_s)
             free = self.worded(keys_of(self.scene, scales, paper, multiples=False))
             texts = [free.variant(number, values).text for number, values in enumerate(pilots, 1)]
-            work = partial(multiples, name=self.scene.name, draw=self.draw)
+            work = partial(multiples, name=self.scene.name, draw=self.draw, own=self.own)
             found = [one for one in self.shared_out(work, texts) if one is not None]
             plans = [plan for plan in own.multiples if all(plan in one for one in found)]
             if found and plans:
@@ -238,12 +238,12 @@ class Design:
             if wrong is not None:
                 (path, value), = values.items()
                 return Refused(f'{self.scene.name}: vary."{path}"', f"{few}; already at {written(value)} {wrong.told}",
-                               "a narrower range")
+                               "a narrower range, or a larger --paper")
         kind = Counter(wrong.kind for _, _, wrong in drawn_anew).most_common(1)[0][0]
-        return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges")
+        return Refused(f"{self.scene.name}: vary", f"{few}; mostly {kind}", "narrower ranges, or a larger --paper")
 
 
-def multiples(text: str, name: str, draw: Draw) -> Mapping[str, Fraction] | None:
-    """How large the other plans of a scene are drawn; None where it is not."""
+def multiples(text: str, name: str, draw: Draw, own: Quality) -> Mapping[str, Fraction] | None:
+    """How large the other plans of a scene are drawn; None where it is no task for the class."""
     found = sheet_of(text, name, draw)
-    return None if isinstance(found, Flaw) else found.composition.scales.multiples
+    return None if isinstance(found, Flaw) or Quality.of(found).flaw(own) else found.composition.scales.multiples

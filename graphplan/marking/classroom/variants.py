@@ -33,7 +33,7 @@ from graphplan.words.tongue import Tongue
 
 MOST_TRIES, PATIENCE = 8, 40  # draws for each variant, and more of them in all
 PILOTS, ENOUGH = 12, 0.75  # first variants by which scales are chosen, and the part of them that is to fit
-FEWEST = 1 / 6  # of them may be too large for a plan
+SMALL = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
 Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
@@ -173,7 +173,11 @@ class Design:
     def scales(self, pilots: Sequence[Values]) -> Keys:
         """The scales of the class: the first of some that enough of the first variants fit, else what most fit."""
         most: tuple[int, Keys] | None = None
+        seen: list[Keys] = []
         for keys in self._proposals(pilots):
+            if keys in seen:
+                continue
+            seen.append(keys)
             texts = [self.worded(keys).variant(number, values).text for number, values in enumerate(pilots, 1)]
             fitting = sum(found is None for found in self.shared_out(self._work, texts))
             if most is None or fitting > most[0]:
@@ -197,9 +201,9 @@ class Design:
             work = partial(multiples, name=self.scene.name, draw=self.draw, own=self.own)
             found = [one for one in self.shared_out(work, texts) if one is not None]
             plans = [plan for plan in own.multiples if all(plan in one for one in found)]
-            if found and plans:
-                fitted = {plan: sorted(one[plan] for one in found)[int(FEWEST * len(found))] for plan in plans}
-                yield keys_of(self.scene, replace(scales, multiples=fitted), paper)
+            ordered = {plan: sorted(one[plan] for one in found) for plan in plans if found}
+            fitted = [{plan: sizes[int(part * len(sizes))] for plan, sizes in ordered.items()} for part in SMALL]
+            yield from (keys_of(self.scene, replace(scales, multiples=sizes), paper) for sizes in fitted if sizes)
 
     @property
     def _work(self) -> Any:

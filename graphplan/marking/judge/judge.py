@@ -17,6 +17,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
+from graphplan.marking.judge.exchanged import exchanged, told
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
@@ -47,8 +48,8 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
 
     Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
-    submission, told = in_mm(drawing, composition, submission, pencil)
-    return Judge(Reading(drawing, composition, submission, told), pencil).judgement
+    submission, unit = in_mm(drawing, composition, submission, pencil)
+    return Judge(Reading(drawing, composition, submission, unit), pencil).judgement
 
 
 class Judge:
@@ -78,14 +79,18 @@ class Judge:
     def judgement(self) -> Judgement:
         """The verdicts of the frames that fit best, the wrong ones explained."""
         matching = self.matching(self.fits, MOST)
+        pairs = list(exchanged(matching))
+        if pairs:
+            self.labels |= {step: self.labels[other] for pair in pairs for step, other in (pair, pair[::-1])}
+            matching = self.matching(self.fits, MOST)
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
         self._matching = matching
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
-            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(verdicts(matching, numbers)),
-            tuple(spare), numbers, joined(self._told()))
+            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(told(
+                verdicts(matching, numbers), pairs, matching)), tuple(spare), numbers, joined(self._told()))
 
     @property
     def lacks(self) -> bool:

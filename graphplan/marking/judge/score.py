@@ -13,6 +13,7 @@ from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
 from graphplan.marking.judge.asked import results
+from graphplan.marking.judge.exchanged import EXCHANGED, WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import IMPLIED, UNSEEN, UNSURE, WRONG, Judgement
 from graphplan.methods.construction import Construction
@@ -29,10 +30,11 @@ GROUPS: Mapping[str, Phrase] = {
 }  # fmt: skip
 OTHER, ANOTHERS = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
-                               ANOTHERS: phrase("the number of another result"), OTHER: phrase("another mistake")}
+                               EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
+                               OTHER: phrase("another mistake")}
 FUNDAMENTAL, SLIP = 20.0, 12.0  # what a mistake about mechanics costs by default, and one that is none
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",
-                   "exchanged coordinates", ANOTHERS, OTHER})
+                   "exchanged coordinates", EXCHANGED, ANOTHERS, OTHER})
 
 
 @dataclass(frozen=True)

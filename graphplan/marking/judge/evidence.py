@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
-from shapely import LineString
+from shapely import LineString, Point, union_all
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Step
@@ -221,6 +221,15 @@ class ImageSearch(Evidence):
                 known[index] = None if None in read.values() else value_of(
                     mistake.step if mistake else step, read, mistake)
         return known[index]
+
+
+def unexplained(traces: Sequence[Trace], explained: Sequence[Trace]) -> list[Trace]:
+    """Of the traces of a picture those that are no part of the strokes that steps explain: half of a stroke, or a dot,
+    lies beside them."""
+    about = union_all([LineString(trace.spots).buffer(NEAR) for trace in explained if trace.kind != POINT])
+    shapes = [Point(trace.spots[0]) if trace.kind == POINT else LineString(trace.spots) for trace in traces]
+    return [trace for trace, shape in zip(traces, shapes, strict=True)
+            if not (shape.within(about) or shape.intersection(about).length > shape.length / 2)]
 
 
 def _same(one: Trace, other: Trace) -> bool:

@@ -107,8 +107,11 @@ def asked(judgement: Judgement) -> list[Said]:
 
 def look_at(judgement: Judgement) -> list[Said]:
     """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
-    steps = [(STATES[state], lacking(judgement, state)) for state in (UNSURE, MISSING)]
-    told = [arranged("{0:capital}: {1}.", words(), numbers) for words, numbers in steps if numbers]
+    told = []
+    if unsure := lacking(judgement, UNSURE):
+        told.append(said("Look at these steps, of which nothing can be told: {0}.", unsure))
+    if missing := lacking(judgement, MISSING):
+        told.append(arranged("{0:capital}: {1}.", STATES[MISSING](), missing))
     if absent := not_handed_in(judgement):
         told.append(said("Results that are not handed in: {0}.", joined(absent)))
     return told

@@ -16,7 +16,7 @@ from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
-from graphplan.marking.judge.evidence import Evidence, ImageSearch, wobbly
+from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
 from graphplan.marking.judge.exchanged import exchanged, told
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
@@ -85,6 +85,8 @@ class Judge:
             matching = self.matching(self.fits, MOST)
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
+        if self.submission.page:
+            spare = unexplained(spare, [matching.traces[place] for place in needed])
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
         self._matching = matching
         return Judgement(

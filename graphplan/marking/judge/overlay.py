@@ -311,7 +311,10 @@ def sample(state: str | None, spot: Spot) -> Iterator[Item]:
     """How marks of a verdict look, for a legend: a stroke with a point on it; what is spare without a verdict."""
     x, y = spot
     yield Polyline(PENS.get(state, SPARE), LAYER, None, ((x - 4.0, y), (x + 4.0, y)))
-    yield from _point(spot, state, None)
+    if state == UNSURE:  # its ring is wider than a row is high
+        yield Circle(PENS[UNSURE].filled("none"), LAYER, None, spot, SIZES[WRONG])
+    else:
+        yield from _point(spot, state, None)
 
 
 def _drawn(trace: Trace, spots: Sequence[Spot], state: str | None, step: int | None = None) -> Iterator[Item]:

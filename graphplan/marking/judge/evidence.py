@@ -46,6 +46,7 @@ class Evidence:
     """The traces of a file, of which some are unlabelled: where those are near to something expected, on every plan."""
 
     picture, most = False, FILED  # whether print may hide a mark; what one weighs
+    stray = -14.0  # the odds, as a logarithm, of a mistake that no table has
 
     def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int]):
         self.sheet, self.traces, self.shows, self._read = sheet, traces, submission.shows, len(submission.traces)
@@ -118,7 +119,7 @@ class Evidence:
 class ImageSearch(Evidence):
     """The traces of a picture, which is searched for more; `found` is what was: the same thing is sought once."""
 
-    picture, most = True, THERE
+    picture, most, stray = True, THERE, -14.0
 
     def __init__(self, sheet: StudentSheet, submission: Submission, traces: list[Trace], places: Sequence[int],
                  panels: Mapping[str, Rect], found: dict[tuple[Any, ...], Trace | None]):

@@ -29,7 +29,7 @@ SQUARE = 4.0  # what a mark that is clearly right may be off beyond the expected
 SPREAD = 16.0  # how much more may be won than was promised
 ODDS, AGAIN = 1.0, 6.0  # what has to speak for a mistake, three to one, and for a further one
 DOUBT, FIRST = 1.0, 100.0  # what has to speak for the other of two strokes side by side, which is tried first
-RARE, UNNAMED = -3.5, -14.0  # the odds, as logarithms, of a mistake at a step, and of one that no table has
+RARE = -3.5  # the odds, as a logarithm, of a mistake at a step
 ROUGH = 0.6  # what is seen at a glance weighs as much less
 DRIFT, OTHER = 3.0, 0.2  # mm: how far a point, which others follow, may have drifted; what is so far off is another
 HOPELESS = -4.0  # the weight of what follows from a mistake below which it is given up
@@ -156,8 +156,9 @@ class Search:
             promise = quick.by(mistake) + prior
             if promise > UNLIKELY:
                 yield Guess(step.index, mistake, prior, promise)
-        for place, value in unmatched(matching, step) if match.place is None and match.weight < 0 else ():
-            yield Guess(step.index, place, UNNAMED, quick.gain(step, value) + UNNAMED)
+        faint = match.place is None or matching.evidence.weight(match.place) < CLEAR
+        for place, value in unmatched(matching, step) if faint and match.weight < CLEAR else ():
+            yield Guess(step.index, place, matching.evidence.stray, quick.gain(step, value) + matching.evidence.stray)
 
 
 def clear(match: Match) -> bool:
@@ -170,8 +171,8 @@ KEPT = 4.0  # standard deviations within which a claim is kept
 
 
 def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float, ...]]]:
-    """The traces that no step needs, a line through one of the points that a step names, or a point on one of its
-    lines, anywhere if it names none; with what the step would have made. `walk` has gone through."""
+    """The traces that no step needs, a line through one of the points that a step names, or a point anywhere near; with
+    what the step would have made. `walk` has gone through."""
     sheet, kind = matching.sheet, step.op.gives
     mm = abs(sheet.frame(step).unit)
     on = [plain(matching.own[step.args[claim[1]]]) for claim in step.op.claims if claim[0] == "on"]
@@ -180,16 +181,13 @@ def unmatched(matching: Matching, step: Step) -> Iterator[tuple[int, tuple[float
             continue
         spots = sheet.spots(step.index, matching.traces[place])
         value = plain(sheet.seen(step, matching.own[step.index], spots, steady=True))
-        off = min((_off(kind, value, thing) for thing in on), default=0.0 if kind == POINT else ASTRAY) * mm
-        far = apart(POINT, value, np.array([complex(*plain(matching.own[step.index]))])) * mm if kind == POINT else 0.0
-        if off < KEPT * max(sheet.pencil.point, sheet.pencil.edge) and far < ASTRAY:
+        if kind == POINT:
+            near = math.dist(value, plain(matching.own[step.index])) * mm < ASTRAY
+        else:
+            off = min((float(apart(LINE, value, np.array([complex(*thing[:2])]))) for thing in on), default=math.inf)
+            near = off * mm < KEPT * max(sheet.pencil.point, sheet.pencil.edge)
+        if near:
             yield place, value
-
-
-def _off(kind: str, value: Sequence[float], thing: Sequence[float]) -> float:
-    """How far a point and a line, one of which is a step's, are from each other."""
-    line, point = (value, thing) if kind == LINE else (thing, value)
-    return float(apart(LINE, line, np.array([complex(*point[:2])])))
 
 
 class QuickScore:

@@ -26,7 +26,7 @@ MIDDLE = 0.45  # mm in which a dot's middle is weighed
 CROSSED = 0.5  # mm from a stroke: what is dark there may be its own darkness, or its crossing with another
 # How much darker than a line a dot is for sure, or may be, on no stroke, on one, or where more cross; and from where on
 # it may be as oval as it likes.
-SURE, MAYBE, BLACK = (0.8, 1.5, 1.95, 2.15, 2.5), (0.0, 1.25, 1.7, 1.9, 2.15), 2.0
+SURE, MAYBE, BLACK = (0.8, 1.5, 1.8, 1.85, 2.2), (0.0, 1.25, 1.6, 1.65, 2.0), 2.0
 
 
 def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
@@ -41,16 +41,16 @@ def dots(ink: Ink, smooth: NDArray[np.float32], usual: float) -> list[Trace]:
     return [_weighed(ink, int(i), int(j)) for i, j in zip(row[peaked], column[peaked], strict=True)]
 
 
-def marked(found: Sequence[Trace], drawn: Sequence[Trace], darkness: Callable[[Spot], float], least: Sequence[float]
-           ) -> Iterator[Trace]:
-    """The dots that are more than the strokes on which they lie; `darkness` says how much darker it is about a spot
-    than along a line, and `least` how much it must be for how many strokes."""
-    if not found:
-        return
+def marked(found: Sequence[Trace], drawn: Sequence[Trace], own: Sequence[float], usual: float,
+           darkness: Callable[[Spot], float], least: Sequence[float]) -> Iterator[Trace]:
+    """The dots that are more than the strokes on which they lie: by `darkness` at a spot they must be darker, `least`
+    times for how many strokes, than the darkest of these is by its `own`, or than is `usual`."""
     lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
-    crossed = np.bincount(lines.query(at, "dwithin", CROSSED)[0], minlength=len(found))
-    for dot, count in zip(found, crossed, strict=True):
-        if darkness(dot.spots[0]) > least[min(count, len(least) - 1)]:
+    count, beside = np.zeros(len(found), int), np.zeros(len(found))
+    for dot, line in lines.query(at, "dwithin", CROSSED).T:
+        count[dot], beside[dot] = count[dot] + 1, max(beside[dot], own[line])
+    for dot, crossed, dark in zip(found, count, beside, strict=True):
+        if darkness(dot.spots[0]) > least[min(crossed, len(least) - 1)] * (dark or usual):
             yield dot
 
 

@@ -59,16 +59,17 @@ class Ink:
 
 
 def pencil_ink(image: NDArray[np.float32], sheet: Sheet, light: Light, scale: float) -> Ink:
-    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond the frame
+    """The pencil on the straightened picture of a sheet, whose print is `light` in the same pixels; beyond its plans
     nothing is looked for."""
     paper = np.asarray(image / np.maximum(light, TINT), np.float32)
     dark = np.clip(1 - paper / _lit(paper), 0, 1).astype(np.float32)
     inked = ((light < TINT) | words(sheet, scale)).astype(np.uint8)
     wide = cv2.morphologyEx(cv2.dilate(inked, _disc(BESIDE * scale)), cv2.MORPH_CLOSE, _disc(BETWEEN * scale / 2))
-    frame, hidden = sheet.frame, np.ones(wide.shape, bool)
-    rows = slice(int((sheet.height - frame.top) * scale), int((sheet.height - frame.bottom) * scale))
-    columns = slice(int(frame.left * scale), int(frame.right * scale))
-    hidden[rows, columns] = wide[rows, columns] > 0
+    hidden = np.ones(wide.shape, bool)
+    for panel in sheet.panels.values():
+        rows = slice(int((sheet.height - panel.top) * scale), int((sheet.height - panel.bottom) * scale))
+        columns = slice(int(panel.left * scale), int(panel.right * scale))
+        hidden[rows, columns] = wide[rows, columns] > 0
     dark[hidden] = 0.0
     return Ink(dark, hidden, scale, sheet.height)
 

@@ -16,6 +16,7 @@ from typing import Any
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from shapely import LineString, STRtree, points
 
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -82,8 +83,11 @@ BEYOND = 5.0  # mm beyond the expected ends, in which it may go on
 SEEN, SHORTEST = 0.5, 5.0  # the share of a faint line that must be seen, and mm of it
 TURNED = 40.0  # degrees of a rim from which on it tells its own centre
 LEAST = 2.0  # mm of a rim
-PARTS = 40  # places along a line, at which its darkness is read off
+PARTS, ON = 40, 0.25  # places along a line, at which its darkness is read off, and mm from it
 ABOUT, BESIDE = 0.35, 0.8  # mm about a dot, in which its darkest spot is, and no print, whose rest it might be
+LONG, STROKE, RIM = 6.0, 0.7, 0.15  # mm of a stroke that is no letter's, and of its width, and of half a rim's
+LARGEST = 1.4  # mm of a dot
+LETTER = 0.8  # mm by which a piece beside strokes is larger than a ring, if it is a letter's
 HIDDEN = 0.6  # the share of a stroke that print may hide
 
 
@@ -99,10 +103,11 @@ class PencilPage:
 
     @cached_property
     def traces(self) -> tuple[Trace, ...]:
-        """Everything that is found without knowing what is expected."""
-        sure = marked(self._dots, self._drawn, self._darkness, SURE)
-        alone = (dot for dot in sure if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any())
-        return tuple(self._blurred(trace) for trace in (*self._drawn, *self._rings, *alone))
+        """Everything that is found without knowing what is expected, but what may be parts of letters."""
+        ringed = (dot for dot, ring in zip(self._rings, self._ringed, strict=True) if self._sure(ring))
+        alone = (dot for dot in self._marked(SURE) if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any()
+                 and self._blob(dot.spots[0], ABOUT) < LARGEST)
+        return tuple(self._blurred(trace) for trace in (*self._drawn, *ringed, *alone))
 
     def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:
         """The share of some spots, of those that print leaves open, that have a crest, or a dot, so near; None where
@@ -183,16 +188,47 @@ class PencilPage:
         return np.asarray(cv2.GaussianBlur(self.ink.dark, (0, 0), WIDE * self.ink.scale), np.float32)
 
     @cached_property
+    def _own(self) -> list[float]:
+        """How dark each blurred stroke is along its crest, where print leaves it open."""
+        found, size = [], 2 * round(ON * self.ink.scale) + 1
+        crests = cv2.dilate(self._smooth, np.ones((size, size), np.uint8))
+        for trace in self._drawn:
+            ends = np.array(trace.spots)
+            at = ends[0] + np.linspace(0.05, 0.95, PARTS)[:, None] * (ends[1] - ends[0]) if trace.kind == LINE else ends
+            rows, columns = self.ink.cells(at)
+            dark = crests[rows, columns][~self.ink.hidden[rows, columns]]
+            found.append(max(DARK, float(np.median(dark))) if len(dark) else self._grey)
+        return found
+
+    @cached_property
     def _usual(self) -> float:
-        """How dark the blurred lines are."""
-        ends = [np.array(trace.spots) for trace in self._drawn if trace.kind == LINE]
-        spots = [one + (two - one) * part for one, two in ends for part in np.linspace(0.05, 0.95, PARTS)]
-        dark = float(np.median(self._smooth[self.ink.cells(np.array(spots))])) if spots else 1.0
-        return max(dark, DARK)
+        """How dark the blurred strokes are."""
+        return float(np.median(self._own)) if self._drawn else 1.0
+
+    @cached_property
+    def _blobs(self) -> tuple[NDArray[np.int32], NDArray[np.float64]]:
+        """What is drawn beside all long strokes, piece by piece, and how large each is, in mm; letters, mostly."""
+        dark = np.asarray(self._smooth > self._usual / 2, np.uint8)
+        for line in self._long.geometries:
+            spots = np.rint(self.ink.pixels(np.array(line.coords))).astype(np.int32)
+            cv2.polylines(dark, [spots], False, 0, max(1, round(STROKE * self.ink.scale)))
+        _, which, sizes, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
+        large = sizes[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(axis=1) / self.ink.scale
+        large[0] = 0.0
+        return which, large
+
+    def _blob(self, spot: Spot, reach: float) -> float:
+        """How large the largest piece is that is so near to a spot, in mm."""
+        which, large = self._blobs
+        return float(large[self._about(which, spot, reach)].max())
 
     def _darkness(self, spot: Spot) -> float:
-        """How much darker it is near a spot than along the lines."""
-        return float(self._about(self._smooth, spot, ABOUT).max()) / self._usual
+        """How dark it is near a spot."""
+        return float(self._about(self._smooth, spot, ABOUT).max())
+
+    def _marked(self, least: Sequence[float]) -> list[Trace]:
+        """The dots that are so much darker than their strokes."""
+        return list(marked(self._dots, self._drawn, self._own, self._usual, self._darkness, least))
 
     def _about(self, picture: NDArray[Any], spot: Spot, reach: float) -> NDArray[Any]:
         """The piece of a picture about a spot, so many mm to each side."""
@@ -207,7 +243,7 @@ class PencilPage:
     @cached_property
     def _faint(self) -> list[Trace]:
         """The dots that may be points."""
-        return [self._blurred(dot) for dot in (*self._rings, *marked(self._dots, self._drawn, self._darkness, MAYBE))]
+        return [self._blurred(dot) for dot in (*self._rings, *self._marked(MAYBE))]
 
     @cached_property
     def _rings(self) -> list[Trace]:
@@ -216,12 +252,38 @@ class PencilPage:
 
     @cached_property
     def _ringed(self) -> list[Ring]:
+        return rings(self._clear, self.ink, self._grey)
+
+    @cached_property
+    def _grey(self) -> float:
+        """How dark the pencil is on all that is clear."""
         dark = self.ink.dark[self.ink.cells(self._clear.spots)]
-        return rings(self._clear, self.ink, float(np.median(dark)) if len(dark) else 1.0)
+        return float(np.median(dark)) if len(dark) else 1.0
 
     @cached_property
     def _clear(self) -> Ridges:
         return clear(self.found, self.ink)
+
+    def _sure(self, ring: Ring) -> bool:
+        """Whether a ring is no part of a letter: a stroke runs through it, or else it stands alone where others mark
+        points by rings."""
+        return self._run(ring) or (self._points_ringed and self._blob(
+            ring.middle, ring.radius + RIM) < 2 * ring.radius + LETTER)
+
+    @cached_property
+    def _points_ringed(self) -> bool:
+        """Whether strokes run through most rings, as they do where a hand marks points by rings."""
+        return 2 * sum(map(self._run, self._ringed)) > len(self._ringed)
+
+    def _run(self, ring: Ring) -> bool:
+        """Whether a long stroke runs through the middle of a ring."""
+        return bool(len(self._long.query(points(ring.middle), "dwithin", ring.radius / 2)))
+
+    @cached_property
+    def _long(self) -> STRtree:
+        """The strokes that are too long for a letter's."""
+        lines = (LineString(trace.spots) for trace in self._drawn)
+        return STRtree([line for line in lines if line.length > LONG])
 
     @cached_property
     def _dots(self) -> list[Trace]:

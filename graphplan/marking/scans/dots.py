@@ -45,7 +45,8 @@ def marked(found: Sequence[Trace], drawn: Sequence[Trace], own: Sequence[float],
            darkness: Callable[[Spot], float], least: Sequence[float]) -> Iterator[Trace]:
     """The dots that are more than the strokes on which they lie: by `darkness` at a spot they must be darker, `least`
     times for how many strokes, than the darkest of these is by its `own`, or than is `usual`."""
-    lines, at = STRtree([LineString(trace.spots) for trace in drawn]), points([dot.spots[0] for dot in found])
+    lines = STRtree([LineString(trace.spots) for trace in drawn])
+    at = points(np.array([dot.spots[0] for dot in found]).reshape(-1, 2))
     count, beside = np.zeros(len(found), int), np.zeros(len(found))
     for dot, line in lines.query(at, "dwithin", CROSSED).T:
         count[dot], beside[dot] = count[dot] + 1, max(beside[dot], own[line])
@@ -67,7 +68,7 @@ def _weighed(ink: Ink, row: int, column: int) -> Trace:
     return Trace(POINT, ((float(at[0]), float(at[1])),), blur=wide / 10)
 
 
-RADII = np.arange(0.5, 1.41, 0.1)  # mm of rings
+RADII, SMALLEST = np.arange(0.5, 1.41, 0.1), 0.5  # mm of rings
 CELL, SIDES = 0.2, 16  # mm: how closely middles are voted for, and from how many sides
 HEARD = 8  # sides that must vote
 ROUND, SEEN = 32, 0.6  # places around a ring at which it is looked at, and the part of them that print must leave open
@@ -136,6 +137,8 @@ def _looked(ink: Ink, middle: Spots, radius: float, usual: float) -> Ring | None
         design = np.column_stack([ways[rim], np.ones(int(rim.sum()))])
         u, v, radius = np.linalg.lstsq(design, reach[dark.argmax(axis=0)][rim], rcond=None)[0].tolist()
         middle = middle + np.clip([u, v], -CELL, CELL)
+    if radius < SMALLEST:
+        return None
     rim = _dark(ink, middle + np.multiply.outer(radius + np.array([-ROOM, 0.0, ROOM]), ways)).max(axis=0)
     beside = _dark(ink, middle + np.multiply.outer(radius + np.array([-ASIDE, ASIDE]), ways)).max(axis=0)
     seen = rim >= 0

@@ -5,7 +5,9 @@ What a file says of its size is read before anything is unpacked, so that a smal
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from collections.abc import Iterator
 from contextlib import closing, contextmanager
 from pathlib import Path
@@ -22,6 +24,8 @@ Grey = NDArray[np.uint8]
 Light = NDArray[np.float32]
 Spots = NDArray[np.float64]  # rows of x and y
 HEAVIEST, MOST, FEWEST = 96 * MB, 120_000_000, 400  # bytes of a file, pixels of a picture, pixels of its least side
+STDERR = 2  # its number to the system
+HALVED, SEEN = 60_000_000, 300_000  # pixels above which half as many a side will do, and in which print is seen
 BLANK = 30  # shades of grey between paper and print, at least
 DPI, POINTS, PAGES = 200, 72, 20  # how finely a PDF page is drawn, its own units to the inch, how many pages are tried
 PNG, JPEG, PDF = b"\x89PNG\r\n\x1a\n", b"\xff\xd8\xff", b"%PDF-"
@@ -79,13 +83,30 @@ def _jpeg_size(data: bytes) -> tuple[int, int] | None:
 def _decoded(path: Path, data: bytes, size: tuple[int, int] | None) -> Grey:
     """The picture itself, upright as the camera was held."""
     _bounded(path, size)
+    half = size is not None and size[0] * size[1] > HALVED
     try:
-        image = cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_GRAYSCALE)
+        with _silence():
+            image = cv2.imdecode(np.frombuffer(data, np.uint8),
+                                 cv2.IMREAD_REDUCED_GRAYSCALE_2 if half else cv2.IMREAD_GRAYSCALE)
     except cv2.error:
         image = None
     if image is None:
         raise Refused(f"{path}", "the picture is broken", DO)
     return np.asarray(image, np.uint8)
+
+
+@contextmanager
+def _silence() -> Iterator[None]:
+    """Nothing is written to standard error within: decoders tell there what they find, past all of Python."""
+    sys.stderr.flush()
+    kept, nowhere = os.dup(STDERR), os.open(os.devnull, os.O_WRONLY)
+    try:
+        os.dup2(nowhere, STDERR)
+        yield
+    finally:
+        os.dup2(kept, STDERR)
+        os.close(nowhere)
+        os.close(kept)
 
 
 def count(path: Path) -> int:
@@ -157,8 +178,8 @@ def _drawn(path: Path, document: Any, number: int) -> Grey:
 
 
 def contrast(image: Grey, name: str) -> None:
-    """Refuse a picture on which nothing is dark, or nothing light."""
-    dark, light = np.percentile(image[::4, ::4], [0.2, 90])
+    """Refuse a picture on which nothing is dark, or nothing light: noise is neither, from afar."""
+    dark, light = np.percentile(smaller(image, SEEN), [0.2, 90])
     if light - dark < BLANK:
         raise Refused(name, "the picture is blank", DO)
 

@@ -91,6 +91,7 @@ def _lit(paper: NDArray[np.float32]) -> NDArray[np.float32]:
 
 
 WIDTH = 0.18  # mm: half a pencil line, by which the picture is smoothed
+SMOOTHEST = 6e-4  # the grain of the smoothest paper, in the same measure as strengths
 FAINT, CLEAR = 2.5, 4.5  # strengths, in standard deviations of the paper's own, that may be a line and that are one
 ROW = 0.9  # mm of crests without a gap
 PART = 0.7  # of a pixel, that a crest's middle is from its pixel's
@@ -130,7 +131,7 @@ def ridges(ink: Ink) -> Ridges:
     strength = bend - (xx + yy) / 2  # minus the lesser eigenvalue
     strength[ink.hidden] = 0.0
     open_ = strength[~ink.hidden][::7]
-    grain = max(deviation(open_ - np.median(open_)), 1e-6)
+    grain = max(deviation(open_ - np.median(open_)), SMOOTHEST)
     floor = float(np.median(open_)) + FAINT * grain
     row, column = np.nonzero(strength > floor)
     values = [part[row, column].astype(float) for part in (xx, yy, xy)]

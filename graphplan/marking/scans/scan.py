@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -22,10 +23,10 @@ from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.scans import strokes
 from graphplan.marking.scans.dots import DARK, MAYBE, SURE, WIDE, Ring, dots, marked, ringed, rings
-from graphplan.marking.scans.image import Grey, contrast, pictures, smaller
+from graphplan.marking.scans.image import Grey, Light, contrast, pictures, smaller
 from graphplan.marking.scans.pencil_pixels import CLEAR, Ink, Ridges, clear, pencil_ink, ridges
 from graphplan.marking.scans.printed_ink import picture
-from graphplan.marking.scans.straighten import Warp, straighten
+from graphplan.marking.scans.straighten import Registered, Warp, straighten
 from graphplan.marking.traces import Frames, Spot, Submission, Trace
 from graphplan.sheet.plates.display import Sheet
 
@@ -71,9 +72,22 @@ def _page(image: Grey, printed: Sheet, code: int | None, name: str) -> PencilPag
     contrast(image, name)
     scale = min(SCALE, (PIXELS / (printed.width * printed.height)) ** 0.5)
     light = picture(printed, scale)
-    straight, found = straighten(smaller(image, PIXELS), printed, light, scale, code, name)
+    straight, found = _straight(smaller(image, PIXELS), printed, light, scale, code, name)
     pencil = pencil_ink(straight, printed, light, scale)
     return PencilPage(pencil, ridges(pencil), found.error, found.warp)
+
+
+def _straight(image: Grey, printed: Sheet, light: Light, scale: float, code: int | None, name: str
+              ) -> tuple[Light, Registered]:
+    """The picture laid over the sheet, as it is or mirrored, as a sheet is that was scanned from its back."""
+    try:
+        return straighten(image, printed, light, scale, code, name)
+    except Refused as refused:
+        with suppress(Refused):
+            straight, found = straighten(np.ascontiguousarray(image[:, ::-1]), printed, light, scale, code, name)
+            mirror = np.array([[-1, 0, image.shape[1] - 1], [0, 1, 0], [0, 0, 1]], float)
+            return straight, replace(found, warp=replace(found.warp, plane=mirror @ found.warp.plane))
+        raise refused
 
 
 Values = NDArray[np.float64]
@@ -215,7 +229,7 @@ class PencilPage:
         _, which, sizes, _ = cv2.connectedComponentsWithStats(dark, connectivity=8)
         large = sizes[:, [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT]].max(axis=1) / self.ink.scale
         large[0] = 0.0
-        return which, large
+        return np.asarray(which, np.int32), np.asarray(large, np.float64)
 
     def _blob(self, spot: Spot, reach: float) -> float:
         """How large the largest piece is that is so near to a spot, in mm."""
@@ -268,7 +282,7 @@ class PencilPage:
         """Whether a ring is no part of a letter: a stroke runs through it, or else it stands alone where others mark
         points by rings."""
         return self._run(ring) or (self._points_ringed and self._blob(
-            ring.middle, ring.radius + RIM) < 2 * ring.radius + LETTER)
+            (float(ring.middle[0]), float(ring.middle[1])), ring.radius + RIM) < 2 * ring.radius + LETTER)
 
     @cached_property
     def _points_ringed(self) -> bool:

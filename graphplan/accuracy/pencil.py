@@ -34,6 +34,10 @@ class Pencil:
         """The angle as the slope that a line gets by it, in first order."""
         return math.radians(self.angle)
 
+    def times(self, factor: float) -> Pencil:
+        """A pencil that is so many times as unsteady."""
+        return Pencil(*(size * factor for size in asdict(self).values()))
+
     @property
     def model(self) -> dict[str, float]:
         """The model as data."""
@@ -44,6 +48,33 @@ class Pencil:
         """The model in words."""
         sizes = (self.point, self.edge, self.angle, self.opening)
         return said("points ±{0} mm, edges ±{1} mm, set squares ±{2}°, openings ±{3} mm", *map(digits, sizes))
+
+
+@dataclass(frozen=True)
+class SeenPencil:
+    """The pencil by which a drawing is judged: so many times as unsteady as the `stated` one; the standard deviation
+    of reading its marks, mm, beside what is stated for each. `marks` is how many of them tell it, 0 if it is assumed.
+    """
+
+    stated: Pencil
+    scale: float
+    reading: float
+    marks: int = 0
+
+    @property
+    def pencil(self) -> Pencil:
+        return self.stated.times(self.scale)
+
+    @property
+    def told(self) -> Said:
+        """In words."""
+        point, reading = digits(self.pencil.point, 2), digits(self.reading, 2)
+        return said("{0} mm, marks measured to {1} mm", point, reading) if self.reading else said("{0} mm", point)
+
+    @property
+    def record(self) -> dict[str, float]:
+        """As data, in mm and degrees."""
+        return {**self.pencil.model, "reading": self.reading, "marks": self.marks}
 
 
 SHEET = 1000.0  # mm: no hand is so far off on any sheet

@@ -225,13 +225,12 @@ def _one(desk: Desk, path: Path) -> Findings:
 
 def _lines(one: Marked) -> Iterator[Said]:
     """The verdict in a few lines."""
-    from graphplan.marking.judge.findings import asked, counted, look_at, miss, opinion, read_as, wrong_numbers
-    from graphplan.phrases import arranged
+    from graphplan.marking.judge.findings import asked, look_at, miss, opinion, read_as, summary, wrong_numbers
 
     yield from read_as(one.judgement)
     yield opinion(one.judgement)
     yield from asked(one.judgement)
-    yield arranged("{0:capital}.", counted(one.judgement))
+    yield from summary(one.judgement)
     yield from look_at(one.judgement)
     wrong = wrong_numbers(one.judgement)  # the first is the opinion, if no step is wrong
     yield from map(miss, wrong if one.judgement.first else wrong[1:])

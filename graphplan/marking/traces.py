@@ -130,8 +130,9 @@ class Submission:
     A file of measured points shows no lines, so that none is missing there. A picture's faint lines are found where
     they are expected: its `page` is asked for them. `tips` are the sharp ends of what is filled, as heads of arrows.
     `letters` stand beside marks; which of them each names, the whole drawing tells.
-    `stated` says that the blur of its traces is what the student gives; else it is the least that it may be.
     `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.
+    `measured` says that its marks were measured and written down, `stated` how precisely in the student's own words:
+    else their blur is the least that it may be.
     """
 
     name: str
@@ -142,5 +143,6 @@ class Submission:
     page: Searched | None = None
     tips: tuple[Spot, ...] = ()
     letters: tuple[Lettering, ...] = ()
+    measured: bool = False
     stated: bool = False
     millimetres: float = math.inf

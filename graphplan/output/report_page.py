@@ -18,13 +18,13 @@ from graphplan.marking.judge.findings import (
     FIGURES,
     OFF,
     called,
-    counted,
     figures,
     look_at,
     named,
     opinion,
     quantity,
     read_as,
+    summary,
     written,
 )
 from graphplan.marking.judge.score import GROUPS, KINDS, Score
@@ -130,7 +130,7 @@ class _Report(HtmlPage):
         for line in read_as(self.judgement):
             yield f'<p class="reading">{self.set(line)}</p>'
         yield f'<p class="opinion{wrong}">{self.set(opinion(self.judgement))}</p>'
-        yield f"<p>{self.say(arranged('{0:capital}.', counted(self.judgement)))}</p>"
+        yield from (f"<p>{self.set(told)}</p>" for told in summary(self.judgement))
         yield from (f"<p>{self.set(told)}</p>" for told in look_at(self.judgement))
         yield from self._score()
         for sheet in sheets:

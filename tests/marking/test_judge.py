@@ -124,7 +124,7 @@ def test_the_tolerance_of_every_mark_is_told() -> None:
 
 
 def test_a_coarser_pencil_is_judged_more_mildly() -> None:
-    """A mark a millimetre off is wrong with a sharp pencil, and right with a blunt one."""
+    """A mark a millimetre off is wrong with a sharp pencil, and right with a blunt one, if it alone tells which."""
     drawing, sheet = composed("four-bar")
     drawn = draw(drawing, frames(drawing, sheet), Pencil(), 1)
     shifted = [replace(trace, spots=((trace.spots[0][0] + 1.5, trace.spots[0][1]),)) if trace.label == "M_1" else trace
@@ -132,6 +132,21 @@ def test_a_coarser_pencil_is_judged_more_mildly() -> None:
     submission = Submission("x.csv", tuple(shifted), shows=frozenset({POINT}))
     assert judge(drawing, sheet, submission, PENCIL).first
     assert not judge(drawing, sheet, submission, Pencil(0.5, 0.5, 0.25, 0.5)).first
+
+
+@pytest.mark.parametrize("size", [0.2, 0.5, 2.0])
+def test_no_pencil_hides_what_is_a_tenth_of_a_plan_off(size: float) -> None:
+    """However coarse it is said to be."""
+    drawing, sheet = composed("four-bar")
+    coarse = Pencil(size, size, size / 2, size)
+    drawn = draw(drawing, frames(drawing, sheet), PENCIL, 1)
+    for mark in ("b", "v_b", "B_1"):
+        moved = [replace(trace, spots=((trace.spots[0][0] + 30.0 * (trace.label == mark), trace.spots[0][1]),))
+                 for trace in traced(drawn) if trace.kind == POINT]
+        found = judge(drawing, sheet, Submission("x.csv", tuple(moved), shows=frozenset({POINT})), coarse)
+        assert found.first
+        assert drawing.drawn.steps[found.first.step].name == mark
+        assert found.first.tolerance <= 15.0
 
 
 def test_missing_marks_are_told_unless_others_rest_on_them() -> None:

@@ -93,9 +93,16 @@ def opinion(judgement: Judgement) -> Said:
 
 
 def read_as(judgement: Judgement) -> list[Said]:
-    """As what a drawing was read, where it is not drawn as the task's own sheet is, and which results are there twice.
+    """As what a drawing was read; nothing where it is drawn as the task's own sheet is."""
+    return [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+
+
+def summary(judgement: Judgement) -> list[Said]:
+    """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice.
     """
-    told = [said("Read as {0}.", judgement.reading)] if judgement.reading else []
+    told = [arranged("{0:capital}.", counted(judgement))]
+    if judgement.pencil is not None:
+        told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.told))
     return told + [twice(number) for number in judgement.numbers if number.again]
 
 
@@ -185,6 +192,7 @@ def record(judgement: Judgement, score: Score) -> dict[str, Any]:
         "title": judgement.drawing.scene.title,
         "drawing": judgement.name,
         "reading": str(judgement.reading),
+        "pencil": None if judgement.pencil is None else judgement.pencil.record,
         "first_wrong": None if first is None else _complaint(judgement, first),
         "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
         "numbers": [_number(verdict) for verdict in judgement.numbers],
@@ -266,7 +274,8 @@ class Remarks(Words):
         for line in read_as(judgement):
             yield from self.paragraph(line, wide)
         yield from self.paragraph(opinion(judgement), wide)
-        yield from self.paragraph(arranged("{0:capital}.", counted(judgement)), wide)
+        for line in summary(judgement):
+            yield from self.paragraph(line, wide)
 
     def _legend(self, wide: float) -> Iterator[TextRow]:
         yield self._heading(said("Legend"))

@@ -11,7 +11,7 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any
 
-from graphplan.accuracy.pencil import Pencil
+from graphplan.accuracy.pencil import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import LINE
@@ -24,6 +24,7 @@ from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.register import Register
 from graphplan.marking.judge.search import Search
+from graphplan.marking.judge.seen_pencil import as_measured, assumed, blurred, seen_pencil
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.units import in_mm
 from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
@@ -40,6 +41,7 @@ STUMP = 10.0  # mm: a shorter line of a picture may be a piece of an arc or of a
 NOWHERE, RIVALS = 1e6, 2  # mm: as far off as no sheet is; how many frames of a plan are looked at closely
 LITTLE = -10.0  # what may speak against a frame in which no mistake is looked for
 MOST = 4  # mistakes that are looked for
+COARSER = 1.1  # times the stated pencil: a drawing of a program is judged by one that is so much coarser
 ALARM = 0.002  # how often a faultless drawing may be called wrong
 
 
@@ -49,17 +51,19 @@ def judge(drawing: Construction, composition: Composition, submission: Submissio
     Fails with `Refused` where the mechanism is not to be found on it, or a hand without errors has no tolerance.
     """
     submission, unit = in_mm(drawing, composition, submission, pencil)
-    return Judge(Reading(drawing, composition, submission, unit), pencil).judgement
+    return Judge(Reading(drawing, composition, submission, unit), assumed(pencil, submission)).steadied.judgement
 
 
 class Judge:
     """One reading of a drawing, judged by its construction."""
 
-    def __init__(self, reading: Reading, pencil: Pencil):
+    def __init__(self, reading: Reading, hand: SeenPencil):
+        self.hand, pencil = hand, hand.pencil
         if not all(size > 0 for size in pencil.model.values()):
             raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
-        self.submission = lettered(self.drawing, reading.task, reading.submission, pencil)
+        self.named = lettered(self.drawing, reading.task, reading.submission, pencil)
+        self.submission = blurred(self.named, hand.reading)
         plan_of_step = StudentSheet(self.drawing, {}, pencil).plan_of_step
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         traces = self.submission.traces
@@ -76,23 +80,40 @@ class Judge:
         return self._frames()
 
     @cached_property
+    def likeliest(self) -> Matching:
+        """The way through in the frames that fit best, with the mistakes that make it likelier, letters that marks have
+        of each other being put right."""
+        matching = self.matching(self.fits, MOST)
+        self._exchanged = list(exchanged(matching))
+        if self._exchanged:
+            self.labels |= {step: self.labels[other] for pair in self._exchanged
+                            for step, other in (pair, pair[::-1])}
+            matching = self.matching(self.fits, MOST)
+        return matching
+
+    @property
+    def steadied(self) -> Judge:
+        """The same reading, judged by the pencil that the drawing shows: pictures' traces have their own blur, and what
+        a program draws is finer than any pencil."""
+        if self.submission.page:
+            return self
+        hand = seen_pencil(self.likeliest, self.hand, self.reading.submission)
+        return Judge(self.reading, hand) if hand and (self.submission.measured or hand.scale > COARSER) else self
+
+    @cached_property
     def judgement(self) -> Judgement:
         """The verdicts of the frames that fit best, the wrong ones explained."""
-        matching = self.matching(self.fits, MOST)
-        pairs = list(exchanged(matching))
-        if pairs:
-            self.labels |= {step: self.labels[other] for pair in pairs for step, other in (pair, pair[::-1])}
-            matching = self.matching(self.fits, MOST)
+        matching = self.likeliest
         needed = matching.used | matching.over
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         if self.submission.page:
             spare = unexplained(spare, [matching.traces[place] for place in needed])
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
-        self._matching = matching
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(told(
-                verdicts(matching, numbers), pairs, matching)), tuple(spare), numbers, joined(self._told()))
+                verdicts(matching, numbers), self._exchanged, matching)), tuple(spare), numbers, joined(self._told()),
+            self.hand if self.hand.marks else None)
 
     @property
     def lacks(self) -> bool:
@@ -111,7 +132,7 @@ class Judge:
         found = self.judgement
         wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
         numbers = sum(NUMBER if number.state != WRONG else -NUMBER for number in found.numbers)
-        return (self.reading.prior + likelihood(self._matching) + numbers
+        return (self.reading.prior + likelihood(self.likeliest) + numbers
                 + sum(KNOWN if kind else UNNAMED for kind in wrong))
 
     @property
@@ -142,7 +163,8 @@ class Judge:
         if not self.submission.traces:  # numbers alone: as on the task's sheet
             return {panel: Fit(PlanFrame(complex(*view.origin), view.scale))
                     for panel, view in self.reading.composition.views.items()}
-        register = Register(replace(self.reading, submission=self.submission), self.pencil, self.labels)
+        seen = replace(self.reading, submission=self.submission)
+        register = Register(seen, as_measured(self.pencil, self.submission), self.labels)
         if self.submission.frames.keys() >= set(register.panels):
             return {panel: Fit(self.submission.frames[panel]) for panel in register.panels}
         mechanism = register.mechanism()
@@ -251,17 +273,17 @@ def judge_any_method(drawing: Construction, composition: Composition, submission
     Other readings are thought of only where a mark is wrong or missing: velocities of another scale or sense, and
     unless `plan` names one, other plans; other forms of each. Fails as :func:`judge` does.
     """
-    best = Judge(seen_right_way(drawing, composition, submission, pencil), pencil)
+    best = first = Judge(seen_right_way(drawing, composition, submission, pencil), assumed(pencil, submission)).steadied
     if best.lacks:
-        seen = replace(best.submission, letters=())
+        seen = replace(best.named, letters=())
         proposer = Proposer(best.reading, seen, best.fits[MECHANISM].frame, pencil, plan, inertia, construct)
         if best.orphans and (own := proposer.with_all_ends()):
-            best = Judge(own, pencil)
+            best = Judge(own, best.hand)
         task, best = best, _likelier(best, proposer.proposed())
         if best.unexplained:
             readings = [best.reading] if best is task else [best.reading, task.reading]
             best = _likelier(best, (form for reading in readings for form in proposer.forms(reading)))
-    return best.judgement
+    return (best if best is first else best.steadied).judgement
 
 
 def _likelier(best: Judge, readings: Iterable[Reading]) -> Judge:
@@ -269,7 +291,7 @@ def _likelier(best: Judge, readings: Iterable[Reading]) -> Judge:
     others: list[tuple[float, int, Judge]] = []
     for reading in readings:
         with suppress(Refused):
-            other = Judge(reading, best.pencil)
+            other = Judge(reading, best.hand)
             others.append((other.glance, len(others), other))
     for glance, _, other in sorted(others, reverse=True, key=lambda one: one[:2])[:CLOSELY]:
         if glance + DOUBT > best.weight and other.weight > best.weight:

@@ -32,6 +32,7 @@ FRAME_ERRORS, SPOT_ERRORS = 4, 6  # of a plan: its turn, scale and place; of a t
 SHORT_ARC = math.radians(60)  # of a shorter arc only the radius is measured, not the centre
 FLAT = 1e-9  # of the largest variance: a smaller one is none
 NONE = np.finfo(float).tiny
+LEAST, SHARE, MOST = 3.0, 0.1, 15.0  # a pencil coarser than the usual one hides this share of a plan's diagonal, mm
 
 SURVIVAL: dict[int, Callable[[float], float]] = {  # how often a sum of n squares is larger than x
     1: lambda x: math.erfc(math.sqrt(x / 2)),
@@ -52,10 +53,14 @@ def bound(freedoms: int, chance: float) -> float:
 
 @dataclass(frozen=True)
 class Residual:
-    """How far a trace is from a thing, spot by spot in mm, with the covariance of that."""
+    """How far a trace is from a thing, spot by spot in mm, with the covariance of that, and what it is made of: the
+    part of each error."""
 
     off: Any
     covariance: Any
+    partials: Any = None
+    most: float = math.inf  # mm: beyond it, what only a `coarse` pencil allows is no slip of a pencil
+    coarse: float = 1.0  # how many times as large the variance is as that of the usual pencil
 
     @cached_property
     def _parts(self) -> tuple[Any, Any]:
@@ -81,8 +86,10 @@ class Residual:
         """How far off it might be this way, in mm; of no deviation, on the average."""
         most, square = bound(len(self.off), chance), self.square
         if square > FLAT and self.size > 0:
-            return self.size * math.sqrt(most / square)
-        return math.sqrt(most * float(np.mean(self._parts[0])))
+            allowed = self.size * math.sqrt(most / square)
+        else:
+            allowed = math.sqrt(most * float(np.mean(self._parts[0])))
+        return min(allowed, max(self.most, allowed / math.sqrt(self.coarse)))
 
     def vague(self, sharp: float) -> float:
         """How much less it tells to be there than within so many mm: by how much larger its tolerance is, as a
@@ -90,7 +97,9 @@ class Residual:
         return float(np.sum(np.log(np.maximum(self._parts[0] / sharp**2, 1.0)))) / 2
 
     def fits(self, chance: float) -> bool:
-        return self.square <= bound(len(self.off), chance)
+        """Whether it is a slip of the pencil, however coarse that is."""
+        most, square = bound(len(self.off), chance), self.square
+        return square <= most and (self.size <= self.most or self.coarse * square <= most)
 
 
 class PointResidual(Residual):
@@ -156,6 +165,14 @@ class StudentSheet:
     def domain(self) -> Gradients:
         return Gradients(self._starts[-1] + FRAME_ERRORS * len(self.fits))
 
+    @cached_property
+    def reads(self) -> Any:
+        """Which errors are those of reading a trace, by their places."""
+        found = np.zeros(self._starts[-1] + FRAME_ERRORS * len(self.fits), dtype=bool)
+        for start in self._starts[1:]:
+            found[start - SPOT_ERRORS:start] = True
+        return found
+
     def errors(self, index: int) -> list[Any]:
         """The slips of the hand at a step."""
         start = self._starts[index]
@@ -216,7 +233,24 @@ class StudentSheet:
         scale = abs(self.frame(step).unit)
         partials = np.array([domain.partials(part) for part in parts]) * scale
         off = np.array([_plain(part) for part in parts]) * scale
-        return (PointResidual if kind == POINT else Residual)(off, partials @ partials.T)
+        most = self.most(step) if self.coarse > 1.0 else math.inf
+        found = PointResidual if kind == POINT else Residual
+        return found(off, partials @ partials.T, partials, most, self.coarse)
+
+    @cached_property
+    def coarse(self) -> float:
+        """How many times as large a variance is as that of the usual pencil, at most."""
+        usual = Pencil().model
+        return max(1.0, *((size / usual[name]) ** 2 for name, size in self.pencil.model.items()))
+
+    def most(self, step: Step) -> float:
+        """The most that a coarse pencil hides at a step, mm: a share of its plan."""
+        home = self.plan_of_step[step.index]
+        spots = np.array([complex(*value[:2]) for other, value, plan in zip(
+            self.drawing.drawn.steps, self.drawing.values, self.plan_of_step, strict=True)
+            if plan == home and other.op.gives == POINT])
+        across = math.hypot(float(np.ptp(spots.real)), float(np.ptp(spots.imag))) if len(spots) else 0.0
+        return min(max(LEAST, SHARE * across * self.mm(home)), MOST)
 
     def seen(self, step: Step, expected: Any, spots: Spots, steady: bool) -> Any:
         """The value of a trace as a step's: a line runs the way it should, and where its spots are not `steady` enough

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass
 
+from graphplan.accuracy.pencil import SeenPencil
 from graphplan.kernel.kinds import Movement
 from graphplan.marking.traces import Frames, Number, Trace
 from graphplan.methods.construction import Construction
@@ -88,7 +89,7 @@ class Judgement:
     """All that is said of a drawing.
 
     `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for. `reading`
-    says as what it was read, where that is not what the task's own sheet has.
+    says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
     """
 
     name: str
@@ -99,6 +100,7 @@ class Judgement:
     spare: tuple[Trace, ...] = ()
     numbers: tuple[NumberVerdict, ...] = ()
     reading: Said = AS_THE_TASK
+    pencil: SeenPencil | None = None
 
     @property
     def judged(self) -> list[Verdict]:

@@ -160,7 +160,8 @@ class _CsvReader(_Reader):
         if {"mark", "x", "y"} <= set(header):
             traces = [trace for where, row in rows if (trace := self._marked(where, row))]
             stated = any(trace.blur for trace in traces)
-            return Submission(self.path.name, self.rounded(traces), shows=_shown(traces), stated=stated)
+            return Submission(self.path.name, self.rounded(traces), shows=_shown(traces), measured=True,
+                              stated=stated)
         if "quantity" in header:
             numbers = [found for where, row in rows if (found := self._result(where, row))]
             return Submission(self.path.name, numbers=tuple(numbers))
@@ -246,7 +247,7 @@ class _TomlReader(_Reader):
                   for panel, table in self._table("frames", tables.get("frames", {})).items()}
         shown = _shown(traces) if traces else frozenset()
         return Submission(self.path.name, self.rounded(traces), tuple(numbers), shown, frames,
-                          stated="precision" in tables)
+                          measured=True, stated="precision" in tables)
 
     def _table(self, where: str, value: Any) -> Mapping[str, Any]:
         if not isinstance(value, dict):

@@ -1,0 +1,111 @@
+"""The pencil that a drawing shows: how unsteady the hand is that drew it, and how finely its marks were read.
+
+Every step whose mark is there is a sample of both: what it is off beside the student's own earlier marks comes from the
+hand at this step and from the reading of all these marks, each carried through the scales of its plan and through what
+is laid off. A vector that is drawn five times as long shows errors of reading five times as large; so the two can be
+told apart. Samples are normal, but for some that are mistakes and lie anywhere. What is stated, and what is usual, is
+the prior: a drawing of few marks is judged by it. The spread of what is left of both is in the sizes that are given.
+"""
+
+from __future__ import annotations
+
+import math
+import statistics
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from graphplan.accuracy.pencil import Pencil, SeenPencil
+from graphplan.kernel.kinds import Movement
+from graphplan.marking.judge.matching import Match, Matching
+from graphplan.marking.judge.student_sheet import StudentSheet
+from graphplan.marking.traces import Submission, Trace
+
+SCALES = np.geomspace(0.4, 4.0, 24)  # how many times as unsteady as the stated pencil a hand may be
+USUAL = 0.4  # the standard deviation of its logarithm
+READ = np.geomspace(0.02, 0.6, 24)  # mm: the standard deviation of reading a coordinate where none is stated
+RULER, READERS = 0.12, 0.6  # mm: the usual one, and the standard deviation of its logarithm
+MISTAKEN, ANYWHERE = 0.05, 100.0  # how often a mark is a mistake, and over how many mm such marks are spread
+HELD = 0.9  # of what a frame was laid through, more than so much is no sample
+FEW = 3  # samples: fewer say nothing
+Sample = tuple[Any, Any, Any]  # how far off, the covariance from the hand, and from reading
+
+
+def assumed(stated: Pencil, submission: Submission) -> SeenPencil:
+    """The stated pencil, and the reading that is usual where nobody states how finely marks were measured."""
+    return SeenPencil(stated, 1.0, RULER if submission.measured and not submission.stated else 0.0)
+
+
+def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> SeenPencil | None:
+    """The pencil that a drawing shows, from a way through it that was judged by another; None where too few marks tell
+    it."""
+    samples = list(_samples(matching))
+    if len(samples) < FEW:
+        return None
+    rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
+    read, parts, odds = np.zeros(1), np.ones(1), -np.log(SCALES)[:, None] ** 2 / (2 * USUAL**2)
+    if now.reading:
+        read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
+        odds = odds - np.log(READ / RULER)[None, :] ** 2 / (2 * READERS**2)
+    for width in (1, 2, 3):
+        odds = odds + _likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale, parts)
+    weights = np.exp(odds - odds.max())
+    weights /= weights.sum()
+    scale, found = (math.sqrt(float(np.sum(weights * size**2))) for size in (SCALES[:, None], read[None, :]))
+    return SeenPencil(now.stated, scale, found, len(samples))
+
+
+def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
+    """The logarithm of how likely these samples are, by every scale of the hand and every part of reading."""
+    if not samples:
+        return 0.0
+    off, hand, reading = (np.array(part) for part in zip(*samples, strict=True))
+    wide = off.shape[1]
+    covariance = (scales**2)[:, None, None, None, None] * hand + reads[:, None, None, None] * reading[None]
+    covariance = covariance + 1e-9 * np.eye(wide)
+    squares = np.einsum("...i,...i", off, np.linalg.solve(covariance, np.broadcast_to(
+        off[..., None], (*covariance.shape[:-1], 1)))[..., 0])
+    density = np.exp(-squares / 2) / np.sqrt((2 * math.pi) ** wide * np.linalg.det(covariance))
+    return np.sum(np.log((1 - MISTAKEN) * density + MISTAKEN / ANYWHERE**wide), axis=-1)
+
+
+def _samples(matching: Matching) -> Iterator[Sample]:
+    """What the marks are off, with what the hand and the reading of a unit each add to it."""
+    sheet, seen = matching.sheet, set[int]()
+    for match in matching.matches:
+        residual = match.residual
+        if residual is None or match.place is None or match.place in seen or match.step.op.movement is Movement.BEGUN:
+            continue
+        seen.add(match.place)
+        partials = residual.partials
+        read = partials[:, sheet.reads[:partials.shape[1]]]
+        reading = read @ read.T
+        left = 1.0 - _held(sheet, match, matching.traces[match.place])
+        if left > 1.0 - HELD:
+            share = left / (2.0 - left)  # what the frame was laid through follows it, and does not shake beside it
+            yield residual.off, (residual.covariance - reading) * share, reading * share
+
+
+def _held(sheet: StudentSheet, match: Match, trace: Trace) -> float:
+    """How much a given point takes the frame of the mechanism along that was laid through it."""
+    fit = sheet.fits[sheet.plan_of_step[match.step.index]]
+    if match.step.op.movement is not Movement.GIVEN or not fit.shift:
+        return 0.0
+    arm = abs(fit.frame.back(complex(*trace.spots[0])) - fit.centre) * abs(fit.frame.unit)
+    return min(1.0, (math.hypot(fit.turn * arm, fit.shift) / math.hypot(sheet.pencil.point, trace.blur)) ** 2)
+
+
+def as_measured(pencil: Pencil, submission: Submission) -> Pencil:
+    """The pencil with points as far off as they are when they have been measured."""
+    blurs = [trace.blur for trace in submission.traces] if submission.measured else []
+    return replace(pencil, point=math.hypot(pencil.point, statistics.median(blurs))) if blurs else pencil
+
+
+def blurred(submission: Submission, reading: float) -> Submission:
+    """The marks of a drawing as finely as they were read, beside how they were rounded."""
+    if not reading:
+        return submission
+    return replace(submission, traces=tuple(
+        replace(trace, blur=math.hypot(trace.blur, reading)) for trace in submission.traces))

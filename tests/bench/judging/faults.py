@@ -112,6 +112,8 @@ def slips(task: Task, chance: random.Random) -> Iterator[Fault]:
             if index in task.asked:
                 yield slip(index, chance, "final mark wrong")
     yield from exchanged(task)
+    yield from mirrored(task)
+    yield from left_out(task)
     yield from scale_forgotten(task)
 
 
@@ -231,6 +233,42 @@ def exchanged(task: Task) -> Iterator[Fault]:
         apart = math.dist(*(task.paper(at, task.truth[at]) for at in (one, other)))
         if task.places[one] == task.places[other] and LEAST <= apart <= 2 * MOST:
             yield Fault(one, "labels exchanged", r"(?i)exchanged|label", letters={one: other, other: one})
+
+
+def mirrored(task: Task) -> Iterator[Fault]:
+    """A triangle on two marks drawn to the other side of them."""
+    for step in task.steps:
+        lines = [task.steps[arg] for arg in step.args] if step.op.name == "meet" else []
+        if any(line.op.name not in {"parallel", "perpendicular"} for line in lines) or len(lines) != 2:
+            continue
+        one, other = (line.args[1] for line in lines)
+        first, second = sorted(line.index for line in lines)
+        if one == other or max(one, other) > first:
+            continue
+
+        def turned(hand: Hand, value: Value, one: int = one, other: int = other) -> Value:
+            (x, y), (u, v) = hand.values[one], hand.values[other]
+            along = math.atan2(v - y, u - x)
+            a, b, c = value
+            n = math.atan2(b, a)
+            size, far = math.hypot(a, b), (a * x + b * y + c)
+            a, b = size * math.cos(2 * along - n), size * math.sin(2 * along - n)
+            return a, b, far - a * x - b * y
+
+        def later(hand: Hand, index: int, value: Value, second: int = second,
+                  turned: Callable[[Hand, Value], Value] = turned) -> Value:
+            return turned(hand, value) if index == second else value
+
+        yield Fault(first, "figure mirrored", r"(?i)mirror|instead of|not parallel|not perpendicular",
+                    lambda hand, at, turned=turned: turned(hand, hand.right(at)), later)
+
+
+def left_out(task: Task) -> Iterator[Fault]:
+    """A vector that is asked for, and is not drawn."""
+    for index in task.asked:
+        if task.steps[index].args and not list(task.dependents(index)):
+            lines = {arg for arg in task.steps[index].args if list(task.dependents(arg)) == [index]}
+            yield Fault(index, "left out", "", hidden=frozenset({index, *lines}))
 
 
 def scale_forgotten(task: Task) -> Iterator[Fault]:

@@ -45,9 +45,12 @@ class Outcome:
     def exact(self) -> bool:
         """Whether the first wrong step is named: itself, or where it cannot be seen, the first mark that shows it."""
         fault, first = self.sketch.fault, self.first
+        task = self.sketch.task
+        if fault and fault.hidden and self.data:
+            told = {(one["step"], one["mark"]): one["verdict"] for one in self.data["steps"]}
+            return told.get((task.number(fault.index), task.text(fault.index))) in {"missing", "unsure"} and not first
         if fault is None or first is None:
             return False
-        task = self.sketch.task
         right = {fault.index, *(fault.letters or ())}
         named = [(first["step"], first["mark"])]
         if first.get("guilty"):

@@ -60,12 +60,15 @@ def folder_at(path: str | os.PathLike[str]) -> None:
 
 def new_folder(path: str) -> None:
     """Refuse a name at which no new folder can be made: what is there must be an empty folder."""
-    place = os.path.realpath(path)
+    if path == STANDARD:
+        raise Refused(f"-o {path}", "a folder cannot go to standard output", "the name of a folder")
     try:
-        if os.path.lexists(place) and os.listdir(place):
-            raise Refused(f"{path}: folder", "it is there already, and not empty", "another name, or an empty one")
+        place = os.path.realpath(path)
+        with suppress(FileNotFoundError):
+            if os.listdir(place):
+                raise Refused(f"{path}: folder", "it is there already, and not empty", "another name, or an empty one")
+        os.stat(os.path.dirname(place))
         if not os.access(os.path.dirname(place), os.W_OK):
-            os.stat(os.path.dirname(place))
             raise OSError(EACCES, os.strerror(EACCES))
     except (OSError, ValueError) as error:
         raise _unwritable(path, error) from None

@@ -73,9 +73,9 @@ def run(options: argparse.Namespace) -> int:
                       'a table [vary], such as "drive.0.omega" = [8, 10, 12]')
     draw = partial(drafted, options)
     own = draw(scene)
-    jobs = options.jobs or cores()
-    with crew(jobs if len(students) > FEW else 1) as shared_out:
-        series = Design(scene, own, draw, shared_out).series(
+    jobs = options.jobs or (cores() if len(students) > FEW else 1)
+    with crew(jobs) as shared_out:
+        series = Design(own, draw, shared_out).series(
             len(students), options.seed, lambda done, of: messages.progress(f"variants: {done}/{of}"))
         files = _files(options, own.drawing.scene, series.variants, students, shared_out, messages)
         messages.progress("")

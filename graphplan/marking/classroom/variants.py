@@ -92,7 +92,7 @@ def draws(choices: Choices, seed: int) -> Iterator[Values]:
 
 @dataclass(frozen=True)
 class Wording:
-    """How the scene of a class is worded: its text, its title, what all variants have in [sheet], their tongue."""
+    """How the scenes of a class are worded: the text, their title, what all have in [sheet], their tongue."""
 
     text: str
     title: str
@@ -101,9 +101,7 @@ class Wording:
 
     def variant(self, number: int, values: Values) -> Variant:
         """The scene with these numbers, as a teacher would write it: without [vary], its comments kept."""
-        name = said("{0}, variant {1}", self.tongue.title(self.title), number) if self.title else \
-            said("Variant {0}", number)
-        title = self.tongue(name)
+        title = self.tongue(said("{0}, variant {1}", self.title, number) if self.title else said("Variant {0}", number))
 
         def edit(text: str) -> str:
             text = without_table(with_numbers(text, values), "vary")
@@ -151,10 +149,14 @@ def _plain(value: Fraction | float) -> str:
 class Design:
     """The scene of a class on its own sheet, and how variants of it are drawn."""
 
-    scene: Scene
     drafted: Drafted
     draw: Draw
     shared_out: SharedOut
+
+    @property
+    def scene(self) -> Scene:
+        """The scene, in the language of the class."""
+        return self.drafted.drawing.scene
 
     @property
     def own(self) -> Quality:

@@ -15,8 +15,9 @@ from concurrent.futures.process import BrokenProcessPool
 from contextlib import contextmanager
 from dataclasses import dataclass
 from hashlib import blake2b
-from multiprocessing import get_context
+from multiprocessing import get_context, parent_process
 from pathlib import Path
+from threading import Thread
 from typing import Any, TypeVar
 
 from graphplan.errors import GraphplanError
@@ -25,7 +26,7 @@ Data = dict[str, Any]
 Job = TypeVar("Job")
 FILES = "files"  # of data: names of files beside it that belong to it
 BLOCK = 2**20  # bytes of a file that are read at a time
-ONE_THREAD = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS"  # in each process, as there is one for each core
+ONE_THREAD = "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "OPENCV_FOR_THREADS_NUM"  # a process: each core has one
 DIED = "the process that worked on it died"
 
 
@@ -117,7 +118,7 @@ def _pooled(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
                  ) -> Iterator[tuple[str, Data | Failed]]:
     """What is done until a process dies; one that is interrupted leaves what has begun to end by itself."""
     with _one_thread_each():
-        pool = ProcessPoolExecutor(processes, get_context("spawn"), signal.signal, (signal.SIGINT, signal.SIG_IGN))
+        pool = ProcessPoolExecutor(processes, get_context("spawn"), _begin)
         futures: dict[Future[Data | Failed], str] = {pool.submit(_tried, work, job): name for name, job in jobs.items()}
     try:
         for future in as_completed(futures):
@@ -125,7 +126,21 @@ def _pooled(work: Callable[[Job], Data], jobs: Mapping[str, Job], processes: int
     except BrokenProcessPool:
         return
     finally:
-        pool.shutdown(wait=False, cancel_futures=True)
+        for future in futures:
+            future.cancel()
+        pool.shutdown(wait=False)
+
+
+def _begin() -> None:
+    """Begin a process that ends with the one that started it, however that ends, and by no key pressed meanwhile."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    Thread(target=_end_with_parent, daemon=True).start()
+
+
+def _end_with_parent() -> None:
+    if parent := parent_process():
+        parent.join()
+        os._exit(1)
 
 
 def _tried(work: Callable[[Job], Data], job: Job) -> Data | Failed:

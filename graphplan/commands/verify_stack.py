@@ -264,7 +264,7 @@ def _judged(job: Job) -> Data:
     from graphplan.marking.scans.image import picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
     from graphplan.output.pdf_png import pdf
-    from graphplan.output.report_page import picture as shown
+    from graphplan.output.report_page import picture as embedded
     from graphplan.sheet.handout import code, task
 
     image = picture(job.page.path, job.page.number)
@@ -276,10 +276,13 @@ def _judged(job: Job) -> Data:
     if code(composition) != job.sheet.code:
         raise Refused(f"{job.scene}", "its sheet is no longer the one that was printed", "the scenes as they were made")
     submission = read_picture(image, job.page.name, task(composition)[0], desk.frames, job.sheet.code)
-    assert isinstance(submission.page, PencilPage)
     one, say = desk.judged(submission), composition.plans.tongue
-    sheet = straight(image, submission.page.warp)
-    corrections = Corrections(one.judgement, one.score, composition, photograph(sheet))
+    if isinstance(submission.page, PencilPage):
+        sheet = straight(image, submission.page.warp)
+        shown = photograph(sheet)
+    else:  # there is nothing on it
+        shown = as_it_is(image, max(composition.arrangement.width, composition.arrangement.height))
+    corrections = Corrections(one.judgement, one.score, composition, shown)
     further = [as_it_is(picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
     detail = corrections.detail(lambda rect: cut(sheet, rect))
@@ -290,6 +293,6 @@ def _judged(job: Job) -> Data:
     return {
         "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
         "words": say(words), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
-        "look": [say(note) for note in notes], "detail": shown(detail) if detail else "",
+        "look": [say(note) for note in notes], "detail": embedded(detail) if detail else "",
         "judgement": record(one.judgement, one.score), FILES: [job.corrected.name],
     }  # fmt: skip

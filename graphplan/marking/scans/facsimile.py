@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 
@@ -28,9 +30,12 @@ def photograph(sheet: Grey) -> Photograph:
     return Photograph(WHITE, LAYER, None, Rect(0.0, 0.0, wide / FINE, high / FINE), jpeg(sheet, QUALITY), (wide, high))
 
 
-def as_it_is(image: Grey) -> Photograph:
-    """A whole picture of nobody knows what size, on A4."""
-    return photograph(smaller(image, (A4 * FINE) ** 2 * min(image.shape) / max(image.shape)))
+def as_it_is(image: Grey, longest: float = A4) -> Photograph:
+    """A whole picture, on paper whose longer side is so many mm."""
+    small = smaller(image, (longest * FINE) ** 2 * min(image.shape) / max(image.shape))
+    shown, (high, wide) = photograph(small), image.shape
+    size = Rect(0.0, 0.0, longest * wide / max(image.shape), longest * high / max(image.shape))
+    return replace(shown, rect=size)
 
 
 def cut(sheet: Grey, rect: Rect) -> Photograph:

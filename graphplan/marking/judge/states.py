@@ -13,7 +13,7 @@ from functools import cached_property
 
 from graphplan.kernel.kinds import OPENING
 from graphplan.marking.judge.asked import shown_by
-from graphplan.marking.judge.evidence import KnownMarks
+from graphplan.marking.judge.evidence import KnownMarks, unexplained
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.student_sheet import bound, plain
 from graphplan.marking.judge.verdict import EARNED, IMPLIED, MISSING, UNSEEN, UNSURE, WRONG, NumberVerdict
@@ -44,7 +44,8 @@ class States:
             return match.state, sureness(-match.weight)
         if odds > -math.inf:
             state = match.state if match.place is not None else IMPLIED
-            return state if odds >= 0.0 else UNSURE, sureness(odds)
+            elsewhere = match.weight < 0.0 and self.beside(match)  # it could be seen, and something else is there
+            return UNSURE if odds < 0.0 or elsewhere else state, sureness(odds)
         if self.drawn[match.step.index] and match.step.index not in self.lost:
             return UNSEEN, sureness(-match.weight)
         return UNSURE if self._hidden(match) or self.beside(match) else MISSING, sureness(-match.weight)
@@ -66,9 +67,14 @@ class States:
             return None
         home = self.matching.sheet.plan_of_step[match.step.index]
         places, off = self.matching.evidence.near(match.step.op.gives, home, plain(match.expected))
-        free = [(far, place) for far, place in zip(off, places, strict=True) if place not in self.matching.used]
-        far, place = min(free, default=(math.inf, 0))
-        return self.matching.traces[place] if far < BESIDE else None
+        near = [place for far, place in sorted(zip(off, places, strict=True)) if far < BESIDE]
+        free = [self.matching.traces[place] for place in near if place not in self.matching.used]
+        return next(iter(unexplained(free, self._explained)), None)
+
+    @cached_property
+    def _explained(self) -> list[Trace]:
+        """The traces that steps are taken for."""
+        return [self.matching.traces[place] for place in self.matching.used]
 
     # ---- what speaks for it ----------------------------------------------------------------------------------------
 

@@ -90,10 +90,10 @@ class Letters:
         points = sum(trace.kind == POINT for trace in self.traces)
         if 2 * points < len(words):
             figures = self._things
-            for word in words:
-                crossed, ends = meetings(word.box, _reach(word), self.submission.traces, figures)
-                self.traces = (*self.traces, *crossed, *ends)
-                self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
+            met = [meetings(word.box, _reach(word), self.submission.traces, figures) for word in words]
+            crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
+            self.traces = (*self.traces, *crossed, *ends)
+            self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
             del self._things
 
     def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
@@ -123,7 +123,7 @@ class Letters:
             for panel in dict.fromkeys(self.plan_of_step):
                 tied = unit * float(self.multiples.get(panel, 1))
                 if panel not in known and (
-                        found := agreed(self._candidates(panel), (tied,), self.within, abs(tied))):
+                        found := agreed(self._candidates(panel), (tied,), self.within, abs(tied), not self.ends)):
                     known[panel] = found
         return known
 
@@ -246,11 +246,12 @@ class Candidates:
     spots: list[tuple[complex, float]]
 
 
-def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float, usual: float) -> PlanFrame | None:
+def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float, usual: float, any_unit: bool = True
+           ) -> PlanFrame | None:
     """The frame on which most marks agree, by one of their spots each; None where no two do.
 
-    It has one of some `units`, unless more agree on another; of equals that is taken which is nearer to the `usual`
-    scale, and upright.
+    It has one of some `units`, or where it may have `any_unit`, another that more agree on; of equals that is taken
+    which is nearer to the `usual` scale, and upright.
     """
     if not marks:
         return None
@@ -268,7 +269,7 @@ def agreed(marks: Sequence[Candidates], units: Sequence[complex], within: float,
 
     tied, free = _proposed(at, owner, spots, units)
     best: tuple[float, complex, complex] | None = None
-    for unit, origin in (tied, free):
+    for unit, origin in (tied, free) if any_unit else (tied,):
         if len(unit):
             taste = 0.05 * np.abs(np.log(np.abs(unit) / usual)) + 0.01 * np.abs(np.angle(unit))
             votes = score(unit, origin) - taste

@@ -53,7 +53,8 @@ class Register:
             return Fit(self.submission.frames[MECHANISM])
         steps = self.drawing.drawn.steps
         given = [pair for index, pair in self._pairs(MECHANISM) if index < self.drawing.drawn.givens]
-        found = best(given, self.pencil.point) or best([pair for _, pair in self._pairs(MECHANISM)], self.pencil.point)
+        sigma = self._sigma
+        found = best(given, sigma) or best([pair for _, pair in self._pairs(MECHANISM)], sigma)
         found = found or self._sought([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if found is None:
@@ -61,6 +62,12 @@ class Register:
             raise Refused(f"{self.submission.name}: mechanism", "not two of its points are there, so it lies nowhere",
                           f"label them, as {names}")
         return found
+
+    @property
+    def _sigma(self) -> float:
+        """How far off a labelled point is: the more, the less squarely strokes cross in those without dots."""
+        blurs = [trace.blur for place in self.labels.values() if (trace := self.submission.traces[place]).crossed]
+        return math.hypot(self.pencil.point, *(blur / math.sqrt(len(blurs)) for blur in blurs))
 
     def follow(self, matching: Matching) -> None:
         """Expect on the other plans what follows from the marks on the mechanism, and there no marks of it."""

@@ -22,7 +22,7 @@ from graphplan.sheet.layout.composition import Composition
 UNITS: Mapping[str, tuple[float, float]] = {  # in mm, and what speaks against each, as a logarithm of odds
     "mm": (1.0, 0.0), "cm": (10.0, 0.3), "m": (1000.0, 0.5), "in": (25.4, 0.5)}
 OWN, LARGER, ODD = 1.2, 1.5, 1.0  # the same of a unit of its own; of e times the size; of a scale that is not round
-ROUND, CLOSE = (1.0, 2.0, 2.5, 5.0, 10.0), 0.02  # the numbers that scales are; how much of itself a scale may be off
+ROUND, CLOSE = (1.0, 2.0, 2.5, 5.0, 10.0), 0.005  # the numbers that scales are; how much of itself a scale may be off
 PART = 150  # of the size of a drawing that its marks may be off a frame
 
 

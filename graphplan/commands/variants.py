@@ -95,9 +95,14 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
     names: tuple[str, ...] = ()
     if options.names:
         from graphplan.marking.classroom.names import read
+        from graphplan.output.pdf_png import lacking
 
         found = read(Path(options.names))
         names = found.students
+        for name in names:
+            if missing := lacking(name):
+                raise Refused(f"{options.names}: {name}", f"the font of the sheets has no {' '.join(missing)}",
+                              "the name in other letters")
         for line in found.remarks:
             messages.remark(line)
     elif not options.count:

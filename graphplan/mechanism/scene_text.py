@@ -109,7 +109,7 @@ def edited(text: str, edit: Callable[[str], str], meant: Callable[[Tables], None
     """The text after an edit that does to its tables what is `meant`; fails with `Refused` where it does not."""
     tables = tomllib.loads(text, parse_float=decimal)
     meant(tables)
-    found = edit(text)
+    found = edit(text.replace("\r\n", "\n"))
     try:
         same = tomllib.loads(found, parse_float=decimal) == tables
     except ValueError:

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from functools import lru_cache
 from pathlib import Path as File
 from typing import Any
@@ -113,8 +113,8 @@ class _Painter:
     def sheet(self, sheet: Sheet) -> None:
         """Draw a sheet on its paper, from back to front."""
         letters = {char for item in sheet.items if isinstance(item, Text) for run in item.runs for char in run.text}
-        if lacking := sorted(char for char in letters if not _has(char)):
-            raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(lacking)}",
+        if missing := lacking(letters):
+            raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(missing)}",
                           "draw it as SVG, whose viewer brings other fonts")
         paper = Rect(0.0, 0.0, sheet.width, sheet.height).corners
         self._stroke(Pen(0.0), Path([*paper, paper[0]], closed=True), PAPER)
@@ -211,6 +211,11 @@ def _face(bold: bool) -> FT2Font:
     face = FT2Font(str(_file(bold)))
     face.set_size(EM, 72)
     return face
+
+
+def lacking(letters: Iterable[str]) -> list[str]:
+    """The letters that the font does not have."""
+    return sorted({char for char in letters if not _has(char)})
 
 
 @lru_cache(maxsize=1024)

@@ -125,6 +125,8 @@ def refusals(tmp_path: Path) -> Iterator[tuple[list[str], str]]:
     yield ["four-bar"], "-n: nobody says how many tasks; -n 30, or --names CLASS.csv"
     yield ["slider-crank", "-n", "2"], "slider-crank: vary: the scene does not say what varies; a table"
     yield ["four-bar", "-n", "2", "--names", str(tmp_path / "names.csv")], "-n 2: there are 3 names in .*; -n 3, or no"
+    (tmp_path / "far.csv").write_text("name\n学生\n", encoding="utf-8")
+    yield ["four-bar", "--names", str(tmp_path / "far.csv")], "far.csv: 学生: the font of the sheets has no 学 生; the"
     yield ["four-bar", "-n", "2", "-o", "-"], "-o -: a folder cannot go to standard output; the name of a folder"
     yield ["four-bar", "-n", str(MOST + 1)], f"-n: {MOST + 1}; give 1 to {MOST}"
     scene = tmp_path / "wide.toml"

@@ -112,3 +112,15 @@ def test_an_edit_that_goes_astray_is_refused() -> None:
     """A text that says something else after an edit than is meant is not taken."""
     with pytest.raises(Refused, match="its text cannot be edited"):
         edited('vary.x = 1\ntitle = "T"\n', lambda text: without_table(text, "vary"), lambda tables: tables.pop("vary"))
+
+
+def test_lines_of_another_system_are_edited_alike() -> None:
+    """A text with the line ends of Windows is edited as that with plain ones."""
+    def edit(text: str) -> str:
+        return with_keys(without_table(text, "vary"), "sheet", {"k_s": "2"})
+
+    def meant(tables: dict[str, Any]) -> None:
+        del tables["vary"]
+        tables["sheet"]["k_s"] = 2
+
+    assert edited(TEXT.replace("\n", "\r\n"), edit, meant) == edited(TEXT, edit, meant)

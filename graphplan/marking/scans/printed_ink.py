@@ -17,16 +17,23 @@ from graphplan.sheet.plates.pens import Pen, rgb
 
 SMOOTHING, PARTS = 2, 4  # how much finer it is drawn than asked for, and bits for parts of a pixel
 SHORT, LONG = 0.9, 8.0  # mm: the pieces that lines are cut into
+TASK, INSET = 2.5, 1.0  # mm of a piece that is no cross of a grid, and from a plan's edge, of what only this task has
 MARKS = "corner marks"
 
 
 @dataclass(frozen=True)
 class Pieces:
-    """Straight pieces of print: where their middles are, their directions, and half their lengths, in mm."""
+    """Straight pieces of print: where their middles are, their directions, and half their lengths, in mm; and which are
+    the task's `own`, that lie on its plans."""
 
     middles: NDArray[np.float64]
     along: NDArray[np.float64]
     halves: NDArray[np.float64]
+    own: NDArray[np.bool_]
+
+    def only(self, which: NDArray[np.bool_]) -> Pieces:
+        """Some of them."""
+        return Pieces(self.middles[which], self.along[which], self.halves[which], self.own[which])
 
 
 def picture(sheet: Sheet, scale: float) -> Light:
@@ -56,7 +63,12 @@ def pieces(sheet: Sheet) -> Pieces:
     ends = np.array(cut, float).reshape(-1, 2, 2)
     way = ends[:, 1] - ends[:, 0]
     long = np.hypot(way[:, 0], way[:, 1])
-    return Pieces(ends.mean(axis=1), way / long[:, None], long / 2)
+    middles, own = ends.mean(axis=1), np.zeros(len(ends), bool)
+    for panel in sheet.panels.values():
+        inside = panel.inset(INSET, INSET, INSET, INSET)
+        low, high = (inside.left, inside.bottom), (inside.right, inside.top)
+        own |= (long > TASK) & (middles > low).all(axis=1) & (middles < high).all(axis=1)
+    return Pieces(middles, way / long[:, None], long / 2, own)
 
 
 # ---- drawn ---------------------------------------------------------------------------------------------------------

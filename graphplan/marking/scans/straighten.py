@@ -227,26 +227,27 @@ FEW = 40  # pieces below which only the plane is moved
 @dataclass(frozen=True)
 class Registered:
     """A warp that fits the print; `error` is what is left, as a standard deviation in mm, `share` how much of the
-    print was found where it should be."""
+    print was found where it should be, and `own` of what only this task has; of a drawing that was not made on it the
+    rest may be another."""
 
     warp: Warp
     error: float
     share: float
+    own: float
 
 
 def registered(image: Grey, start: Warp, light: Light, scale: float, pieces: Pieces) -> Registered:
     """The warp by which a picture shows a sheet; `light` is the sheet as printed, at `scale` pixels per mm."""
-    warp, error, share = start, NEAR, 0.0
+    warp, error, near = start, NEAR, np.zeros(0, bool)
     ideal = _profiles(light, lambda spots: np.column_stack([spots[:, 0], start.size[1] - spots[:, 1]]) * scale - 0.5,
                       pieces, NEAR)
     seen = ideal.std(axis=1) > VISIBLE
-    pieces = Pieces(pieces.middles[seen], pieces.along[seen], pieces.halves[seen])
-    ideal = ideal[seen]
+    pieces, ideal = pieces.only(seen), ideal[seen]
     for reach, degree in ROUNDS if len(ideal) >= FEW else ROUNDS[:1]:
         shift, match = _shifts(ideal, _profiles(image, warp, pieces, NEAR + reach))
         warp, error, near = _fitted(warp, pieces, shift, match > FITS, degree, reach / 4)
-        share = float(near.sum() / max(1, len(ideal)))
-    return Registered(warp, error, share)
+    share, own = float(near.sum() / max(1, len(ideal))), near[pieces.own]
+    return Registered(warp, error, share, float(own.mean()) if len(own) else share)
 
 
 def _profiles(image: Grey | Light, warp: Callable[[Spots], Spots], pieces: Pieces, reach: float) -> NDArray[np.float32]:
@@ -317,7 +318,7 @@ def straighten(image: Grey, sheet: Sheet, light: Light, scale: float, code: int 
     if result is None:
         raise Refused(name, "neither the corner marks nor the frame of this task are found in it",
                       "photograph the whole sheet with its four corner marks, lying flat, in even light")
-    if result.share < OWN:
+    if result.own < OWN:
         raise Refused(name, "what is printed on it is not found where this task has it",
                       "verify it against its own scene, plan and paper, and photograph the sheet lying flat")
     _whole(result.warp, image, sheet, name)

@@ -31,7 +31,7 @@ from graphplan.marking.classroom.stack import Placed, Seen, assignments, instead
 from graphplan.marking.judge.score import Weights, weights
 from graphplan.mechanism.scene import load as load_scene
 from graphplan.methods.executors import cores
-from graphplan.phrases import arranged, joined, said
+from graphplan.phrases import said
 from graphplan.words.tongue import Tongue, tongue
 
 FAULT = "fault"  # in the place of what is found of a page
@@ -195,8 +195,8 @@ class StackDesk:
             return about
         if FAULT in data:
             return replace(about, status=found_results.FAILED, look=(*notes, data[FAULT]))
-        told = {name: data[name] for name in ("score", "groups", "first", "words", "kind", "confidence", "detail",
-                                              "judgement")}
+        told = {name: data[name] for name in ("score", "groups", "first", "words", "faultless", "kind", "confidence",
+                                              "detail", "judgement")}
         return replace(about, **told, look=(*notes, *data["look"]), corrected=data[FILES][0])
 
     def write(self, found: Results) -> None:
@@ -258,8 +258,7 @@ def judged(job: Job) -> Data:
 
 def _judged(job: Job) -> Data:
     from graphplan.marking.classroom.corrections import Corrections
-    from graphplan.marking.judge.findings import lacking, record
-    from graphplan.marking.judge.verdict import MISSING, STATES, UNSURE
+    from graphplan.marking.judge.findings import look_at, opinion, read_as, record
     from graphplan.marking.scans.facsimile import as_it_is, cut, photograph, straight
     from graphplan.marking.scans.image import picture
     from graphplan.marking.scans.scan import PencilPage, read_picture
@@ -286,13 +285,13 @@ def _judged(job: Job) -> Data:
     further = [as_it_is(picture(page.path, page.number)) for page in job.further]
     write(pdf(corrections.pages(further)), str(job.corrected))
     detail = corrections.detail(lambda rect: cut(sheet, rect))
-    first, unsure, missing = one.judgement.first, lacking(one.judgement, UNSURE), lacking(one.judgement)
-    words = joined((one.told, *([arranged("{0}: {1}", STATES[MISSING](), missing)] if missing else [])), "; ")
+    first = one.judgement.first
     sure = [verdict.confidence for verdict in one.judgement.judged] if first is None else [first.confidence]
-    notes = [*filter(None, [one.judgement.reading]), *([said("cannot be told: steps {0}", unsure)] if unsure else [])]
+    look = [*read_as(one.judgement), *look_at(one.judgement)]
     return {
         "score": one.score.total, "groups": one.score.groups, "first": one.guilty.short if one.guilty else "",
-        "words": say(words), "kind": first.kind if first else "", "confidence": round(min(sure, default=1.0), 3),
-        "look": [say(note) for note in notes], "detail": embedded(detail) if detail else "",
+        "words": say(opinion(one.judgement)), "faultless": one.faultless, "kind": first.kind if first else "",
+        "confidence": round(min(sure, default=1.0), 3),
+        "look": [say(told) for told in look], "detail": embedded(detail) if detail else "",
         "judgement": record(one.judgement, one.score), FILES: [job.corrected.name],
     }  # fmt: skip

@@ -167,8 +167,8 @@ def test_each_page_is_as_told(judged: Judged) -> None:
         ("scans.pdf#4", "", "unassigned", False),
         ("scans.pdf#6", "", "unassigned", False),
     ]
-    assert judged.rows[1]["look"] == "handed in twice: page scans.pdf#3 counts"
-    assert judged.rows[3]["look"] == "the page is mirrored"
+    assert judged.rows[1]["look"].startswith("handed in twice: page scans.pdf#3 counts")
+    assert judged.rows[3]["look"].startswith("the page is mirrored")
     assert "Blank pages: 1." in judged.words
     assert "Not handed in: Student 2, Student 5." in judged.words
 
@@ -209,7 +209,7 @@ def test_what_is_handed_back(judged: Judged) -> None:
         pages = [page.get_textpage().get_text_bounded() for page in document]
         first = document[0].render(scale=2).to_numpy()
     assert "First wrong is" in pages[0]
-    assert judged.rows[0]["verdict"].split("; ")[0] in " ".join(pages[0].split())
+    assert judged.rows[0]["verdict"] in " ".join(pages[0].split())
     assert "Legend" in " ".join(pages[1:])
     red = (first[..., 0].astype(int) - first[..., 2] > 100) | (first[..., 2].astype(int) - first[..., 0] > 100)
     assert red.sum() > 200  # corrections in colour on a grey scan
@@ -229,7 +229,8 @@ def test_a_named_page_is_judged(judged: Judged) -> None:
     status, words = told(judged.made, judged.stack, "--assign", "4=Student 2", "--assign", "6=-")
     assert status == 0
     row = next(row for row in judged.rows if row["student"] == "Student 2")
-    assert (row["page"], row["status"], row["look"]) == ("scans.pdf#4", "judged", "named by the teacher")
+    assert (row["page"], row["status"]) == ("scans.pdf#4", "judged")
+    assert row["look"].startswith("named by the teacher")
     assert "Left to be named" not in words
     assert (judged.into / "corrected" / "Student 2.pdf").exists()
     told(judged.made, judged.stack)

@@ -10,7 +10,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import POINT
-from graphplan.marking.judge.findings import lacking, opinion
+from graphplan.marking.judge.findings import look_at, opinion
 from graphplan.marking.judge.overlay import (
     CALLED,
     LAYER,
@@ -23,9 +23,9 @@ from graphplan.marking.judge.overlay import (
     told,
 )
 from graphplan.marking.judge.score import Score
-from graphplan.marking.judge.verdict import EARNED, MISSING, STATES, UNSURE, WRONG, Judgement, Verdict
+from graphplan.marking.judge.verdict import EARNED, UNSURE, WRONG, Judgement, Verdict
 from graphplan.marking.traces import Trace
-from graphplan.phrases import arranged, joined
+from graphplan.phrases import joined
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.clip import clipped
 from graphplan.sheet.plates.display import Circle, Item, Photograph, Rect, Sheet, Spot, moved
@@ -137,9 +137,8 @@ class Corrections:
         true, over = self.true[0].items, list(student.corrections())
         for panel in self.judgement.frames:
             over += told(student, panel, student.rect(panel), [*true, *over])
-        missing = lacking(self.judgement)
-        told_missing = [arranged("{0:capital}: {1}.", STATES[MISSING](), missing)] if missing else []
-        words = composition.plans.tongue(joined((self.score.told, opinion(self.judgement), *told_missing), " "))
+        words = composition.plans.tongue(
+            joined((self.score.told, opinion(self.judgement), *look_at(self.judgement)), " "))
         names = tuple(step.name for step in self.judgement.drawing.drawn.steps if step.name)
         rect = student.rect(next(iter(self.printed.views)))
         return [*over, *boxed(words, names, (rect.left, rect.top), [*true, *over], rect, CALLED)[1]]

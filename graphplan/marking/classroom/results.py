@@ -33,7 +33,7 @@ RESERVED = re.compile(r"(?i)(con|prn|aux|nul|com\d|lpt\d)(\.|$)")
 class SheetResult:
     """What there is to say of a sheet, or of a student without one; words are in the tongue of the sheets.
 
-    `first` is the number of the first wrong step or a given point's letter, `words` what is wrong with it, `kind` the
+    `first` is the number of the first wrong step or a given point's letter, `words` the verdict, `kind` the
     kind of mistake, `look` what the teacher must look at, `detail` a picture of the place as SVG, `thumbnail` one of
     the whole page as a JPEG in base 64, `corrected` the file to hand back, `judgement` all that was judged.
     """
@@ -46,6 +46,7 @@ class SheetResult:
     groups: Mapping[str, float] = field(default_factory=dict)
     first: str = ""
     words: str = ""
+    faultless: bool = False
     kind: str = ""
     confidence: float | None = None
     look: tuple[str, ...] = ()
@@ -99,7 +100,7 @@ class Results:
     def findings(self) -> Iterator[Said]:
         """What there is to say of the class."""
         yield said("Sheets judged: {0}, of which {1} have no wrong step.", len(self.of(JUDGED)),
-                   sum(not sheet.first for sheet in self.of(JUDGED)))
+                   sum(sheet.faultless for sheet in self.of(JUDGED)))
         if self.mean is not None:
             yield said("Mean score: {0} of 100.", f"{self.mean:.0f}")
         if self.mistakes:

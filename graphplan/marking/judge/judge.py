@@ -18,6 +18,7 @@ from graphplan.kernel.kinds import LINE
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
 from graphplan.marking.judge.exchanged import exchanged, told
+from graphplan.marking.judge.forgotten import forgotten
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
@@ -109,11 +110,13 @@ class Judge:
         if self.submission.page:
             spare = unexplained(spare, [matching.traces[place] for place in needed])
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
+        found = told(verdicts(matching, numbers), self._exchanged, matching)
+        if not (self.reading.told or self.submission.frames):
+            found = forgotten(found, matching, self.reading.composition.scales.multiples)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
-            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(told(
-                verdicts(matching, numbers), self._exchanged, matching)), tuple(spare), numbers, joined(self._told()),
-            self.hand if self.hand.marks else None)
+            {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,
+            joined(self._told()), self.hand if self.hand.marks else None)
 
     @property
     def lacks(self) -> bool:

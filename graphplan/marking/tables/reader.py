@@ -199,10 +199,10 @@ class _CsvReader(_Reader):
         return found
 
     def _marked(self, where: str, row: Mapping[str, str]) -> Trace | None:
-        """The mark in a row; None where it is not measured."""
+        """The mark in a row; None where it is not measured, as is no line between two marks that are one."""
         at, end = self._numbers(where, row, "x", "y"), self._numbers(where, row, "x2", "y2")
         radius, blur = self._numbers(where, row, "r"), self._numbers(where, row, "precision")
-        if not at:
+        if not at or (end and not radius and math.dist(at, end) < SHORT):
             return None
         panel = self.panel(where, row["panel"], "one of them, or nothing")
         label = self.label(where, row["mark"], "this is")

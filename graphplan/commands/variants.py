@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from graphplan.marking.classroom.variants import Variant
     from graphplan.mechanism.model import Scene
     from graphplan.methods.executors import SharedOut
+    from graphplan.sheet.layout.composition import Composition
 
 MOST, FEW = 1000, 4  # variants of a class; of so few more hands save no time
 CHOSEN = ("method", "plan", "inertia", "rounds", "paper", "language")  # options that the register keeps
@@ -77,7 +78,7 @@ def run(options: argparse.Namespace) -> int:
     with crew(jobs) as shared_out:
         series = Design(own, draw, shared_out).series(
             len(students), options.seed, lambda done, of: messages.progress(f"variants: {done}/{of}"))
-        files = _files(options, own.drawing.scene, series.variants, students, shared_out, messages)
+        files = _files(options, own.composition, series.variants, students, shared_out, messages)
         messages.progress("")
     write_folder(files, options.output)
     for line in series.lines:
@@ -113,11 +114,11 @@ def _students(options: argparse.Namespace, messages: Messages) -> list[str]:
     return [*names, *[""] * (wanted - len(names) + options.spare)]
 
 
-def _files(options: argparse.Namespace, own: Scene, variants: Sequence[Variant], students: Sequence[str],
+def _files(options: argparse.Namespace, own: Composition, variants: Sequence[Variant], students: Sequence[str],
            shared_out: SharedOut, messages: Messages) -> dict[str, str | bytes]:
     """All that is written, by name."""
     from graphplan.marking.classroom.booklet import Exercise, Printed, printed
-    from graphplan.marking.classroom.key import key_table
+    from graphplan.marking.classroom.key import key_table, overview
     from graphplan.marking.classroom.register import FILE, Register, TaskSheet
 
     digits = len(str(len(variants)))
@@ -130,7 +131,9 @@ def _files(options: argparse.Namespace, own: Scene, variants: Sequence[Variant],
         sheets.append(TaskSheet(found.code, exercise.variant.number, exercise.student, exercise.file, page))
         pages.append(found)
         messages.progress(f"sheets: {len(pages)}/{len(exercises)}")
-    register = Register(own.title, options.seed, _chosen(options), tuple(sheets))
+    title = own.plans.drawing.scene.title
+    told = [(one.variant.number, one.student, one.variant.told) for one in exercises]
+    register = Register(title, options.seed, _chosen(options), tuple(sheets))
     if twice := register.alike:
         raise Refused(f"--seed {options.seed}", f"the corner marks of variants {twice[0]} and {twice[1]} are the same",
                       "another seed")
@@ -138,8 +141,8 @@ def _files(options: argparse.Namespace, own: Scene, variants: Sequence[Variant],
     messages.progress("booklet.pdf, key.pdf")
     return {
         **{exercise.file: exercise.variant.text for exercise in exercises},
-        "booklet.pdf": pdf([sheet for one in pages for sheet in one.task], title=own.title),
-        "key.pdf": pdf([sheet for one in pages for sheet in one.solution], title=own.title),
+        "booklet.pdf": pdf([sheet for one in pages for sheet in one.task], title=title),
+        "key.pdf": pdf([*overview(own, told), *(sheet for one in pages for sheet in one.solution)], title=title),
         "key.csv": key_table((sheet.variant, sheet.student, found.rows)
                              for sheet, found in zip(sheets, pages, strict=True)),
         FILE: register.text,

@@ -94,7 +94,8 @@ def test_the_same_seed_gives_the_same_bytes(folder: Path, tmp_path: Path) -> Non
 
 
 def test_names_stand_on_the_sheets(folder: Path, register: Register) -> None:
-    """On each page of the booklet stands its student; the pages of the register are those of the booklet."""
+    """On each page of the booklet stands its student; the pages of the register are those of the booklet. The key
+    begins with who has which variant."""
     pdfium = pytest.importorskip("pypdfium2")
     pages = pdfium.PdfDocument(str(folder / "booklet.pdf"))
     told = [pages[place].get_textpage().get_text_range() for place in range(len(pages))]
@@ -102,6 +103,9 @@ def test_names_stand_on_the_sheets(folder: Path, register: Register) -> None:
         words = " ".join(told[sheet.page - 1].split())
         assert sheet.student in words
         assert f"variant {sheet.variant}" in words
+    first = " ".join(pdfium.PdfDocument(str(folder / "key.pdf"))[0].get_textpage().get_text_range().split())
+    for sheet in register.sheets[:3]:
+        assert f"{sheet.variant} {sheet.student}: points.A.0 = " in first
 
 
 def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

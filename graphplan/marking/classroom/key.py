@@ -1,17 +1,29 @@
-"""The key of a class: the results of every variant, as a table that `graphplan verify` reads of a student."""
+"""The key of a class: who has which variant, and the results of each, as a table that `graphplan verify` reads of a
+student.
+"""
 
 from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import KINDS, ResultKind
+from graphplan.phrases import said
+from graphplan.sheet.frames.frame import frame_of
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import framed, layout, stacked, titled
+from graphplan.sheet.layout.paper import packed, words_page
+from graphplan.sheet.plates.display import Sheet
+from graphplan.sheet.words.rows import TextRow, lettered
 from graphplan.sheet.words.tables import ROUNDING, largest_size
+from graphplan.sheet.words.texts import Words
 
+KEY = said("Key")
 HEAD = "variant", "student", "quantity", "of", "x", "y", "value", "unit"
 
 
@@ -52,3 +64,20 @@ def key_table(found: Iterable[tuple[int, str, Iterable[Row]]]) -> str:
     for variant, student, rows in found:
         table.writerows((variant, student, *row) for row in rows)
     return text.getvalue()
+
+
+def overview(composition: Composition, told: Sequence[tuple[int, str, str]]) -> Iterator[Sheet]:
+    """The first pages of the key: each variant with its student and what was drawn for it."""
+    plans, scene = composition.plans, composition.plans.drawing.scene
+    words, frame = Words(plans), frame_of(scene)
+    page = words_page(frame.paper("A4"), frame, frame.block(scene, plans.tongue))
+
+    def rows(wide: float) -> Sequence[TextRow]:
+        lines = [(f"{variant}", f"{student}: {values}" if student else values) for variant, student, values in told]
+        return [row for number, line in lines for row in words.paragraph(line, wide, number=number)]
+
+    apart, filled = replace(composition, arrangement=page), packed(page.set(rows), page)
+    first = layout(plans.drawing, composition=composition, document=KEY)
+    for number, placed in enumerate(filled, 1):
+        items = stacked([*framed(apart), *lettered(placed), *titled(apart, KEY, number, len(filled))])
+        yield replace(first, width=page.width, height=page.height, frame=page.frame, panels={}, items=tuple(items))

@@ -18,11 +18,14 @@ from graphplan.accuracy.pencil import Pencil  # noqa: E402
 from graphplan.kernel.kinds import LINE  # noqa: E402
 from graphplan.marking.judge.judge import judge  # noqa: E402
 from graphplan.marking.judge.mistakes import Mistake  # noqa: E402
+from graphplan.marking.judge.score import score  # noqa: E402
 from graphplan.marking.judge.verdict import MISSING, RIGHT, Judgement  # noqa: E402
 from graphplan.marking.submission import read  # noqa: E402
 from graphplan.methods.construction import Construction  # noqa: E402
+from graphplan.output.pdf_png import pdf  # noqa: E402
 from graphplan.sheet.handout import code, task  # noqa: E402
 from graphplan.sheet.layout.composition import Composition, compose  # noqa: E402
+from graphplan.sheet.layout.layout import layout  # noqa: E402
 from graphplan.sheet.plates.display import Sheet  # noqa: E402
 
 
@@ -56,8 +59,29 @@ def test_a_faultless_drawing_is_right_in_a_picture(tmp_path: Path, phone: bool) 
     assert states.count(RIGHT) > len(states) / 3
     assert states.count(MISSING) <= 2
     lines = [trace.spots for trace in found.spare if trace.kind == LINE]
-    short = 80 / handout()[1].scales.k_s  # mm on paper of 80 mm of the mechanism
-    assert all(math.dist(*spots[:2]) < short for spots in lines)  # what is drawn over print is not spare
+    assert all(math.dist(*spots[:2]) < 20 for spots in lines)  # mm: what is drawn over print is not spare
+
+
+def test_a_point_far_off_is_found_in_a_scan(tmp_path: Path) -> None:
+    """A vector that ends far from where it should is wrong there, though all that follows goes on from it."""
+    drawing, *_ = handout()
+    b = next(step.index for step in drawing.drawn.steps if step.name == "b")
+    for mistake in (mistake for mistake in slipped(drawing, b) if mistake.kind in ("reversed", "turned the wrong way")):
+        found = judged(tmp_path, 33, {b: mistake})
+        assert found.guilty == b
+        assert (score(found).total or 0) < 90
+
+
+def test_nothing_is_wrong_on_an_own_sheet_in_a_pdf(tmp_path: Path) -> None:
+    """A sheet that was drawn as a page, which has other print than the task, is laid by its frame and its mechanism."""
+    pytest.importorskip("pypdfium2")
+    drawing, sheet, page, _ = handout()
+    path = tmp_path / "sheet.pdf"
+    path.write_bytes(pdf([layout(drawing, composition=sheet)]))
+    found = judge(drawing, sheet, read(path, list(sheet.views), frames(drawing, sheet), lambda: page, code(sheet)),
+                  Pencil())
+    assert found.first is None
+    assert (score(found).total or 0) > 90
 
 
 def test_a_wrong_line_is_found_in_a_scan(tmp_path: Path) -> None:

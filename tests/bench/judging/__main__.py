@@ -8,7 +8,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1]))
 
-from judging.table import KINDS, lines, measure
+from judging.table import KINDS, head, measure, rows
 
 
 def run() -> None:
@@ -18,8 +18,10 @@ def run() -> None:
     asked.add_argument("--keep", type=Path, metavar="FOLDER", help="where what was judged wrongly is kept")
     options = asked.parse_args()
     low, high = map(int, options.seeds.split("-"))
-    found = {kind: measure(kind, range(low, high), options.keep) for kind in options.kinds or KINDS}
-    print("\n".join(lines(found, options.seeds)))
+    print("\n".join(head(options.seeds)), flush=True)
+    for kind in options.kinds or KINDS:
+        keep = options.keep and options.keep / kind.replace(", ", "-").replace(" ", "-")
+        print(*rows({kind: measure(kind, range(low, high), keep)}), flush=True)
 
 
 run()

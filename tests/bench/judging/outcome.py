@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import functools
 import io
 import json
 import re
@@ -15,7 +14,7 @@ from typing import Any
 import graphplan.commands.verify as verify
 from graphplan.commands import main
 from judging.hand import Sketch
-from judging.task import Task
+from judging.task import Task, task
 
 
 @dataclass(frozen=True)
@@ -45,18 +44,18 @@ class Outcome:
     def exact(self) -> bool:
         """Whether the first wrong step is named: itself, or where it cannot be seen, the first mark that shows it."""
         fault, first = self.sketch.fault, self.first
-        task = self.sketch.task
+        sheet = self.sketch.task
         if fault and fault.hidden and self.data:
             told = {(one["step"], one["mark"]): one["verdict"] for one in self.data["steps"]}
-            return told.get((task.number(fault.index), task.text(fault.index))) in {"missing", "unsure"} and not first
+            return told.get((sheet.number(fault.index), sheet.text(fault.index))) in {"missing", "unsure"} and not first
         if fault is None or first is None:
             return False
         right = {fault.index, *(fault.letters or ())}
         named = [(first["step"], first["mark"])]
         if first.get("guilty"):
             named.append((first["guilty"]["step"], first["guilty"]["mark"]))
-        right |= surrogates(task, fault.index, self.shown)
-        return any(mark == task.text(at) and (number == task.number(at) or task.letter(at)) for at in right
+        right |= surrogates(sheet, fault.index, self.shown)
+        return any(mark == sheet.text(at) and (number == sheet.number(at) or sheet.letter(at)) for at in right
                    for number, mark in named)
 
     @property
@@ -69,13 +68,13 @@ class Outcome:
         return bool(self.exact and re.search(fault.told, said))
 
 
-def surrogates(task: Task, index: int, shown: frozenset[int]) -> set[int]:
+def surrogates(sheet: Task, index: int, shown: frozenset[int]) -> set[int]:
     """The first marks in which a step that is not shown can be seen."""
     if index in shown:
         return {index}
     found: set[int] = set()
-    for at in task.dependents(index):
-        found |= surrogates(task, at, shown)
+    for at in sheet.dependents(index):
+        found |= surrogates(sheet, at, shown)
     return set(sorted(found)[:2])
 
 
@@ -83,16 +82,7 @@ def surrogates(task: Task, index: int, shown: frozenset[int]) -> set[int]:
 def one_sheet_each() -> Any:
     """Within, the sheet of a scene is made once for all drawings of it."""
     whole = verify.on_paper
-    kept: dict[str, Any] = {}
-
-    @functools.wraps(whole)
-    def on_paper(options: Any, *more: Any) -> Any:
-        key = repr(sorted((k, repr(v)) for k, v in vars(options).items() if k not in {"drawing", "json", "report"}))
-        if more or key not in kept:
-            kept[key] = whole(options, *more)
-        return kept[key]
-
-    verify.on_paper = on_paper
+    verify.on_paper = lambda options: task(options.scene).on_sheet
     try:
         yield
     finally:

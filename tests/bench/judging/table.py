@@ -7,10 +7,11 @@ import shutil
 import statistics
 import sys
 import tempfile
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from functools import lru_cache
 from pathlib import Path
 
-from graphplan.errors import GraphplanError
+from graphplan.errors import GraphplanError, Undrawable
 from judging import cad, geogebra, picture, tables, vector
 from judging.faults import faulty
 from judging.hand import Sketch, drawn
@@ -23,6 +24,7 @@ SMALL = (
     "plough-lift", "ozols-5-1", "ozols-5-2", "ozols-5-3", "ozols-5-4", "ozols-5-5", "jaanimets-11",
 )  # sheets that go through a school's scanner
 LARGE = ("class-four", "alt-eight-link", "rosenauer-basic", "alt-ten-link", "double-butterfly")
+OWN_FOLDER = tempfile.TemporaryDirectory()
 OWN = 0.4  # of all drawings, the share of mechanisms that are in no scene file
 SCENES = (*SMALL, *SMALL, *LARGE)
 Writer = Callable[[Sketch, int, Path], tuple[Path, set[int]]]
@@ -64,16 +66,18 @@ KINDS: Mapping[str, Writer] = {
 }
 
 
-def sketched(seed: int, folder: Path, scenes: Sequence[str], printed: bool) -> Sketch:
+@lru_cache(maxsize=512)
+def sketched(seed: int, printed: bool) -> Sketch:
     """The drawing of a seed: of some scene or one of its own; an odd seed's with a mistake, on a sheet with what is
     given or without."""
+    scenes = SMALL if printed else SCENES
     chance = random.Random(f"scene {seed}")
     while True:
         own = chance.random() < OWN
-        scene = task(mechanism(chance.randrange(10**6), folder) if own else chance.choice(scenes))
+        scene = task(mechanism(chance.randrange(10**6), Path(OWN_FOLDER.name)) if own else chance.choice(scenes))
         try:
             return (faulty if seed % 2 else drawn)(scene, seed, printed=printed)
-        except LookupError:
+        except (LookupError, Undrawable):
             continue
 
 
@@ -82,7 +86,7 @@ def measure(kind: str, seeds: Iterable[int], keep: Path | None = None) -> list[O
     found: list[Outcome] = []
     with tempfile.TemporaryDirectory() as folder, one_sheet_each():
         for seed in seeds:
-            sketch = sketched(seed, Path(folder), *((SMALL, True) if kind in PICTURES else (SCENES, False)))
+            sketch = sketched(seed, kind in PICTURES)
             try:
                 path, shown = KINDS[kind](sketch, seed, Path(folder))
             except GraphplanError as fault:
@@ -120,12 +124,16 @@ def share(count: int, of: int) -> str:
     return f"{100 * count / of:.0f}" if of else "-"
 
 
-def lines(found: Mapping[str, list[Outcome]], seeds: str) -> Iterator[str]:
-    """The table, a row a kind, targets in brackets."""
+def head(seeds: str) -> Iterator[str]:
+    """What stands over the table."""
     yield f"Seeds {seeds}. In brackets what must be reached; seconds of the processor a drawing, without its sheet.\n"
     yield ("| kind | faulty | exact % | kind % | faultless | called wrong % | faultless < 90 % | wrong given >= 90 % | "
            "refused | seconds |")
     yield "|---|---|---|---|---|---|---|---|---|---|"
+
+
+def rows(found: Mapping[str, list[Outcome]]) -> Iterator[str]:
+    """The table, a row a kind, targets in brackets."""
     for kind, ones in found.items():
         wrong = [one for one in ones if one.sketch.fault]
         fair = [one for one in ones if not one.sketch.fault]

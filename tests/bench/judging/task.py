@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from functools import cached_property, lru_cache
 from typing import Any
 
+from graphplan.accuracy.drafted import Drafted
 from graphplan.commands import parser, steps
 from graphplan.commands.choices import on_paper
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
@@ -26,8 +27,12 @@ class Task:
 
     scene: str
     options: tuple[str, ...]
-    composition: Composition
+    on_sheet: Drafted
     told: dict[str, Any]
+
+    @property
+    def composition(self) -> Composition:
+        return self.on_sheet.composition
 
     @property
     def steps(self) -> tuple[Step, ...]:
@@ -113,4 +118,4 @@ class Task:
 def task(scene: str, options: tuple[str, ...] = ()) -> Task:
     """The task that these options of the command line draw."""
     on_sheet = on_paper(parser(("steps",)).parse_args(["steps", scene, *options]))
-    return Task(scene, options, on_sheet.composition, json.loads(json.dumps(steps.data(on_sheet))))
+    return Task(scene, options, on_sheet, json.loads(json.dumps(steps.data(on_sheet))))

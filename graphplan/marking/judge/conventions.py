@@ -179,11 +179,14 @@ class Proposer:
         return None
 
     def _meant(self, size: float, sigma: float) -> Fraction:
-        """The factor of a scale as it is meant: such that it is a round one, or that of a drive, if one is so near."""
+        """The factor of a scale as it is meant: such that it is the task's, a round one, or that of a drive, if one is
+        so near."""
+        if abs(1 / size - 1) < CLOSE * sigma:
+            return Fraction(1)
         kappa = Fraction(self.task.drawing.tempo.kappa)
         speed = Fraction(abs(1 / (float(kappa) * self.frame.unit))).limit_denominator(10**6)  # k_v of the task
         rates = [abs(Fraction(drive.rate)) * kappa for drive in self.task.drawing.scene.drives if drive.rate]
-        near = [Fraction(1), *_round(size), *(speed / k_v for k_v in _round(float(speed) / size)),
+        near = [*_round(size), *(speed / k_v for k_v in _round(float(speed) / size)),
                 *(part / rate for rate in rates for part in _round(size * float(rate)))]
         nearest = min(near, key=lambda one: abs(math.log(float(one) / size)))
         return nearest if abs(float(nearest) / size - 1) < CLOSE * sigma else Fraction(size).limit_denominator(10**6)

@@ -3,6 +3,7 @@ construction that it follows, of all those that lead to what was asked."""
 
 from __future__ import annotations
 
+import cmath
 import math
 from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,7 +15,7 @@ from typing import Any
 from graphplan.accuracy.pencil import Pencil, SeenPencil
 from graphplan.accuracy.preference import Constructing
 from graphplan.errors import Refused
-from graphplan.kernel.kinds import LINE
+from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
 from graphplan.marking.judge.exchanged import exchanged, told
@@ -23,13 +24,14 @@ from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.readings import Reading
-from graphplan.marking.judge.register import Register
+from graphplan.marking.judge.register import SAME_WAY, Register
 from graphplan.marking.judge.search import Search
 from graphplan.marking.judge.seen_pencil import as_measured, assumed, blurred, seen_pencil
 from graphplan.marking.judge.student_sheet import Fit, StudentSheet
 from graphplan.marking.judge.units import in_mm
-from graphplan.marking.judge.verdict import MISSING, WRONG, Judgement
+from graphplan.marking.judge.verdict import FOLLOWS, MISSING, RIGHT, WRONG, Judgement
 from graphplan.marking.judge.verdicts import judged, verdicts
+from graphplan.marking.spelling import mark
 from graphplan.marking.traces import PlanFrame, Submission, Trace
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
@@ -135,7 +137,8 @@ class Judge:
         found = self.judgement
         wrong = [verdict.kind for verdict in found.verdicts if verdict.state == WRONG]
         numbers = sum(NUMBER if number.state != WRONG else -NUMBER for number in found.numbers)
-        return (self.reading.prior + likelihood(self.likeliest) + numbers
+        strange = sum(trace.kind == POINT and bool(mark(trace.label)) for trace in found.spare)
+        return (self._prior + likelihood(self.likeliest) + numbers + TORN * torn(self.likeliest) + STRANGE * strange
                 + sum(KNOWN if kind else UNNAMED for kind in wrong))
 
     @property
@@ -143,7 +146,16 @@ class Judge:
         """What may speak for it, as far as that is seen without looking for mistakes: every wrong mark may be one."""
         matching = self.matching(self.fits)
         wrong = sum(match.state == WRONG for match in matching.matches)
-        return self.reading.prior + likelihood(matching) + KNOWN * wrong
+        return self._prior + likelihood(matching) + KNOWN * wrong
+
+    @property
+    def _prior(self) -> float:
+        """How unlikely the reading is by itself, and plans of a scale and of a direction of their own."""
+        frame = self.fits[MECHANISM].frame
+        free = [fit for panel, fit in self.fits.items()
+                if panel != MECHANISM and not fit.tied and panel not in self.submission.frames]
+        turned = sum(abs(cmath.phase(fit.frame.unit / frame.unit)) > SAME_WAY + 3 * fit.turn for fit in free)
+        return self.reading.prior + OWN_FRAME * (len(free) + turned)
 
     @cached_property
     def hidden(self) -> set[int]:
@@ -248,6 +260,9 @@ def _wrong(matching: Matching, panel: str) -> int:
 
 SHARP, MISSED = 1.0, 3.0  # mm within which a mark is as sure as any; what it speaks against a plan that one is missing
 KNOWN, UNNAMED = -8.0, -14.0  # the odds, as logarithms, of a mistake of the table at a step, and of any other
+OWN_FRAME = -3.0  # a plan of its own scale, and one of its own direction
+STRANGE = -3.0  # a point with a letter that a reading has no use for
+TORN = -5.0  # what it speaks against a reading that marks rest on a wrong one, and on where it should be
 NUMBER = 5.0  # what a number that a drawing bears out speaks for its reading
 CLOSELY = 2  # how many other readings are looked at closely
 DOUBT = 20.0  # what a closer look may find that a glance does not
@@ -267,6 +282,16 @@ def likelihood(matching: Matching) -> float:
         vague = match.residual.vague(SHARP) if match.residual and match.state != WRONG else 0.0
         found += max(match.weight - vague, min(match.weight, 0.0))
     return found - sum(MISSED * (1 + math.log(count)) for count in left_out.values())
+
+
+def torn(matching: Matching) -> bool:
+    """Whether some marks follow from a wrong one, and others from where that should be: nobody draws from both."""
+    rest: set[int] = set()
+    for match in matching.matches:
+        if match.state == WRONG or not rest.isdisjoint(match.step.args):
+            rest.add(match.step.index)
+    states = {match.state for match in matching.matches if match.place is not None and match.step.index in rest}
+    return states >= {RIGHT, FOLLOWS}
 
 
 def judge_any_method(drawing: Construction, composition: Composition, submission: Submission, pencil: Pencil,

@@ -251,6 +251,24 @@ def test_a_forgotten_scale_of_a_plan_is_one_mistake() -> None:
                 assert found.first.off > 3 * found.first.tolerance
 
 
+@pytest.mark.parametrize(("mark", "locus", "told"), [
+    ("v_b", "line 3", "v_BC is not perpendicular to BC"), ("v_b", "BC", "v_BA is not perpendicular to AB"),
+    ("B_1", "beta", "a^t_BA is not perpendicular to AB")])
+def test_a_mark_on_one_of_its_loci_alone_tells_which_vector_is_wrong(mark: str, locus: str, told: str) -> None:
+    """In mechanics' words, wherever it lies on that."""
+    drawing, sheet = composed("four-bar")
+    ways = frames(drawing, sheet)
+    steps = {drawing.drawn.text(step.index): step for step in drawing.drawn.steps}
+    a, b, _ = drawing.values[steps[locus].index]
+    drawn = draw(drawing, ways, PENCIL, 1)
+    x, y = drawn.values[steps[mark].index]
+    far = 13.0 / sheet.views[steps[mark].panel].scale / float(a * a + b * b) ** 0.5
+    drawn.values[steps[mark].index] = x + far * float(b), y - far * float(a)
+    found = judge(drawing, sheet, points(drawn), PENCIL).first
+    assert found
+    assert (found.step, str(found.mistake)) == (steps[mark].index, told)
+
+
 # ---- numbers ---------------------------------------------------------------------------------------------------------
 
 

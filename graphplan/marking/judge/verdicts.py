@@ -17,10 +17,11 @@ import numpy as np
 from graphplan.accuracy.first_order import readings
 from graphplan.accuracy.hand import Errors
 from graphplan.errors import Refused, Undrawable
-from graphplan.kernel.kinds import POINT, Movement
+from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Step
+from graphplan.kernel.stages import Known
 from graphplan.marking.judge.matching import Match, Matching
 from graphplan.marking.judge.mistakes import MISTAKES, Mistake, exchanges, mistakes
 from graphplan.marking.judge.states import States
@@ -129,8 +130,9 @@ def _verdict(matching: Matching, match: Match, state: str) -> Verdict:
     step, sheet, seen, chance = match.step, matching.sheet, match.place is not None, matching.chance
     reason = explained(matching, match) if state == WRONG and seen and not match.mistake else None
     mistake = reason.mistake if reason else match.mistake
+    turned = off_locus(matching, match) if state == WRONG and seen and mistake is None else None
     guilty = reason.source.index if reason else step.index if state == WRONG else None
-    found = Verdict(step.index, state, own=plain(match.expected), mistake=mistake.told if mistake else None,
+    found = Verdict(step.index, state, own=plain(match.expected), mistake=mistake.told if mistake else turned,
                     kind=mistake.kind if mistake else "", guilty=guilty)
     if not seen and (not mistake or step.op.gives != POINT):
         return replace(found, off=math.inf, tolerance=math.inf, astray=math.inf) if mistake else found
@@ -140,6 +142,25 @@ def _verdict(matching: Matching, match: Match, state: str) -> Verdict:
     return replace(found, off=residual.size, tolerance=residual.tolerance(chance), trace=trace,
                    astray=sheet.residual(step, true[step.index], spots, true).size,
                    ellipse=_ellipse(residual, step, chance) if trace else None)
+
+
+def off_locus(matching: Matching, match: Match) -> Said | None:
+    """Which vector has not the direction that it should, of a mark that lies on one of its two loci alone; None where
+    it lies on both or none, or where no stage says whose direction a locus is."""
+    step, sheet, program = match.step, matching.sheet, matching.sheet.drawing.drawn
+    lines = [program.steps[arg] for arg in step.args if program.steps[arg].op.gives == LINE]
+    if not step.op.crossing or len(lines) != 2 or match.place is None or match.residual is None or step.stage is None:
+        return None
+    spot, = sheet.spots(step.index, matching.traces[match.place])
+    at = np.array([complex(*plain(spot))])
+    allowed = match.residual.tolerance(matching.chance) / sheet.mm(sheet.plan_of_step[step.index])
+    off = [line for line in lines if apart(LINE, plain(matching.own[line.index]), at) > allowed]
+    if len(off) != 1:
+        return None
+    side = program.text((off[0] if off[0].op.movement is Movement.RULED else program.steps[off[0].args[0]]).index)
+    vector = next((name for name, known in step.stage(()).vectors.items() if known is Known.DIRECTION
+                   and name.rpartition("_")[2] in (side, side[::-1])), None)
+    return said("{0} is not perpendicular to {1}", vector, side) if vector else None
 
 
 def _ellipse(residual: Residual, step: Step, chance: float) -> Ellipse | None:

@@ -46,7 +46,8 @@ def full(centre: Spot, radius: float) -> Trace:
 def dotted(traces: Sequence[Trace]) -> list[Trace]:
     """The things with points for what stands for them: circles and crosses that are small beside all."""
     size = extent([spot for trace in traces for spot in trace.spots] or [(0.0, 0.0)])
-    return _uncrossed([dot(trace, min(DOT, size / SMALL)) for trace in traces], size / SMALL)
+    most = min(DOT, size / SMALL)
+    return _uncrossed([dot(trace, most) for trace in traces], most)
 
 
 def dot(trace: Trace, radius: float = DOT) -> Trace:

@@ -192,9 +192,18 @@ class Plate:
         return [stroke for stroke in self._asked if stroke.length >= least.get(stroke.kind, SHORT)]
 
     @property
-    def hidden(self) -> list[DrawnStep]:
-        """Where forces end that are too short to be drawn."""
-        return [force.end for force in self._asked if force.kind in pens.FORCES and force not in self.vectors]
+    def hidden(self) -> Iterator[DrawnStep]:
+        """What the sheet does not show: where forces end that are too short to be drawn, points beyond the panel, and
+        lines and arcs of which nothing is needed but their way."""
+        yield from (force.end for force in self._asked if force.kind in pens.FORCES and force not in self.vectors)
+        for drawn in self.steps:
+            seen = {POINT: self.shown, CIRCLE: self.arcs, LINE: self._ruled}.get(drawn.kind)
+            if seen and not seen(drawn):
+                yield drawn
+
+    def _ruled(self, line: DrawnStep) -> bool:
+        """Whether a line is drawn somewhere, or lies along what is."""
+        return any(stroke.length > NOTHING for stroke in self.strokes(line))
 
     @cached_property
     def _asked(self) -> list[Stroke]:

@@ -78,7 +78,7 @@ def test_every_verdict_bears_its_confidence() -> None:
     for submission in (drawn, spoilt):
         found = judge(drawing, sheet, submission, PENCIL)
         assert all(0.0 <= verdict.confidence <= 1.0 for verdict in found.verdicts)
-        sure = [verdict.confidence for verdict in found.judged if verdict.state in (*EARNED, WRONG)]
+        sure = [verdict.confidence for verdict in found.verdicts if verdict.state in (*EARNED, WRONG)]
         assert min(sure) > 0.85
     assert RIGHT in {verdict.state for verdict in found.judged}
     assert found.first

@@ -41,7 +41,7 @@ class States:
         if match.state == WRONG:
             return WRONG, sureness(self._against(match))
         if match.step.op.free or (odds == -math.inf and self._untold(match)):
-            return match.state, sureness(-match.weight)
+            return match.state, sureness(-match.weight if match.place is None else odds)
         if odds > -math.inf:
             state = match.state if match.place is not None else IMPLIED
             elsewhere = match.weight < 0.0 and self.beside(match)  # it could be seen, and something else is there

@@ -52,8 +52,7 @@ class Outcome:
             return False
         right = {fault.index, *(fault.letters or ())}
         named = [(first["step"], first["mark"])]
-        if first.get("guilty"):
-            named.append((first["guilty"]["step"], first["guilty"]["mark"]))
+        named += [(first[also]["step"], first[also]["mark"]) for also in ("guilty", "seen") if first.get(also)]
         right |= surrogates(sheet, fault.index, self.shown)
         return any(mark == sheet.text(at) and (number == sheet.number(at) or sheet.letter(at)) for at in right
                    for number, mark in named)

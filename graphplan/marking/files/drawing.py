@@ -22,7 +22,7 @@ from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import SUBSCRIPT, Run, width
 
 STATED = 3.0  # what the unit that a file states speaks for itself, as a logarithm of odds
-WORDS = 1000  # that may be names; more name nothing
+WORDS = 500  # that may be names; more name nothing
 LED = 0.6  # of their size that a leader begins beside letters
 AT, FREE, LONGEST = 0.3, 0.5, 30.0  # mm from a leader's end to its mark, and from the other to anything; of a leader
 

@@ -13,7 +13,7 @@ from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.marking.files.curves import circle
 from graphplan.marking.traces import Trace
 
-ROUND, SAME = 40, 0.3  # strokes about a letter that are looked at; mm within which crossings are one
+ROUND, SAME = 24, 0.3  # strokes about a letter that are looked at; mm within which crossings are one
 WOBBLE = 0.15  # mm: the standard deviation of a mark that is set where strokes cross squarely
 STEEP = 0.05  # the sine of the angle at which strokes hardly cross
 

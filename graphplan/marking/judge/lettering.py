@@ -33,7 +33,8 @@ from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.plans import Plans
 
 BESIDE, SIZES = 6.0, 2.4  # mm from a mark to its letters, or as many of their sizes where those are large
-CHOICES = 12  # things nearest to a letter that are weighed
+CHOICES, LOOKED_AT = 12, 60  # things nearest to a letter that are weighed, of so many
+UNDOTTED = 150  # letters at most about which crossings are sought
 AT_TIP = 1.5  # mm from the end of a leader to what it leads to
 GAP = 0.4  # of their size that letters stand from a mark: a cost of one
 ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be at all; mm that cost half of it
@@ -90,7 +91,7 @@ class Letters:
         points = sum(trace.kind == POINT for trace in self.traces)
         if 2 * points < len(words):
             figures = self._things
-            met = [meetings(word.box, _reach(word), self.submission.traces, figures) for word in words]
+            met = [meetings(word.box, _reach(word), self.submission.traces, figures) for word in words[:UNDOTTED]]
             crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
             self.traces = (*self.traces, *crossed, *ends)
             self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
@@ -102,8 +103,9 @@ class Letters:
         places = self._things.query(box, "dwithin", AT_TIP if word.leads else _reach(word))
         gaps = shapely.distance(self._things.geometries[places], box)
         named = LINE in steps or (not steps and lined(name))
+        nearest = np.argsort(gaps, kind="stable")[:LOOKED_AT]
         found: list[tuple[float, int]] = []
-        for gap, place in zip(gaps.tolist(), places.tolist(), strict=True):
+        for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
             meant = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
             if meant and (trace.beside or not trace.label):

@@ -54,7 +54,7 @@ class Register:
         steps = self.drawing.drawn.steps
         given = [pair for index, pair in self._pairs(MECHANISM) if index < self.drawing.drawn.givens]
         sigma = self._sigma
-        found = best(given, sigma) or best([pair for _, pair in self._pairs(MECHANISM)], sigma)
+        found = best(given, sigma, self._usual) or best([pair for _, pair in self._pairs(MECHANISM)], sigma)
         found = found or self._sought([complex(*self.drawing.values[step.index]) for step in steps[:len(
             self.drawing.scene.points)] if step.op.movement is Movement.GIVEN])
         if found is None:
@@ -62,6 +62,12 @@ class Register:
             raise Refused(f"{self.submission.name}: mechanism", "not two of its points are there, so it lies nowhere",
                           f"label them, as {names}")
         return found
+
+    @property
+    def _usual(self) -> float:
+        """The scale of the mechanism on the task's sheet."""
+        views = self.reading.task.views
+        return views[MECHANISM].scale if MECHANISM in views else 0.0
 
     @property
     def _sigma(self) -> float:
@@ -249,11 +255,12 @@ def agreed(units: Sequence[tuple[complex, float]]) -> Iterator[tuple[int, comple
             yield count, unit, sigma
 
 
-def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
+def best(pairs: Sequence[Pair], sigma: float, usual: float = 0.0) -> Fit | None:
     """The frame on which most marks agree, each `sigma` mm off in x and in y; None where no two lie apart.
 
-    Every two marks propose one; of those that hold equally many the one that misses them least is taken, and fitted
-    to all that it holds. The marks that a frame was laid through shake it, the more the further off a mark is.
+    Every two marks propose one; of those that hold equally many the one that misses them least is taken, of those that
+    hold no more than two the one that is nearest to the `usual` scale, and fitted to all that it holds. The marks that
+    a frame was laid through shake it, the more the further off a mark is.
     """
     most, least, held = 1, math.inf, list[Pair]()
     for one, two in combinations(pairs, 2):
@@ -262,6 +269,8 @@ def best(pairs: Sequence[Pair], sigma: float) -> Fit | None:
             off = [abs(sheet - one[1] - unit * (plan - one[0])) for plan, sheet in pairs]
             kept = [place for place, far in enumerate(off) if far <= SIGMAS * 2.0 * sigma]
             missed = sum(off[place] ** 2 for place in kept)
+            if len(kept) == 2 and usual:
+                missed = abs(math.log(abs(unit) / usual))
             if len(kept) > most or (len(kept) == most > 1 and missed < least):
                 most, least, held = len(kept), missed, [pairs[place] for place in kept]
     return fitted(held, sigma) if held else None

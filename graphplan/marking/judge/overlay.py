@@ -274,14 +274,15 @@ class StudentStrokes:
 
     def about(self, verdict: Verdict) -> Spot:
         """Where what is not to be seen should be: a point, or the middle of the marks on a line or an arc, or the foot
-        on it from the middle of its panel."""
+        on it from the middle of its panel; an opening is anywhere."""
         plates = self.judgement.composition.plates
         wanted = replace(plates.steps[verdict.step], value=verdict.own)
         rect = wanted.view.rect
         on = [wanted.at] if wanted.kind == POINT else [mark.at for mark in plates[wanted.panel].marks(wanted)]
         middle = (rect.left + rect.right) / 2, (rect.bottom + rect.top) / 2
         if not on:
-            on = [foot(Floats(), wanted.line, middle) if wanted.kind == LINE else wanted.at]
+            on = [foot(Floats(), wanted.line, middle) if wanted.kind == LINE else
+                  wanted.at if wanted.kind == CIRCLE else middle]
         x, y = np.mean(on, axis=0)
         return min(max(float(x), rect.left), rect.right), min(max(float(y), rect.bottom), rect.top)
 

@@ -19,7 +19,6 @@ from graphplan.kernel.kinds import LINE, POINT
 from graphplan.marking.judge.conventions import Proposer, orphans, seen_right_way
 from graphplan.marking.judge.evidence import Evidence, ImageSearch, unexplained, wobbly
 from graphplan.marking.judge.exchanged import exchanged, told
-from graphplan.marking.judge.forgotten import forgotten
 from graphplan.marking.judge.labels import labelled, sure
 from graphplan.marking.judge.lettering import lettered
 from graphplan.marking.judge.matching import Match, Matching
@@ -113,8 +112,6 @@ class Judge:
             spare = unexplained(spare, [matching.traces[place] for place in needed])
         numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
         found = told(verdicts(matching, numbers), self._exchanged, matching)
-        if not (self.reading.told or self.submission.frames):
-            found = forgotten(found, matching, self.reading.composition.scales.multiples)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,

@@ -12,7 +12,6 @@ from dataclasses import dataclass, field
 from graphplan.accuracy.pencil import decimal, settings
 from graphplan.errors import Refused
 from graphplan.kernel.passes import needed
-from graphplan.marking.judge import forgotten
 from graphplan.marking.judge.asked import results
 from graphplan.marking.judge.exchanged import EXCHANGED, WORDS
 from graphplan.marking.judge.mistakes import MISTAKES
@@ -31,8 +30,7 @@ GROUPS: Mapping[str, Phrase] = {
 }  # fmt: skip
 OTHER, ANOTHERS = "other", "another's number"
 KINDS: Mapping[str, Callable[[], Said]] = {**{kind: entry.words for kind, entry in MISTAKES.items()},
-                               EXCHANGED: WORDS, forgotten.FORGOTTEN: forgotten.WORDS,
-                               ANOTHERS: phrase("the number of another result"),
+                               EXCHANGED: WORDS, ANOTHERS: phrase("the number of another result"),
                                OTHER: phrase("another mistake")}
 FUNDAMENTAL, SLIP = 20.0, 12.0  # what a mistake about mechanics costs by default, and one that is none
 SLIPS = frozenset({"wrong side", "wrong scale", "wrong crossing", "wrong opening", "wrong centre",

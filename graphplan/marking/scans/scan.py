@@ -118,9 +118,10 @@ class PencilPage:
     @cached_property
     def traces(self) -> tuple[Trace, ...]:
         """Everything that is found without knowing what is expected, but what may be parts of letters."""
-        ringed = (dot for dot, ring in zip(self._rings, self._ringed, strict=True) if self._sure(ring))
-        alone = (dot for dot in self._marked(SURE) if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any()
-                 and self._blob(dot.spots[0], ABOUT) < LARGEST)
+        alone = [dot for dot in self._marked(SURE) if not self._about(self.ink.hidden, dot.spots[0], BESIDE).any()
+                 and self._blob(dot.spots[0], ABOUT) < LARGEST]
+        dotted = 2 * sum(map(self._run, self._ringed)) < len(alone)  # a hand that marks points by dots rings none
+        ringed = [dot for dot, ring in zip(self._rings, self._ringed, strict=True) if not dotted and self._sure(ring)]
         return tuple(self._blurred(trace) for trace in (*self._drawn, *ringed, *alone))
 
     def share(self, kind: str, spots: Sequence[Spot], within: float) -> float | None:

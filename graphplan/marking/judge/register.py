@@ -22,7 +22,7 @@ from graphplan.marking.judge.matching import Matching
 from graphplan.marking.judge.readings import Reading
 from graphplan.marking.judge.student_sheet import Fit, plain
 from graphplan.marking.traces import PlanFrame
-from graphplan.methods.panels import MECHANISM
+from graphplan.methods.panels import MECHANISM, VELOCITY_PLAN
 from graphplan.sheet.plates.plans import Plans
 
 Pair = tuple[complex, complex]  # where a mark is on its plan, and where on the sheet
@@ -100,7 +100,10 @@ class Register:
         """
         expected, (plan, sheet) = matching.sheet.fits[panel], self._anchor(panel) or (0j, 0j)
         for _, unit, sigma in agreed(list(self._carried(panel, matching))):
-            along = abs((unit / expected.frame.unit).imag) < 3 * sigma + SAME_WAY
+            ratio = unit / expected.frame.unit
+            along = abs(ratio.imag) < 3 * sigma + SAME_WAY
+            if panel == VELOCITY_PLAN and abs(ratio.real) < (3 * sigma + SAME_WAY) * abs(ratio):
+                continue  # velocities along their links are no plan of another direction
             yield Fit(PlanFrame(sheet - unit * plan, unit), sigma, 0.0, plan), RESCALED if along else REDIRECTED
 
     def _anchor(self, panel: str) -> Pair | None:

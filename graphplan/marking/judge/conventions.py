@@ -131,7 +131,7 @@ class Proposer:
         if any(trace.label.isdigit() for trace in traces):
             told = tuple(replace(trace, label="") if trace.label.isdigit() else trace for trace in traces)
             yield replace(reading, submission=replace(reading.submission, traces=told), prior=reading.prior + NUMBERED,
-                          told=(*reading.told, said("steps in an order of its own")))
+                          told=(*reading.told, said("steps numbered in another order")))
 
     # ---- velocities drawn from their points ------------------------------------------------------------------------
 

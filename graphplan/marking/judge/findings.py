@@ -116,7 +116,7 @@ def look_at(judgement: Judgement) -> list[Said]:
     """The steps of which nothing can be told, and those missing, and the results; nothing where there are none."""
     told = []
     if unsure := lacking(judgement, UNSURE):
-        told.append(said("Look at these steps, of which nothing can be told: {0}.", unsure))
+        told.append(said("Unclear steps, to be looked at: {0}.", unsure))
     if missing := lacking(judgement, MISSING):
         told.append(arranged("{0:capital}: {1}.", STATES[MISSING](), missing))
     if absent := not_handed_in(judgement):

@@ -16,7 +16,7 @@ from graphplan.marking.judge.lettering import Letters
 from graphplan.marking.traces import Spot, Submission
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
-from graphplan.phrases import Said, digits, said
+from graphplan.phrases import Said, digits, said, unit
 from graphplan.sheet.layout.composition import Composition
 
 UNITS: Mapping[str, tuple[float, float]] = {  # in mm, and what speaks against each, as a logarithm of odds
@@ -46,7 +46,7 @@ def in_mm(drawing: Construction, composition: Composition, submission: Submissio
     if best == "mm":
         return submission, ()
     mm = UNITS[best][0]
-    return scaled(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", best, digits(mm, 3)),)
+    return scaled(submission, mm), (said("drawn in {0} (1 unit = {1} mm)", unit(best), digits(mm, 3)),)
 
 
 def _round(scale: float, task: float) -> bool:

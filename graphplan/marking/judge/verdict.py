@@ -17,10 +17,10 @@ RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNSURE, UNSEEN = (
 STATES = {
     RIGHT: phrase("correct"),
     FOLLOWS: phrase("correct after an earlier mistake"),
-    IMPLIED: phrase("not drawn, but borne out"),  # by a right mark that rests on it
+    IMPLIED: phrase("not drawn, implied by a correct mark"),  # by a right mark that rests on it
     WRONG: phrase("wrong"),
     MISSING: phrase("missing"),
-    UNSURE: phrase("cannot be told: look here"),  # something is there, or should be: the teacher has the word
+    UNSURE: phrase("unclear: look here"),  # something is there, or should be: the teacher has the word
     UNSEEN: phrase("not visible"),  # of a kind that the drawing does not show, and nothing that is right rests on it
 }
 EARNED = frozenset({RIGHT, FOLLOWS, IMPLIED})  # what was done as it should be

@@ -297,12 +297,14 @@ def _proposed(at: Any, owner: Any, spots: Any, units: Sequence[complex]) -> tupl
 
 
 def _refined(at: Any, owner: Any, spots: Any, unit: complex, origin: complex, within: float) -> PlanFrame:
-    """The frame of least squares through the spots that a frame holds."""
+    """The frame of least squares through the spots that a frame holds, of each mark the nearest; marks that lie close
+    together turn and stretch nothing."""
     off = np.abs(origin + unit * at[owner] - spots)
-    held = np.flatnonzero(off < within)
+    nearest = [place for place in np.lexsort((off, owner)) if off[place] < within]
+    held = [place for k, place in enumerate(nearest) if not k or owner[place] != owner[nearest[k - 1]]]
     z, w = at[owner[held]], spots[held]
     here, there = z.mean(), w.mean()
     spread = float(np.sum(np.abs(z - here) ** 2))
-    if spread:
+    if spread * abs(unit) ** 2 > len(held) * within**2:
         unit = complex(np.sum(np.conj(z - here) * (w - there)) / spread)
     return PlanFrame(complex(there - unit * here), unit)

@@ -233,7 +233,7 @@ def _lines(one: Marked) -> Iterator[Said]:
     yield from summary(one.judgement)
     yield from look_at(one.judgement)
     wrong = wrong_numbers(one.judgement)  # the first is the opinion, if no step is wrong
-    yield from map(miss, wrong if one.judgement.first else wrong[1:])
+    yield from (miss(one.judgement, number) for number in (wrong if one.judgement.first else wrong[1:]))
     yield one.score.told
 
 

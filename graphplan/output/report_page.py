@@ -22,8 +22,8 @@ from graphplan.marking.judge.findings import (
     look_at,
     named,
     opinion,
-    quantity,
     read_as,
+    result_named,
     summary,
     written,
 )
@@ -191,8 +191,9 @@ class _Report(HtmlPage):
         yield from self.table(said("Results"), said("In the units of the scene."), heads, rows)
 
     def _number(self, verdict: NumberVerdict) -> tuple[HtmlCell, ...]:
+        what = result_named(self.judgement, verdict.number.kind, verdict.number.of)
         return (
-            HtmlCell(self.set(quantity(verdict))), HtmlCell(self.say(written(verdict.number)), FIGURE),
+            HtmlCell(self.set(what)), HtmlCell(self.say(written(verdict.number)), FIGURE),
             HtmlCell(self.say(figures(verdict.true)), FIGURE), HtmlCell(self.say(STATES[verdict.state]()), STATE),
             *(HtmlCell(self.say(digits(size, FIGURES)), FIGURE) for size in (verdict.off, verdict.tolerance)),
             HtmlCell(self.set(verdict.mistake or "")),

@@ -24,6 +24,7 @@ from graphplan.methods.construction import Construction
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
+from graphplan.words.tongue import tongue
 
 PENCIL = Pencil()
 SCENES = ("four-bar", "slider-crank", "slotted-link", "alt-eight-link", "open-chain", "jaanimets-11")
@@ -291,9 +292,19 @@ def test_a_result_that_is_written_twice_is_judged_once() -> None:
     """The first counts; the others, however they are spelled, are told beside it."""
     drawing, sheet = composed("four-bar")
     numbers = _velocity("B"), _velocity("A"), replace(_velocity("B", -1.0), of="b")
-    found = judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL).numbers
-    assert [(one.number.of, one.state, one.again) for one in found] == [("B", RIGHT, numbers[2:]), ("A", RIGHT, ())]
-    assert "written down twice" in str(twice(found[0]))
+    found = judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL)
+    again = [(one.number.of, one.state, one.again) for one in found.numbers]
+    assert again == [("B", RIGHT, numbers[2:]), ("A", RIGHT, ())]
+    assert "written down twice" in str(twice(found, found.numbers[0]))
+
+
+def test_a_result_is_told_in_the_language() -> None:
+    """The words of a number of a table, of what slides on what, and of its unit, are the sheet's."""
+    number = Number("slide velocity", "3 along frame", (1.0, 2.0), "mm/s")
+    found = judge(*composed("slider-crank"), Submission("x.csv", numbers=(number, number)), PENCIL)
+    told = tongue("ru")(twice(found, found.numbers[0]))
+    assert "скорость скольжения 3 по стойке" in told
+    assert "(1; 2) мм/с" in told
 
 
 def test_a_number_read_off_a_wrong_drawing_follows() -> None:

@@ -25,7 +25,8 @@ from graphplan.marking.judge.verdict import (
 )
 from graphplan.marking.traces import Number
 from graphplan.methods.kinds import WORDS
-from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said
+from graphplan.methods.panels import reactions_named
+from graphplan.phrases import Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import HEADING, Runs, sentence_runs
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.sheet.words.tables import rows
@@ -86,7 +87,7 @@ def opinion(judgement: Judgement) -> Said:
     if judgement.blank:
         return said("The sheet is blank: nothing that was asked for is on it.")
     if wrong := wrong_numbers(judgement):
-        return miss(wrong[0])
+        return miss(judgement, wrong[0])
     if not (judgement.drawn or judgement.numbers):
         return said("Nothing that was asked for is recognized: look at the sheet.")
     return said("No step is wrong.")
@@ -103,7 +104,7 @@ def summary(judgement: Judgement) -> list[Said]:
     told = [arranged("{0:capital}.", counted(judgement))]
     if judgement.pencil is not None:
         told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.told))
-    return told + [twice(number) for number in judgement.numbers if number.again]
+    return told + [twice(judgement, number) for number in judgement.numbers if number.again]
 
 
 def asked(judgement: Judgement) -> list[Said]:
@@ -127,7 +128,7 @@ def look_at(judgement: Judgement) -> list[Said]:
 def not_handed_in(judgement: Judgement) -> list[Said]:
     """The results that were asked for, and are neither drawn nor in a table."""
     absent = (result for result in results(judgement) if result.state == MISSING)
-    return [joined((result.kind.words, result.of), " ") for result in absent]
+    return [result_named(judgement, result.kind, result.of) for result in absent]
 
 
 def wrong_numbers(judgement: Judgement) -> list[NumberVerdict]:
@@ -166,23 +167,24 @@ def lacking(judgement: Judgement, state: str = MISSING) -> str:
     return ", ".join(str(part[0]) if len(part) == 1 else f"{part[0]}–{part[-1]}" for part in parts)
 
 
-def quantity(verdict: NumberVerdict) -> Said:
-    """What a number of the table is, such as velocity A."""
-    number = verdict.number
-    return joined((WORDS.get(number.kind, number.kind), number.of), " ")
+def result_named(judgement: Judgement, kind: str, of: str) -> Said:
+    """A result in words, such as velocity A."""
+    return joined((WORDS.get(kind, kind), reactions_named(judgement.drawing.scene).get(of, of)), " ")
 
 
-def miss(verdict: NumberVerdict) -> Said:
+def miss(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """What is wrong with a number: by how much, in the scene's units, and what was probably done."""
     sizes = digits(verdict.off, FIGURES), digits(verdict.tolerance, FIGURES)
-    parts = [quantity(verdict), arranged("{0} {1}", OFF(), sizes[0]), arranged("{0} {1}", ALLOWED(), sizes[1])]
+    what = result_named(judgement, verdict.number.kind, verdict.number.of)
+    parts = [what, arranged("{0} {1}", OFF(), sizes[0]), arranged("{0} {1}", ALLOWED(), sizes[1])]
     return said("Wrong result: {0}.", joined(parts if verdict.mistake is None else [*parts, verdict.mistake]))
 
 
-def twice(verdict: NumberVerdict) -> Said:
+def twice(judgement: Judgement, verdict: NumberVerdict) -> Said:
     """That a result is written down more than once, and what counts."""
-    others = joined(map(written, verdict.again))
-    return said("{0} is written down twice: {1} counts, not {2}.", quantity(verdict), written(verdict.number), others)
+    number, others = verdict.number, joined(map(written, verdict.again))
+    return said("{0} is written down twice: {1} counts, not {2}.", result_named(judgement, number.kind, number.of),
+                written(number), others)
 
 
 def record(judgement: Judgement, score: Score) -> dict[str, Any]:
@@ -302,11 +304,12 @@ class Remarks(Words):
         table = [[self._runs(text) for text in ("", said("handed in"), said("true"), OFF(), ALLOWED())]]
         for one in judgement.numbers:
             cells = written(one.number), figures(one.true), figures((one.off,)), figures((one.tolerance,))
-            table.append([self._runs(quantity(one)), *map(self._runs, cells)])
+            what = result_named(judgement, one.number.kind, one.number.of)
+            table.append([self._runs(what), *map(self._runs, cells)])
         yield from rows(table)
         for one in judgement.numbers:
             if one.state == WRONG:
-                yield from self.paragraph(miss(one), wide)
+                yield from self.paragraph(miss(judgement, one), wide)
 
     def _wrong(self, wide: float, judgement: Judgement) -> Iterator[TextRow]:
         """The wrong steps one by one, and the numbers of those that are missing or not to be seen."""
@@ -326,7 +329,7 @@ class Remarks(Words):
 
 def written(number: Number) -> Said:
     """A number as it was handed in, with its unit."""
-    return joined((figures(number.value), *filter(None, [number.unit])), " ")
+    return joined((figures(number.value), *map(unit, filter(None, [number.unit]))), " ")
 
 
 def figures(numbers: Sequence[float]) -> Said:

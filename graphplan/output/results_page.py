@@ -51,7 +51,7 @@ class _ResultsPage(HtmlPage):
         if left:
             yield f"<h2>{self.say(said('To be looked at'))}</h2><div class=\"pictures\">"
             for one in left:
-                why = f"{one.page}: {'; '.join(one.look)}"
+                why = f"{one.page}: {one.told}"
                 shown = (f'<img src="data:image/jpeg;base64,{escape(one.thumbnail)}" alt="{escape(one.page)}">'
                          if one.thumbnail else "")
                 yield f"<figure>{shown}<figcaption>{escape(why)}</figcaption></figure>"
@@ -62,7 +62,7 @@ class _ResultsPage(HtmlPage):
                  said("Verdict"), said("Certainty"), said("Look here"))
         rows = [("wrong" if one.first else "", self._row(one)) for one in self.found.sheets if one.status != UNASSIGNED]
         caption = said("Each step is judged from the student's own earlier marks.")
-        yield from self.table(said("Sheets"), caption, heads, rows)
+        yield from self.table(said("Sheets of the class"), caption, heads, rows)
 
     def _row(self, one: SheetResult) -> tuple[HtmlCell, ...]:
         name = escape(one.student)
@@ -74,7 +74,7 @@ class _ResultsPage(HtmlPage):
             HtmlCell(name), HtmlCell("" if one.variant is None else str(one.variant), FIGURE),
             HtmlCell(escape(one.page)), HtmlCell("" if one.score is None else f"{one.score:.0f}", FIGURE),
             HtmlCell(escape(one.first), FIGURE), HtmlCell(escape(told)),
-            HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape("; ".join(one.look))),
+            HtmlCell(sure if one.status != ABSENT else "", FIGURE), HtmlCell(escape(one.told)),
         )  # fmt: skip
 
     def _mistakes(self) -> Iterator[str]:

@@ -55,6 +55,11 @@ class SheetResult:
     corrected: str = ""
     judgement: Mapping[str, Any] | None = None
 
+    @property
+    def told(self) -> str:
+        """What the teacher must look at, in one line."""
+        return "; ".join(line.rstrip(".") for line in self.look)
+
 
 @dataclass(frozen=True)
 class Results:
@@ -130,8 +135,7 @@ class Results:
         for one in self.sheets:
             groups = (_rounded(one.groups.get(group)) for group in GROUPS)
             table.writerow([one.page, one.variant, one.student, one.status, _rounded(one.score), *groups, one.first,
-                            one.words, one.kind, one.confidence, "; ".join(one.look),
-                            one.corrected])
+                            one.words, one.kind, one.confidence, one.told, one.corrected])
         return written.getvalue()
 
     @property

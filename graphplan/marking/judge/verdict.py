@@ -17,7 +17,7 @@ RIGHT, FOLLOWS, IMPLIED, WRONG, MISSING, UNSURE, UNSEEN = (
 STATES = {
     RIGHT: phrase("correct"),
     FOLLOWS: phrase("correct after an earlier mistake"),
-    IMPLIED: phrase("not drawn, implied by a correct mark"),  # by a right mark that rests on it
+    IMPLIED: phrase("implied by a correct mark"),  # by a right mark that rests on it
     WRONG: phrase("wrong"),
     MISSING: phrase("missing"),
     UNSURE: phrase("unclear: look here"),  # something is there, or should be: the teacher has the word

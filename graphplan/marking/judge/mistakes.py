@@ -232,7 +232,7 @@ def _(at: Occasion) -> Iterable[Mistake]:
     """The third corner of a similar figure, on the other side of the line of two."""
     lines = [at.program.steps[arg] for arg in at.step.args]
     through = [line.args[-1] for line in lines if ALIGNED(line.op)]
-    if len(set(through)) == 2 and lines[0].op is lines[1].op:
+    if len(set(through)) == 2:
         yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 

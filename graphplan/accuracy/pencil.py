@@ -53,13 +53,15 @@ class Pencil:
 @dataclass(frozen=True)
 class SeenPencil:
     """The pencil by which a drawing is judged: so many times as unsteady as the `stated` one; the standard deviation
-    of reading its marks, mm, beside what is stated for each. `marks` is how many of them tell it, 0 if it is assumed.
+    of reading its marks, mm, beside what is stated for each, and the part of that which they show. `marks` is how many
+    of them tell it, 0 if it is assumed.
     """
 
     stated: Pencil
     scale: float
     reading: float
     marks: int = 0
+    part: float = 1.0
 
     @property
     def pencil(self) -> Pencil:

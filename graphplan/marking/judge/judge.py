@@ -65,7 +65,7 @@ class Judge:
             raise Refused(f"--pencil {pencil.told}", "a hand without errors has no tolerance", "sizes above 0")
         self.reading, self.drawing, self.pencil = reading, reading.drawing, pencil
         self.named = lettered(self.drawing, reading.task, reading.submission, pencil)
-        self.submission = blurred(self.named, hand.reading)
+        self.submission = blurred(self.named, hand)
         plan_of_step = StudentSheet(self.drawing, {}, pencil).plan_of_step
         self.sought: dict[tuple[Any, ...], Trace | None] = {}  # what was found in a picture by seeking it
         traces = self.submission.traces

@@ -26,6 +26,7 @@ from graphplan.marking.traces import Submission, Trace
 SCALES = np.geomspace(0.4, 4.0, 24)  # how many times as unsteady as the stated pencil a hand may be
 USUAL = 0.4  # the standard deviation of its logarithm
 READ = np.geomspace(0.02, 0.6, 24)  # mm: the standard deviation of reading a coordinate where none is stated
+PARTS, BOUND = np.geomspace(0.5, 1.0, 12), 0.3  # of a stated precision, what marks show: who states its bounds has less
 RULER, READERS = 0.12, 0.6  # mm: the usual one, and the standard deviation of its logarithm
 MISTAKEN, ANYWHERE = 0.05, 100.0  # how often a mark is a mistake, and over how many mm such marks are spread
 HELD = 0.9  # of what a frame was laid through, more than so much is no sample
@@ -45,7 +46,11 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
     if len(samples) < FEW:
         return None
     rounding = max(0.0, min((trace.blur**2 for trace in submission.traces), default=0.0))
-    read, parts, odds = np.zeros(1), np.ones(1), -np.log(SCALES)[:, None] ** 2 / (2 * USUAL**2)
+    read, shown, parts = np.zeros(1), np.ones(1), np.ones(1)
+    odds = -np.log(SCALES)[:, None] ** 2 / (2 * USUAL**2)
+    if submission.measured and submission.stated:
+        shown, parts = PARTS, (PARTS / now.part) ** 2
+        odds = odds - np.log(PARTS)[None, :] ** 2 / (2 * BOUND**2)
     if now.reading:
         read, parts = READ, (READ**2 + rounding) / (now.reading**2 + rounding)
         odds = odds - np.log(READ / RULER)[None, :] ** 2 / (2 * READERS**2)
@@ -53,8 +58,9 @@ def seen_pencil(matching: Matching, now: SeenPencil, submission: Submission) -> 
         odds = odds + _likelihood([sample for sample in samples if len(sample[0]) == width], SCALES / now.scale, parts)
     weights = np.exp(odds - odds.max())
     weights /= weights.sum()
-    scale, found = (math.sqrt(float(np.sum(weights * size**2))) for size in (SCALES[:, None], read[None, :]))
-    return SeenPencil(now.stated, scale, found, len(samples))
+    scale, found, part = (math.sqrt(float(np.sum(weights * size**2)))
+                          for size in (SCALES[:, None], read[None, :], shown[None, :]))
+    return SeenPencil(now.stated, scale, found, len(samples), part)
 
 
 def _likelihood(samples: Sequence[Sample], scales: Any, reads: Any) -> Any:
@@ -103,9 +109,9 @@ def as_measured(pencil: Pencil, submission: Submission) -> Pencil:
     return replace(pencil, point=math.hypot(pencil.point, statistics.median(blurs))) if blurs else pencil
 
 
-def blurred(submission: Submission, reading: float) -> Submission:
+def blurred(submission: Submission, hand: SeenPencil) -> Submission:
     """The marks of a drawing as finely as they were read, beside how they were rounded."""
-    if not reading:
+    if not hand.reading and hand.part == 1.0:
         return submission
     return replace(submission, traces=tuple(
-        replace(trace, blur=math.hypot(trace.blur, reading)) for trace in submission.traces))
+        replace(trace, blur=math.hypot(hand.part * trace.blur, hand.reading)) for trace in submission.traces))

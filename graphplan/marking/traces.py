@@ -132,7 +132,7 @@ class Submission:
     `letters` stand beside marks; which of them each names, the whole drawing tells.
     `millimetres` is what speaks for lengths being in mm, as a logarithm of odds.
     `measured` says that its marks were measured and written down, `stated` how precisely in the student's own words:
-    else their blur is the least that it may be.
+    else their blur is the least that it may be. `left_out` is what it has that is too small to be seen on paper.
     """
 
     name: str
@@ -145,4 +145,5 @@ class Submission:
     letters: tuple[Lettering, ...] = ()
     measured: bool = False
     stated: bool = False
+    left_out: tuple[str, ...] = ()
     millimetres: float = math.inf

@@ -14,7 +14,7 @@ import graphplan as gp
 from graphplan.accuracy.pencil import Pencil
 from graphplan.errors import Refused
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
-from graphplan.marking.judge.findings import twice
+from graphplan.marking.judge.findings import summary, twice
 from graphplan.marking.judge.judge import judge, judge_any_method
 from graphplan.marking.judge.mistakes import MISTAKES
 from graphplan.marking.judge.verdict import FOLLOWS, IMPLIED, MISSING, RIGHT, UNSEEN, WRONG
@@ -280,12 +280,17 @@ def test_a_number_of_another_point_is_recognised() -> None:
     assert str(found.numbers[0].mistake) == "this is the number of B"
 
 
-def test_a_result_that_is_not_asked_for_is_refused() -> None:
-    """It is bad input, and told with those that are."""
+def test_a_result_that_is_not_asked_for_is_told_and_counts_for_nothing() -> None:
+    """The others are judged as they are without it; alone it is no blank sheet."""
     drawing, sheet = composed("four-bar")
-    number = Number("velocity", "Z", (1.0, 2.0), "mm/s")
-    with pytest.raises(Refused, match="the scene asks for no such result; one of A, B, M"):
-        judge(drawing, sheet, Submission("x.csv", numbers=(number,)), PENCIL)
+    number, right = Number("velocity", "Z", (1.0, 2.0), "mm/s"), _velocity("B")
+    alone, beside, without = (judge(drawing, sheet, Submission("x.csv", numbers=numbers), PENCIL)
+                              for numbers in ((number,), (right, number), (right,)))
+    assert [one.unasked for one in (alone, beside, without)] == [(number,), (number,), ()]
+    assert beside.numbers == without.numbers
+    assert not alone.numbers
+    assert not alone.blank
+    assert "Not asked for, and not counted: velocity Z." in map(str, summary(beside))
 
 
 def test_a_result_that_is_written_twice_is_judged_once() -> None:

@@ -99,12 +99,19 @@ def read_as(judgement: Judgement) -> list[Said]:
 
 
 def summary(judgement: Judgement) -> list[Said]:
-    """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice.
+    """How many steps there are of each verdict, by which pencil, where the drawing tells it, and what is there twice,
+    or is not counted.
     """
     told = [arranged("{0:capital}.", counted(judgement))]
     if judgement.pencil is not None:
         told.append(said("Pencil read off the drawing: {0}.", judgement.pencil.told))
-    return told + [twice(judgement, number) for number in judgement.numbers if number.again]
+    told += [twice(judgement, number) for number in judgement.numbers if number.again]
+    if judgement.unasked:
+        told.append(said("Not asked for, and not counted: {0}.", joined(
+            [result_named(judgement, number.kind, number.of) for number in judgement.unasked])))
+    if judgement.left_out:
+        told.append(said("Too small to be measured, and left out: {0}.", joined(judgement.left_out)))
+    return told
 
 
 def asked(judgement: Judgement) -> list[Said]:
@@ -198,6 +205,8 @@ def record(judgement: Judgement, score: Score) -> dict[str, Any]:
         "first_wrong": None if first is None else _complaint(judgement, first),
         "steps": [_step(judgement, verdict) for verdict in judgement.verdicts],
         "numbers": [_number(verdict) for verdict in judgement.numbers],
+        "not_asked": [{"kind": number.kind, "of": number.of} for number in judgement.unasked],
+        "left_out": list(judgement.left_out),
         "not_needed": len(judgement.spare),
         "results": [{"kind": result.kind, "of": result.of, "verdict": result.state} for result in results(judgement)],
         "blank": judgement.blank,

@@ -110,12 +110,12 @@ class Judge:
         spare = [trace for place, trace in enumerate(self.submission.traces) if place not in needed]
         if self.submission.page:
             spare = unexplained(spare, [matching.traces[place] for place in needed])
-        numbers = tuple(judged(matching, self.submission.numbers)) if self.submission.numbers else ()
+        numbers, unasked = judged(matching, self.submission.numbers)
         found = told(verdicts(matching, numbers), self._exchanged, matching)
         return Judgement(
             self.submission.name, self.drawing, self.reading.composition,
             {panel: fit.frame for panel, fit in self.fits.items()}, tuple(found), tuple(spare), numbers,
-            joined(self._told()), self.hand if self.hand.marks else None)
+            joined(self._told()), self.hand if self.hand.marks else None, unasked, self.submission.left_out)
 
     @property
     def lacks(self) -> bool:

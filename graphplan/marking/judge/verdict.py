@@ -90,6 +90,7 @@ class Judgement:
 
     `frames` is where each plan lies on the student's sheet; `spare` are the traces that no step asks for. `reading`
     says as what it was read, where that is not what the task's own sheet has; `pencil` is the one that its marks tell.
+    `unasked` are numbers of results that the scene asks for none of, `left_out` arcs too small to be seen.
     """
 
     name: str
@@ -101,6 +102,8 @@ class Judgement:
     numbers: tuple[NumberVerdict, ...] = ()
     reading: Said = AS_THE_TASK
     pencil: SeenPencil | None = None
+    unasked: tuple[Number, ...] = ()
+    left_out: tuple[str, ...] = ()
 
     @property
     def judged(self) -> list[Verdict]:
@@ -126,7 +129,7 @@ class Judgement:
     @property
     def blank(self) -> bool:
         """Whether nothing was handed in: no step and no number, nor anything else that the task does not give."""
-        return not (self.drawn or self.numbers or self.spare or self.first)
+        return not (self.drawn or self.numbers or self.spare or self.unasked or self.first)
 
     @property
     def first(self) -> Verdict | None:

@@ -16,7 +16,7 @@ import numpy as np
 
 from graphplan.accuracy.first_order import readings
 from graphplan.accuracy.hand import Errors
-from graphplan.errors import Refused, Undrawable
+from graphplan.errors import Undrawable
 from graphplan.kernel.kinds import LINE, POINT, Movement
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
@@ -197,29 +197,27 @@ class Expected:
         return (PointResidual if len(steady) == 2 else Residual)(np.array(value) - steady, covariance)
 
 
-def judged(matching: Matching, numbers: Sequence[Number]) -> Iterator[NumberVerdict]:
-    """What is said of every number of a table, once of each: one that is written again is told beside the first.
-
-    Fails with `Refused` where one is not asked for.
-    """
+def judged(matching: Matching, numbers: Sequence[Number]) -> tuple[tuple[NumberVerdict, ...], tuple[Number, ...]]:
+    """What is said of every number of a table, once of each: one that is written again is told beside the first; and
+    the numbers that are not asked for."""
+    if not numbers:
+        return (), ()
     own, true = _expected(matching, matching.own), _expected(matching, matching.sheet.drawing.values)
     plainly = {key: plain(expected.parts) for key, expected in true.items()}
-    written: dict[Key, list[Number]] = {}
+    written: dict[Key | None, list[Number]] = {}
     for number in numbers:
         written.setdefault(_asked(number, own), []).append(number)
-    for key, (first, *again) in written.items():
-        yield replace(_judged(matching, first, key, own, plainly), again=tuple(again))
+    unasked = tuple(written.pop(None, ()))
+    return tuple(replace(_judged(matching, first, key, own, plainly), again=tuple(again))
+                 for key, (first, *again) in written.items() if key), unasked
 
 
-def _asked(number: Number, own: Mapping[Key, Expected]) -> Key:
-    """Which result a number is: the one of its name, or the only one of whose name it is another spelling."""
+def _asked(number: Number, own: Mapping[Key, Expected]) -> Key | None:
+    """Which result a number is: the one of its name, or the only one of whose name it is another spelling; None where
+    it is not asked for."""
     key = number.kind, number.of
     alike = [(kind, of) for kind, of in own if kind == number.kind and bare(of) == bare(number.of)]
-    if key not in own and len(alike) != 1:
-        known = [of for kind, of in own if kind == number.kind] or list(dict.fromkeys(kind for kind, _ in own))
-        raise Refused(f"{number.kind} of {number.of}", "the scene asks for no such result",
-                      f"one of {', '.join(known)}")
-    return key if key in own else alike[0]
+    return key if key in own else alike[0] if len(alike) == 1 else None
 
 
 def _expected(matching: Matching, values: Sequence[Any]) -> dict[Key, Expected]:

@@ -61,6 +61,7 @@ class _Reader:
     def __init__(self, path: Path, panels: Collection[str]):
         self.path, self.panels = path, {_short(panel): panel for panel in panels}
         self.read_off: list[float] = []  # all coordinates and radii, as they were written
+        self.left_out: list[str] = []  # arcs that are too small to be seen
 
     def fault(self, where: str, why: str, do: str) -> Refused:
         shown = "".join([char if char.isprintable() else " " for char in where[:80]])
@@ -161,7 +162,7 @@ class _CsvReader(_Reader):
             traces = [trace for where, row in rows if (trace := self._marked(where, row))]
             stated = any(trace.blur for trace in traces)
             return Submission(self.path.name, self.rounded(traces), shows=_shown(traces), measured=True,
-                              stated=stated)
+                              stated=stated, left_out=tuple(self.left_out))
         if "quantity" in header:
             numbers = [found for where, row in rows if (found := self._result(where, row))]
             return Submission(self.path.name, numbers=tuple(numbers))
@@ -199,7 +200,8 @@ class _CsvReader(_Reader):
         return found
 
     def _marked(self, where: str, row: Mapping[str, str]) -> Trace | None:
-        """The mark in a row; None where it is not measured, as is no line between two marks that are one."""
+        """The mark in a row; None where it is not measured, as is no line between two marks that are one, and no arc
+        about one of them through the other."""
         at, end = self._numbers(where, row, "x", "y"), self._numbers(where, row, "x2", "y2")
         radius, blur = self._numbers(where, row, "r"), self._numbers(where, row, "precision")
         if not at or (end and not radius and math.dist(at, end) < SHORT):
@@ -208,6 +210,9 @@ class _CsvReader(_Reader):
         label = self.label(where, row["mark"], "this is")
         unsure = self.precision(where, blur[0] if blur else 0.0, "a precision of ")
         kind = LINE if end else CIRCLE if radius else POINT
+        if radius and not end and 0 <= radius[0] < SHORT:
+            self.left_out.append(label)
+            return None
         value = [] if end and radius else [at, end] if end else [*at, *radius]
         fault = self.fault(where, "this is no mark", "x and y, for a line also x2 and y2 elsewhere, for a circle r, in "
                            f"mm that paper shows ({SHORT:g} at least)")

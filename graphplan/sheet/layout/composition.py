@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property, partial
 from typing import Any
@@ -70,7 +70,6 @@ class Composition:
     plans: Plans
     protocol: tuple[Protocol, ...] = ()
     further: int = 0  # pages that follow
-    known: Known = field(default_factory=dict, compare=False, repr=False)  # pictures of others of the same plans
 
     @property
     def page_count(self) -> int:
@@ -86,9 +85,10 @@ class Composition:
     def pictures(self) -> dict[Panel, Picture]:
         """The plans with their letters; those of the same windows are drawn once."""
         windows = *self.views.values(), self.arrangement.letters
-        if windows not in self.known:
-            self.known[windows] = {plate.panel: pictured(plate) for plate in self.plates}
-        return self.known[windows]
+        known: dict[Any, dict[Panel, Picture]] = self.plans.drawn
+        if windows not in known:
+            known[windows] = {plate.panel: pictured(plate) for plate in self.plates}
+        return known[windows]
 
     @property
     def poor(self) -> float:
@@ -148,28 +148,26 @@ class Composition:
 
 
 Protocol = tuple[Arrangement, list[Placed]]  # a page of words, and what stands on it
-Known = dict[tuple[Any, ...], dict[Panel, Picture]]  # by their windows and sizes of letters
 
 
 def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, paper: str | None,
-             protocol: str = PROTOCOLS[0], known: Known | None = None) -> Composition:
+             protocol: str = PROTOCOLS[0]) -> Composition:
     """The best arrangement on the paper named, or on the smallest that shows everything at a good size.
 
     Its `protocol` stands beside the plans where these keep most of the page, else on pages of its own; or as is asked.
-    `known` are pictures of these plans, to which those of the windows that are tried are added.
     Fails with `Refused` where the words, or the scales that are given, do not fit the paper named.
     """
     extents: dict[str, Extent] = {panel: plans.extent(panel) for panel in plans.panels}
     needs: dict[str, float] = {panel: math.sqrt(len(plans.points(panel))) for panel in plans.panels}
     frame, given = frame_of(plans.drawing.scene), given_scales(plans)
-    tried, known = list[Composition](), {} if known is None else known
+    tried: list[Composition] = []
     for name in [frame.paper(paper)] if paper else frame.papers:
         for words in (ways := _ways(protocol, rows)):
             wants = [_demands(plans, extents, scales, name) for scales in ((given, FREE) if given[0] else (FREE,))]
             found = list(arrangements(name, partial(_divided, wants, plans), words, frame, title))
             if words and protocol != ASIDE:
                 found = [arrangement for arrangement in found if arrangement.share >= MOST_OF_PAGE]
-            tried = [_windows(arrangement, extents, needs, plans, given, known) for arrangement in found] or tried
+            tried = [_windows(arrangement, extents, needs, plans, given) for arrangement in found] or tried
             fitting = [composition for composition in tried if not composition.oversized]
             if not (found and fitting):
                 continue
@@ -178,7 +176,7 @@ def composed(plans: Plans, rows: Measure[Sequence[TextRow]], title: TitleBlock, 
                 return best
     if any(composition.oversized for composition in tried):
         raise _too_large(tried)
-    larger = composed(plans, rows, title, None, protocol, known).arrangement.paper if paper else "other scales"
+    larger = composed(plans, rows, title, None, protocol).arrangement.paper if paper else "other scales"
     raise Refused(f"paper {paper or 'A0'}", "words and plans do not fit on it legibly", f"{larger}, or no name")
 
 
@@ -240,13 +238,13 @@ def _lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
 
 
 def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
-             given: GivenScales, known: Known) -> Composition:
+             given: GivenScales) -> Composition:
     """The scales, round if they are not given, and the windows for one arrangement."""
     rooms = {panel: room(rect) for panel, rect in arrangement.panels.items()}
     scales = _scales({panel: inside(rect) for panel, rect in rooms.items()}, extents, plans, given)
     boxes = {panel: plan_box(extent, inside(rooms[panel]), scales.of(panel)) for panel, extent in extents.items()}
     views = {panel: view(box, rooms[panel], scales.of(panel)) for panel, box in boxes.items()}
-    return Composition(arrangement, scales, views, needs, extents, plans, known=known)
+    return Composition(arrangement, scales, views, needs, extents, plans)
 
 
 def _scales(rooms: Mapping[str, Rect], extents: Mapping[str, Extent], plans: Plans, given: GivenScales) -> Scales:
@@ -309,7 +307,6 @@ class Composer:
         self.paper = paper or scene.sheet.paper or None
         self.frame, self.title = frame_of(scene), frame_of(scene).block(scene, say)
         self.words = Words(self.plans, check or {})
-        self._known: Known = {}
         self._composed: tuple[Composition, dict[float, list[TextRow]]] | None = None
 
     @property
@@ -340,8 +337,7 @@ class Composer:
             return found[wide]
 
         if not (self._composed and all(_alike(was, rows(wide)) for wide, was in self._composed[1].items())):
-            self._composed = composed(self.plans, rows, self.title, self.paper, self.protocol, self._known), \
-                dict(found)
+            self._composed = composed(self.plans, rows, self.title, self.paper, self.protocol), dict(found)
         return rows, self._composed[0]
 
     def _worded(self, composition: Composition, rows: Measure[Sequence[TextRow]]) -> Composition:

@@ -93,7 +93,7 @@ def name_runs(name: str) -> Runs:
 _PLAIN = re.compile(r"\b(?:[A-Za-z]|" + "|".join(GREEK) + r")_[A-Za-z0-9]{1,2}\b|\b(?:omega|alpha|mu)\b")
 
 
-@lru_cache(maxsize=1024)  # the words of a sheet are set for every width of column that is tried
+@lru_cache(maxsize=4096)  # the words of a sheet are set for every width of column that is tried
 def sentence_runs(sentence: str, names: tuple[str, ...] = ()) -> Runs:
     """A sentence as runs; `names` are marks whose names may stand in it, even run together as in `v_qC`."""
     return _spelled(sentence, _pattern(names) if names else _PLAIN)
@@ -120,6 +120,7 @@ def _spelled(sentence: str, pattern: re.Pattern[str]) -> Runs:
 _SYMBOLS = re.compile(r"\^([A-Za-z]+)|_([A-Za-z0-9,']+(?:\([A-Za-z0-9]+\))?)")
 
 
+@lru_cache(maxsize=4096)
 def equation_runs(text: str) -> Runs:
     """An equation as runs: a^n_BA is a with n above and BA below."""
     runs, done = list[Run](), 0
@@ -195,7 +196,7 @@ def plain(runs: Runs) -> str:
     return "".join(run.text for run in runs)
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=4096)
 def _words(runs: Runs, small: float) -> list[tuple[Runs, float]]:
     """The words, each with its length beside the size of the letters, and with subscripts so much smaller."""
     words: list[list[Run]] = [[]]

@@ -7,8 +7,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
+from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
 from graphplan.kernel.program import Panel, Step, plan_of
@@ -46,13 +47,14 @@ class Plans:
     """A construction seen plan by plan, and the tongue in which its sheet speaks.
 
     Where it is `numbered`, every mark bears the number of its step, lettered marks too. `motion` is what the mechanism
-    plan shows of it, if anything.
+    plan shows of it, if anything; `drawn` what was drawn of it so far, by its windows on the sheet.
     """
 
     drawing: Construction
     tongue: Tongue = ENGLISH
     numbered: bool = False
     motion: TracedMotion | None = None
+    drawn: dict[Any, Any] = field(default_factory=dict, init=False, compare=False, repr=False)
 
     @cached_property
     def plan_of_step(self) -> list[Panel]:

@@ -21,7 +21,7 @@ from raster import Picture, Printed, photo, printed, scan  # noqa: E402
 import graphplan as gp  # noqa: E402
 from graphplan.errors import Refused  # noqa: E402
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT  # noqa: E402
-from graphplan.marking.scans.printed_ink import picture  # noqa: E402
+from graphplan.marking.scans.printed_ink import picture, pieces  # noqa: E402
 from graphplan.marking.scans.scan import SCALE, PencilPage, read_page, read_scan  # noqa: E402
 from graphplan.marking.scans.straighten import _by_marks, straighten  # noqa: E402
 from graphplan.marking.traces import PlanFrame, Trace  # noqa: E402
@@ -281,6 +281,20 @@ def test_another_task_is_refused(tmp_path: Path) -> None:
     path = saved(tmp_path, scan(paper(), [], 81).image)
     with pytest.raises(Refused, match="those of another task"):
         read_page(path, page(), sheet_code("four-bar"))
+
+
+def test_print_that_is_drawn_over_is_known() -> None:
+    """A sheet all of whose own print a pencil is drawn along is still that of its task; one without it is not."""
+    ink = pieces(page())
+    side = np.column_stack([-ink.along[:, 1], ink.along[:, 0]])[ink.own] * 0.5
+    ends = (ink.along * ink.halves[:, None])[ink.own]
+    pencil = [(tuple(map(tuple, (at - end, at + end))), 0.6, 0.9)
+              for at, end in zip(ink.middles[ink.own] + side, ends, strict=True)]
+    over = scan(paper(), pencil, 83).image
+    assert straighten(over, page(), picture(page(), SCALE), SCALE, CODE, "over")[1].own > 0.5
+    bare = replace(page(), items=tuple(item for item in page().items if item.layer in {"paper", MARKS}))
+    with pytest.raises(Refused, match="not found where this task has it"):
+        straighten(scan(printed(bare), [], 84).image, page(), picture(page(), SCALE), SCALE, CODE, "bare")
 
 
 def test_cropped_sheets_are_refused(tmp_path: Path) -> None:

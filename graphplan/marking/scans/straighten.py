@@ -218,6 +218,7 @@ def _alike(image: Grey, warp: Warp, ideal: NDArray[np.float32]) -> float:
 STEP, NEAR = 0.125, 1.0  # mm across a piece: how closely it is read off, and how far to each side of its middle
 ALONG, ROWS = 9, 32000  # places along a piece; rows of pixels that are read in one go
 FITS, VISIBLE = 0.6, 0.03  # correlation from which on a piece counts, and the least contrast of its print
+BLACK = 0.35  # of the paper's lightness, below which all of the print is inked
 PLAIN = 1.0  # the square of a shade of grey: what varies less is white
 ROUNDS = (2.5, 1), (2.5, 3), (1.5, 4), (0.75, 5), (0.375, 5)  # how far is searched, in mm, and the degree fitted
 STIFF = 1e-5  # how much bends are held back, beside all the evidence
@@ -246,7 +247,8 @@ def registered(image: Grey, start: Warp, light: Light, scale: float, pieces: Pie
     for reach, degree in ROUNDS if len(ideal) >= FEW else ROUNDS[:1]:
         shift, match = _shifts(ideal, _profiles(image, warp, pieces, NEAR + reach))
         warp, error, near = _fitted(warp, pieces, shift, match > FITS, degree, reach / 4)
-    share, own = float(near.sum() / max(1, len(ideal))), near[pieces.own]
+    share, mine = float(near.sum() / max(1, len(ideal))), pieces.only(pieces.own)
+    own = near[pieces.own] | _overdrawn(ideal[pieces.own], _profiles(image, warp, mine, NEAR))
     return Registered(warp, error, share, float(own.mean()) if len(own) else share)
 
 
@@ -279,6 +281,13 @@ def _shifts(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> tuple[Spot
     left, top, right = (match[row, best + i] for i in (-1, 0, 1))
     part = (left - right) / np.minimum(2 * (left - 2 * top + right), -1e-9)
     return (best + np.clip(part, -1, 1) - match.shape[1] // 2) * STEP, top
+
+
+def _overdrawn(ideal: NDArray[np.float32], seen: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """Which profiles are as dark as print wherever print is: a pencil drawn along it hides its pattern, not its ink."""
+    ink = ideal.max(axis=1, keepdims=True, initial=0.0) - ideal
+    light = (ink * seen).sum(axis=1) / np.maximum(ink.sum(axis=1), 1e-9)
+    return np.asarray(light < BLACK * seen.max(axis=1, initial=0.0))
 
 
 def _fitted(warp: Warp, pieces: Pieces, shift: Spots, good: NDArray[np.bool_],

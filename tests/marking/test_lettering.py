@@ -17,10 +17,11 @@ from graphplan.accuracy.pencil import Pencil
 from graphplan.kernel.kinds import POINT
 from graphplan.marking.files.drawing import drawing as put
 from graphplan.marking.files.drawing import lettering
+from graphplan.marking.judge.asked import results
 from graphplan.marking.judge.assignment import assigned, cheapest
 from graphplan.marking.judge.judge import judge
 from graphplan.marking.judge.units import scaled
-from graphplan.marking.judge.verdict import WRONG
+from graphplan.marking.judge.verdict import IMPLIED, RIGHT, WRONG
 from graphplan.marking.traces import Lettering, Submission, Trace
 from graphplan.methods.construction import Construction
 from graphplan.sheet.layout.composition import Composition, compose
@@ -66,6 +67,14 @@ def test_letters_between_marks_are_told_apart(name: str) -> None:
             found = judge(*composed(name), written(made, dots=dots, seed=seed), PENCIL)
             assert [(dots, made.drawing.drawn.text(verdict.step)) for verdict in found.verdicts
                     if verdict.state == WRONG] == []
+
+
+def test_letters_alone_hand_a_result_in() -> None:
+    """Where marks have no dots, and no strokes cross, the letters that stand where a mark should be are that mark; all
+    but that of v_S, beside which strokes cross a little way off."""
+    for seed in (1, 2):
+        found = judge(*composed("open-chain"), written(drawn("open-chain", seed), dots=False, seed=seed), PENCIL)
+        assert {one.of for one in results(found) if one.state not in (RIGHT, IMPLIED)} <= {"S"}
 
 
 @pytest.mark.parametrize(("name", "pair"), [("four-bar", ("A_1", "B_1")), ("alt-eight-link", ("v_c", "v_e"))])

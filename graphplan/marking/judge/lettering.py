@@ -40,7 +40,10 @@ GAP = 0.4  # of their size that letters stand from a mark: a cost of one
 ASTRAY, HALFWAY = 4.0, 1.5  # the cost of a mark that is not where it should be at all; mm that cost half of it
 NOTHING, SHARED, CLAIMED = 12.0, 4.0, 3.0  # the costs of naming nothing, what has a name, what another step should make
 CLEAR = 3.0  # by so much cheaper letters are certainly those of their mark
+FEW = 3  # given points whose crossings tell where the mechanism lies
 HELD = 8.0  # standard deviations within which letters agree on a frame
+ENDING = 2.0  # the cost of a line's end as a mark: most lines go on beyond theirs
+ALONE, VAGUE = 7.5, 2.5  # the cost of a mark of which there is nothing but its letters; mm: how far off these stand
 FREE, MORE = 0.8, 0.3  # letters more than in the expected frame that have to agree on another, and the part more of
 # them for every spot that a letter may name: of many some agree by chance
 PER_MARK, MARKS, PROPOSED = 5, 100, 3000  # spots of a mark, and of all, by which frames are proposed; that are tried
@@ -73,6 +76,7 @@ class Letters:
         self.plan_of_step: Sequence[Any] = Plans(drawing).plan_of_step
         self.traces: Sequence[Trace] = submission.traces
         self.ends: set[int] = set()  # of the traces, those where lines end
+        self.alone: dict[int, Lettering] = {}  # and those of which there is nothing but letters
         names = Names(drawing.drawn, self.plan_of_step)
         self.sure = labelled(drawing.drawn, self.plan_of_step, self.traces)
         steps = _spoken(names, [word.names[0] for word in submission.letters if word.names], self.sure)
@@ -95,6 +99,8 @@ class Letters:
             crossed, ends = (list(dict.fromkeys(spot for found in met for spot in found[k])) for k in (0, 1))
             self.traces = (*self.traces, *crossed, *ends)
             self.ends.update(range(len(self.traces) - len(ends), len(self.traces)))
+            self.alone = dict(enumerate(words, len(self.traces)))
+            self.traces = (*self.traces, *map(_alone, words))
             del self._things
 
     def _near(self, word: Lettering, name: str, steps: Mapping[str, int]) -> Wish:
@@ -108,9 +114,11 @@ class Letters:
         for gap, place in zip(gaps[nearest].tolist(), places[nearest].tolist(), strict=True):
             trace = self.traces[place]
             meant = named if trace.kind == LINE else trace.kind == POINT and (POINT in steps or not steps)
-            if meant and (trace.beside or not trace.label):
-                found.append((gap / (GAP * word.size), place))
-        return {place: cost for cost, place in sorted(found)[:CHOICES]}
+            if meant and (trace.beside or not trace.label) and self.alone.get(place, word) is word:
+                found.append((gap / (GAP * word.size) + ENDING * (place in self.ends), place))
+        nearest_first = [(cost, place) for cost, place in sorted(found) if place not in self.alone][:CHOICES]
+        return {place: cost for cost, place in nearest_first} | {
+            place: ALONE for _, place in found if place in self.alone}
 
     # ---- where they should be --------------------------------------------------------------------------------------
 
@@ -132,7 +140,9 @@ class Letters:
     @cached_property
     def mechanism(self) -> PlanFrame | None:
         """Where the mechanism lies, by its given points or else by all that are lettered."""
-        return agreed(self._candidates(MECHANISM, self.drawing.drawn.givens), (), self.within, self.task) or agreed(
+        given = self._candidates(MECHANISM, self.drawing.drawn.givens)
+        few = self.ends and len(given) < FEW  # where strokes cross beside two letters, some two always do
+        return (None if few else agreed(given, (), self.within, self.task)) or agreed(
             self._candidates(MECHANISM), (), self.within, self.task)
 
     def _candidates(self, panel: str, before: int | None = None) -> list[Candidates]:
@@ -142,7 +152,7 @@ class Letters:
         for one in self.words:
             if (step := one.steps.get(POINT)) is not None:
                 points[step] = [(complex(*self.traces[place].spots[0]), cost) for place, cost in one.wish.items()
-                                if self.traces[place].kind == POINT]
+                                if self.traces[place].kind == POINT and place not in self.alone]
         return [Candidates(complex(*plain(self.drawing.values[step])[:2]), spots) for step, spots in points.items()
                 if spots and self.plan_of_step[step] == panel and (before is None or step < before)]
 
@@ -198,10 +208,10 @@ class Letters:
 
     def _meant(self, one: Lettered, place: int, off: float) -> bool:
         """Whether letters may mean a place without a dot: where the mark should be; or a crossing, if they do not stand
-        there."""
+        there. Letters alone are a mark about where they stand; numbers only where that should be."""
         step = one.steps.get(POINT)
-        if step is None:
-            return False
+        if step is None or place in self.alone:
+            return step is not None and (off < _reach(one.word) or not one.names[0].isdigit())
         frame = self.frames.get(self.plan_of_step[step])
         if off < HALFWAY or frame is None:
             return off < HALFWAY or place not in self.ends
@@ -219,6 +229,12 @@ class Letters:
         least = min((cost for other, cost in one.wish.items() if other != place and self.traces[other].kind == POINT),
                     default=math.inf)
         return one.wish[place] < CLEAR and least - one.wish[place] > CLEAR and place not in self._claimed
+
+
+def _alone(word: Lettering) -> Trace:
+    """A mark that has no ink of its own, about where its letters stand."""
+    at = word.box.centroid
+    return Trace(POINT, ((at.x, at.y),), blur=math.hypot(VAGUE, word.long / 4), crossed=True)
 
 
 def _reach(word: Lettering) -> float:

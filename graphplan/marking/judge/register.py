@@ -32,6 +32,7 @@ RIVALS, ANCHORS = 8, 400  # how many other frames are tried for a plan; how many
 VOTES, HEAPS = 8.0, 25  # standard deviations within which marks vote for one origin; how many heaps are looked at
 ORIGINS = 5  # how many origins are tried
 BY_CHANCE = 0.01  # as often a mechanism may be seen in spots that are not its
+VAGUE = 2.0  # mm: marks without dots that are no surer lay no frame
 RESCALED, REDIRECTED = 0.6, 1.2  # what another scale, and another direction, weigh beside a wrong step
 
 
@@ -72,7 +73,8 @@ class Register:
     @property
     def _sigma(self) -> float:
         """How far off a labelled point is: the more, the less squarely strokes cross in those without dots."""
-        blurs = [trace.blur for place in self.labels.values() if (trace := self.submission.traces[place]).crossed]
+        traces = (self.submission.traces[place] for place in self.labels.values())
+        blurs = [trace.blur for trace in traces if trace.crossed and trace.blur < VAGUE]
         return math.hypot(self.pencil.point, *(blur / math.sqrt(len(blurs)) for blur in blurs))
 
     def follow(self, matching: Matching) -> None:
@@ -129,7 +131,8 @@ class Register:
         """The labelled points of a plan, by step: where each truly is, and where on the sheet."""
         return [(index, (complex(*self.drawing.values[index][:2]), complex(*self.submission.traces[place].spots[0])))
                 for index, place in sorted(self.labels.items())
-                if self.plan_of_step[index] == panel and self.submission.traces[place].kind == POINT]
+                if self.plan_of_step[index] == panel and (trace := self.submission.traces[place]).kind == POINT
+                and not (trace.crossed and trace.blur > VAGUE)]
 
     # ---- unlabelled sheets -----------------------------------------------------------------------------------------
 

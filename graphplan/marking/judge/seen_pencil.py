@@ -84,6 +84,8 @@ def _samples(matching: Matching) -> Iterator[Sample]:
         residual = match.residual
         if residual is None or match.place is None or match.place in seen or match.step.op.movement is Movement.BEGUN:
             continue
+        if residual.covariance.max() > ANYWHERE**2:  # it may be anywhere
+            continue
         seen.add(match.place)
         partials = residual.partials
         read = partials[:, sheet.reads[:partials.shape[1]]]

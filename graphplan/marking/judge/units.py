@@ -23,6 +23,7 @@ UNITS: Mapping[str, tuple[float, float]] = {  # in mm, and what speaks against e
     "mm": (1.0, 0.0), "cm": (10.0, 0.3), "m": (1000.0, 0.5), "in": (25.4, 0.5)}
 OWN, LARGER, ODD = 1.2, 1.5, 1.0  # the same of a unit of its own; of e times the size; of a scale that is not round
 ROUND, CLOSE = (1.0, 2.0, 2.5, 5.0, 10.0), 0.005  # the numbers that scales are; how much of itself a scale may be off
+ALIKE = 4.0  # times as large or small as the task's sheet a drawing is looked at as it is
 PART = 150  # of the size of a drawing that its marks may be off a frame
 
 
@@ -33,10 +34,13 @@ def in_mm(drawing: Construction, composition: Composition, submission: Submissio
         return submission, ()
     spots = [spot for trace in submission.traces for spot in trace.spots]
     size = max((max(part) - min(part) for part in zip(*spots, strict=True)), default=0.0)
-    frame = Letters(drawing, composition, submission, pencil, size / PART).mechanism if size else None
+    sheet = max(composition.arrangement.width, composition.arrangement.height)
+    rough = 1.0 if not size or sheet / ALIKE < size < sheet * ALIKE else sheet / size  # as marks and letters are seen
+    frame = Letters(drawing, composition, scaled(submission, rough), pencil, rough * size / PART).mechanism if (
+        size) else None
     if frame is None:
         return submission, ()
-    task, scale = composition.views[MECHANISM].scale, abs(frame.unit)
+    task, scale = composition.views[MECHANISM].scale, abs(frame.unit) / rough
     against = {name: against + LARGER * abs(math.log(scale * mm / task)) + (0.0 if _round(scale * mm, task) else ODD)
                + (submission.millimetres if name != "mm" else 0.0) for name, (mm, against) in UNITS.items()}
     best = min(against, key=against.__getitem__)

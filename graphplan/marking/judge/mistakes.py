@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from graphplan.errors import Undrawable
-from graphplan.kernel.kinds import CIRCLE, DIVIDERS, POINT, Movement, Primitive, made_by
+from graphplan.kernel.kinds import CIRCLE, DIVIDERS, LINE, POINT, Movement, Primitive, made_by
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Program, Step
@@ -29,7 +29,8 @@ FACTORS = (10.0, 0.1, 1.5)  # the scales that are mistaken for each other
 class Mistake:
     """A step as it is drawn by mistake: its kind, how it is told, and the step; what is laid off, from its root or
     from the mark `start`, or the radius, is multiplied by `factor`, and by the distance of the first two marks of
-    `radii` over that of the others; a point is mirrored in the line of two marks."""
+    `radii` over that of the others; a point, or a line through the first of them, is mirrored in the line of two marks.
+    """
 
     kind: str
     told: Said
@@ -49,7 +50,8 @@ class Mistake:
         """What it makes of these marks; fails as the step's rule does."""
         made = self.step.op.rule(domain, *[values[arg] for arg in self.step.args], **self.step.params)
         if self.mirror:
-            return _mirrored(domain, made, *(values[arg] for arg in self.mirror))
+            return (_line_mirrored if self.step.op.gives == LINE else _mirrored)(
+                domain, made, *(values[arg] for arg in self.mirror))
         if self.factor == 1.0 and not self.radii:
             return made
         if self.step.op.gives == CIRCLE:
@@ -77,6 +79,14 @@ def _mirrored(domain: Domain, point: Any, P: Any, Q: Any) -> Any:
     size = domain.nonzero(u[0] * u[0] + u[1] * u[1], 1.0, "points-coincide", "the two points coincide")
     along = (u[0] * w[0] + u[1] * w[1]) / size
     return P[0] + 2 * along * u[0] - w[0], P[1] + 2 * along * u[1] - w[1]
+
+
+def _line_mirrored(domain: Domain, line: Any, P: Any, Q: Any) -> Any:
+    """A line through P on the other side of the line PQ."""
+    away = P[0] + line[1], P[1] - line[0]
+    x, y = _mirrored(domain, away, P, Q)
+    a, b = P[1] - y, x - P[0]
+    return a, b, -(a * P[0] + b * P[1])
 
 
 def _ratio(domain: Domain, P: Any, Q: Any, R: Any, S: Any) -> Any:
@@ -227,13 +237,18 @@ def _(at: Occasion) -> Iterable[Mistake]:
     return [at.made(said("the other of the two crossings"), params=at.step.op.reversed(at.step.params))]
 
 
-@mistake("mirrored figure", phrase("the figure is mirrored"), by(Movement.MET))
+@mistake("mirrored figure", phrase("the figure is mirrored"),
+         by(Movement.MET, Movement.PARALLEL, Movement.PERPENDICULAR))
 def _(at: Occasion) -> Iterable[Mistake]:
-    """The third corner of a similar figure, on the other side of the line of two."""
-    lines = [at.program.steps[arg] for arg in at.step.args]
-    through = [line.args[-1] for line in lines if ALIGNED(line.op)]
-    if len(set(through)) == 2:
-        yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
+    """The third corner of a figure, or a side to it, on the other side of the line of the two others."""
+    corners = [at.step] if at.step.op.gives == POINT else [
+        step for step in at.program.steps if step.op.movement is Movement.MET and at.step.index in step.args]
+    for corner in corners:
+        lines = [line for line in map(at.program.steps.__getitem__, corner.args) if ALIGNED(line.op)]
+        lines.sort(key=lambda line: line.index != at.step.index)
+        through = [line.args[-1] for line in lines]
+        if len(set(through)) == 2 and max(through) < at.step.index:
+            yield at.made(said("the figure is mirrored"), mirror=(through[0], through[1]))
 
 
 DEEDS: dict[str, tuple[Phrase, tuple[complex, ...]]] = {

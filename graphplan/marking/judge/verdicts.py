@@ -132,7 +132,7 @@ def _verdict(matching: Matching, match: Match, state: str) -> Verdict:
     mistake = reason.mistake if reason else match.mistake
     turned = off_locus(matching, match) if state == WRONG and seen and mistake is None else None
     guilty = reason.source.index if reason else step.index if state == WRONG else None
-    if mistake and mistake.mirror:  # wrong from the first of its lines on, if that was not drawn as it should be
+    if mistake and mistake.mirror and step.op.gives == POINT:  # wrong from the first of its lines on that is unseen
         guilty = next((line for line in sorted(mistake.step.args) if matching.matches[line].place is None), guilty)
     found = Verdict(step.index, state, own=plain(match.expected), mistake=mistake.told if mistake else turned,
                     kind=mistake.kind if mistake else "", guilty=guilty)

@@ -67,6 +67,23 @@ def test_the_hand_and_the_reading_are_told_apart() -> None:
     assert well < badly / 2
 
 
+def test_who_states_the_bounds_of_his_reading_is_judged_by_less() -> None:
+    """On the average of some drawings; who states its standard deviation is judged by nearly that."""
+    told = []
+    for stated in (0.2, 0.4):
+        parts = []
+        for seed in range(4):
+            submission = measured("ozols-5-3", seed, 1.0, 0.2, stated=True)
+            traces = tuple(replace(trace, blur=stated) for trace in submission.traces)
+            found = judged("ozols-5-3", replace(submission, traces=traces))
+            assert found.first is None
+            assert found.pencil is not None
+            parts.append(found.pencil.part)
+        told.append(np.mean(parts))
+    assert told[0] > 0.8
+    assert told[1] < 0.7
+
+
 def test_a_mistake_makes_no_coarser_pencil() -> None:
     """Nor do a few."""
     submission = measured("four-bar", 3, 1.0, 0.1)

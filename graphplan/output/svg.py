@@ -6,6 +6,7 @@ same text.
 
 from __future__ import annotations
 
+import math
 from base64 import b64encode
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -31,7 +32,7 @@ from graphplan.sheet.plates.display import (
 )
 from graphplan.sheet.plates.pens import PAPER, Pen
 
-FINE = 4  # decimals of a radius: what is left of one moves the middle of a half circle much farther
+FINE = 4  # decimals of a radius: what is left of one moves the middle of a long arc much farther
 MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
 Element = Any  # of svgwrite, which has no types
 
@@ -134,6 +135,8 @@ class _SheetWriter:
     def _arc(self, arc: Arc) -> Element:
         (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), rounded(arc.radius, FINE)
         large = int(arc.end - arc.start > 180)
+        if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
+            r = rounded(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
         return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **_look(arc.pen) | {"fill": "none"})
 
     def _photograph(self, item: Photograph) -> Element:

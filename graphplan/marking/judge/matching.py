@@ -201,7 +201,7 @@ class Matching:
             if residual.fits(self.chance):  # rather one that is free yet, and that reaches its marks
                 found = places[k] in self.used, not self._reaches(step, places[k]), residual.square, places[k]
                 best = min(best, found) if best else found
-            elif off[k] > FARTHER * residual.tolerance(self.chance):
+            elif step.op.gives == POINT and off[k] > FARTHER * residual.tolerance(self.chance):
                 break
         return best[3] if best else None
 

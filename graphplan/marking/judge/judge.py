@@ -156,9 +156,10 @@ class Judge:
 
     @cached_property
     def hidden(self) -> set[int]:
-        """The steps whose marks the task's own sheet leaves out, as too small to draw."""
-        sheet = self.reading.on_task
-        return {drawn.index for plate in sheet.plates for drawn in plate.hidden} if sheet else set()
+        """The steps that the task's own sheet does not show; another construction is not laid out for it."""
+        task = self.reading.task
+        return {drawn.index for plate in task.plates for drawn in plate.hidden} if self.drawing is task.plans.drawing \
+            else set()
 
     def _told(self) -> Iterator[Said]:
         """As what it is read, and at which scale."""

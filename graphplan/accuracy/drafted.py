@@ -212,7 +212,7 @@ def drafted(drawing: Construction, pencil: Pencil, paper: str | None = None,
     """
     composer = Composer(drawing, paper, check, tongue, protocol, traced(drawing.scene))
     usual = first_order(drawing, hand(drawing, composer.usual.of, pencil), composer.usual)
-    composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations)
+    composition = composer.compose(Errors(drawing, pencil, tuple(map(_brief, usual))).deviations, worded=False)
     for _ in range(ATTEMPTS):
         scales = composition.scales
         results = first_order(drawing, hand(drawing, scales.of, pencil), scales)

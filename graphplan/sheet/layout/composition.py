@@ -234,7 +234,7 @@ def _demands(plans: Plans, extents: Mapping[str, Extent], given: GivenScales, pa
 def _lengths(plans: Plans, panel: Panel) -> Sequence[Number]:
     """How many lengths long a unit is drawn of all that has a scale on a plan or its twin."""
     drawing, kinds = plans.drawing, plans.kinds(panel) | plans.kinds(plans.twins[panel])
-    return [*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)] or (1,)
+    return (*([1] if panel == MECHANISM else []), *lengths_of(kinds, drawing.tempo.kappa, drawing.phi)) or (1,)
 
 
 def _windows(arrangement: Arrangement, extents: Mapping[str, Extent], needs: Mapping[str, float], plans: Plans,
@@ -316,15 +316,16 @@ class Composer:
         extents: dict[str, Extent] = {panel: self.plans.extent(panel) for panel in self.plans.panels}
         return _scales(rooms, extents, self.plans, given_scales(self.plans))
 
-    def compose(self, pencil: Deviations | None = None) -> Composition:
-        """The composition with these drawing errors told on it; what its words measure is so at its scales."""
+    def compose(self, pencil: Deviations | None = None, worded: bool = True) -> Composition:
+        """The composition with these drawing errors told on it, or without any words where these are not `worded` yet;
+        what its words measure is so at its scales."""
         scales = self._composed[0].scales if self._composed else self.usual
         for _ in range(ROUNDS):
             found, composition = self._at(scales, pencil or Deviations())
             if composition.scales == scales:
                 break
             scales = composition.scales
-        return self._worded(composition, found)
+        return self._worded(composition, found) if worded else composition
 
     def _at(self, scales: Scales, pencil: Deviations) -> tuple[Measure[list[TextRow]], Composition]:
         """Words that measure at some scales, for columns of any width, and the composition that they lead to."""

@@ -105,7 +105,7 @@ def test_names_stand_on_the_sheets(folder: Path, register: Register) -> None:
         assert f"variant {sheet.variant}" in words
     first = " ".join(pdfium.PdfDocument(str(folder / "key.pdf"))[0].get_textpage().get_text_range().split())
     for sheet in register.sheets[:3]:
-        assert f"{sheet.variant} {sheet.student}: points.A.0 = " in first
+        assert f"{sheet.variant} {sheet.student}: A x = " in first
 
 
 def test_an_empty_folder_is_taken_and_a_full_one_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

@@ -37,6 +37,7 @@ SMALL = 1 / 6, 1 / 2  # of them are drawn as small, or smaller
 Values = Mapping[str, Fraction]  # by the paths of the numbers
 Keys = Mapping[str, str]  # of [sheet], as TOML
 Progress = Callable[[int, int], None]  # how many are done, of how many
+COORDINATES = {"0": "x", "1": "y"}  # of a point, by their places
 
 
 @dataclass(frozen=True)
@@ -49,8 +50,8 @@ class Variant:
 
     @property
     def told(self) -> str:
-        """What was drawn."""
-        return told(self.values)
+        """What was drawn, by what a reader of the key calls it: `A x` for `points.A.0`."""
+        return ", ".join(f"{_called(path)} = {written(value)}" for path, value in self.values.items())
 
 
 @dataclass(frozen=True)
@@ -72,8 +73,16 @@ class Series:
             yield f"[vary] has too few good values: {self.repeated} variants have the numbers of another"
 
 
+def _called(path: str) -> str:
+    """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
+    table, *keys = path.split(".")
+    if table == "points" and keys[-1] in COORDINATES:
+        return " ".join((*keys[:-1], COORDINATES[keys[-1]]))
+    return " ".join((table, *(str(int(key) + 1) if key.isdigit() else key for key in keys)))
+
+
 def told(values: Values) -> str:
-    """What was drawn, in words."""
+    """What was drawn, by the paths in the scene."""
     return ", ".join(f"{path} = {written(value)}" for path, value in values.items())
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import gc
 import io
 import os
 import re
@@ -15,10 +16,11 @@ from pathlib import Path
 from random import Random
 from typing import NamedTuple
 
-from graphplan.commands import main
+from graphplan.commands import GARBAGE, main
 from graphplan.mechanism.scene import load, packaged
 
 SECONDS = 5.0  # of the processor, for one command
+TRIES = 3  # of a command that takes longer: what else the machine does adds to a time and never takes from it
 NUMBER = re.compile(r"(?<![\w.\"-])-?\d+(?:\.\d+)?(?![\w.\"])")
 NAME = re.compile(r"\b[A-Za-z]\w*\b|\"\w+\"|(?m:^\w+)(?= *=)")
 VALUE = re.compile(r"(?m)(?<== )[^=\n]+$")
@@ -184,8 +186,13 @@ def _too_long(number: int, frame: object) -> None:
 
 @contextlib.contextmanager
 def _watched(given: str, out: io.StringIO, err: io.StringIO) -> Iterator[None]:
-    """Within this context the streams are these, a warning is an error, and too long a time raises TooLong."""
-    before, stdin = signal.signal(signal.SIGPROF, _too_long), sys.stdin
+    """Within this context the streams are these, a warning is an error, and too long a time raises TooLong.
+
+    Garbage is looked for as in the process of a command, not in all that the tests hold.
+    """
+    before, stdin, garbage = signal.signal(signal.SIGPROF, _too_long), sys.stdin, gc.get_threshold()
+    gc.freeze()
+    gc.set_threshold(GARBAGE)
     sys.stdin = io.TextIOWrapper(io.BytesIO(given.encode("utf-8", "surrogatepass")))
     signal.setitimer(signal.ITIMER_PROF, 2 * SECONDS)
     try:
@@ -195,11 +202,22 @@ def _watched(given: str, out: io.StringIO, err: io.StringIO) -> Iterator[None]:
     finally:
         signal.setitimer(signal.ITIMER_PROF, 0)
         signal.signal(signal.SIGPROF, before)
+        gc.set_threshold(*garbage)
+        gc.unfreeze()
         sys.stdin = stdin
 
 
 def ran(words: Sequence[str], given: str = "") -> Ran:
     """Run a command in this process, with a text on standard input; fails as the command does, or with TooLong."""
+    found = _once(words, given)
+    for _ in range(1, TRIES):
+        if found.seconds <= SECONDS:
+            break
+        found = _once(words, given)
+    return found
+
+
+def _once(words: Sequence[str], given: str) -> Ran:
     out, err, start = io.StringIO(), io.StringIO(), time.process_time()
     with _watched(given, out, err):
         try:

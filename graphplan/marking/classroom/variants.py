@@ -76,8 +76,8 @@ class Series:
 def _called(path: str) -> str:
     """The number at a path: a coordinate by its point, else what it is of, of things in a list counted from 1."""
     table, *keys = path.split(".")
-    if table == "points" and keys[-1] in COORDINATES:
-        return " ".join((*keys[:-1], COORDINATES[keys[-1]]))
+    if table == "points":
+        return " ".join((*keys[:-1], COORDINATES.get(keys[-1], keys[-1])))
     return " ".join((table, *(str(int(key) + 1) if key.isdigit() else key for key in keys)))
 
 

@@ -165,11 +165,21 @@ def set_square(task: Task, index: int) -> Iterator[Fault]:
 
 def through_another(task: Task, index: int) -> Iterator[Fault]:
     """A line through a wrong point."""
+    return _with_another(task, index, POINT, 3, r"instead of|through")
+
+
+def on_another(task: Task, index: int) -> Iterator[Fault]:
+    """A mark where a line meets another than it should."""
+    return _with_another(task, index, LINE, 4, r"instead of|marked on|on ")
+
+
+def _with_another(task: Task, index: int, kind: str, most: int, told: str) -> Iterator[Fault]:
+    """One of what a step reads is another of its kind."""
     step = task.steps[index]
     for place, arg in enumerate(step.args):
-        for other in others(task, index, POINT, arg)[-3:]:
+        for other in others(task, index, kind, arg)[-most:]:
             args = tuple(other if k == place else a for k, a in enumerate(step.args))
-            yield Fault(index, "wrong point", r"instead of|through",
+            yield Fault(index, f"wrong {kind}", told,
                         lambda hand, at, args=args: hand.by(step.op.rule, at, *args))
 
 
@@ -179,16 +189,6 @@ def about_another(task: Task, index: int) -> Iterator[Fault]:
     for other in others(task, index, POINT, step.args[0])[-3:]:
         yield Fault(index, "wrong point", r"instead of|about",
                     lambda hand, at, other=other: hand.by(step.op.rule, at, other, step.args[1]))
-
-
-def on_another(task: Task, index: int) -> Iterator[Fault]:
-    """A mark where a line meets another than it should."""
-    step = task.steps[index]
-    for place, arg in enumerate(step.args):
-        for other in others(task, index, LINE, arg)[-4:]:
-            args = tuple(other if k == place else a for k, a in enumerate(step.args))
-            yield Fault(index, "wrong line", r"instead of|marked on|on ",
-                        lambda hand, at, args=args: hand.by(step.op.rule, at, *args))
 
 
 def other_branch(hand: Hand, index: int) -> Value:

@@ -29,7 +29,7 @@ MAY = {
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
     "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
-               "accuracy"},
+               "check", "accuracy"},
     "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle"},

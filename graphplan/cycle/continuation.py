@@ -27,37 +27,37 @@ from graphplan.cycle.travel import TURN, afford, travel_unit
 Progress = Callable[[float], None]
 """Is told how much of the path is followed, from 0 to 1."""
 
-_LONGEST = 1 / 60
+LONGEST = 1 / 60
 """The longest step, of a turn: 6 degrees."""
 
-_FIRST = 1 / 8
+FIRST = 1 / 8
 """The first step, of the longest: the tangent in one knot does not lead so far as the curve through several."""
 
-_BACK = 3
+BACK = 3
 """How many knots lead to the next one."""
 
-_BESIDE = 4
+BESIDE = 4
 """How many knots tell what lies between two of them."""
 
 _KNOT = 512
 """Bytes for each link in a step, as measured on long travels."""
 
-_FINEST = 2.0**-36
+FINEST = 2.0**-36
 """The finest step, of the longest. Near a limit a pose changes with its root, so half of these digits stand there."""
 
-_SLACK = 16
+SLACK = 16
 """How many finest steps a limit may lie beyond the last knot: a step is only taken where several fit before it."""
 
-_EASY, _HARD = 2.0**-13, 2.0**-8
+EASY, HARD = 2.0**-13, 2.0**-8
 """Where the prediction missed by less, of the step, the next step is twice as long; by more, half as long.
 
 What lies between the knots is then predicted so well that one correction is enough for most poses.
 """
 
-_SINGULAR = 2.0**-22
+SINGULAR = 2.0**-22
 """The smallest determinant of a part, of that in the given pose: below it, rounding may choose the branch."""
 
-_ACROSS = 2.0**-12
+ACROSS = 2.0**-12
 """The step, of the longest, that leads straight through a change point, and nowhere beyond a limit position.
 
 It tells the change point to as small a part of itself: rounding weighs there as much.
@@ -74,7 +74,7 @@ class Knot(NamedTuple):
 
     def regular(self, start: Knot) -> bool:
         """Whether it is on the branch of the given pose, and not too near to where another meets it."""
-        return bool((self.determinants / start.determinants >= _SINGULAR).all())
+        return bool((self.determinants / start.determinants >= SINGULAR).all())
 
 
 class Limit(NamedTuple):
@@ -120,7 +120,7 @@ class Path:
     @cached_property
     def _between(self) -> tuple[Array, Array]:
         """Between any two knots: those around, and the coefficients of the curve through them."""
-        width = min(_BESIDE, len(self.travel))
+        width = min(BESIDE, len(self.travel))
         first = np.arange(1 - width // 2, len(self.travel) - width // 2).clip(0, len(self.travel) - width)
         around = np.arange(width)[:, None] + first
         table = np.concatenate(divided(self.travel[around][..., None], self._state[around], self._rate[around]), axis=1)
@@ -147,9 +147,9 @@ class Continuation:
         self.ends = np.cumsum([0, *(group.unknowns for group in groups)]).tolist()
         self._angle = np.array([i < group.layout.angles for group in groups for i in range(group.unknowns)], dtype=bool)
         self.lower, self.upper, self.progress = lower, upper, progress or (lambda done: None)
-        self.longest = _LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
+        self.longest = LONGEST * min((upper - lower if drive.slides else TURN) / abs(pace) for drive, pace
                                       in zip(linkage.scene.drives, linkage.paces, strict=True) if pace)
-        self.finest = _FINEST * self.longest
+        self.finest = FINEST * self.longest
         self.pace = max(abs(pace) / (linkage.reach if drive.slides else 1) for drive, pace
                         in zip(linkage.scene.drives, linkage.paces, strict=True))
         if self.longest:
@@ -182,23 +182,23 @@ class Continuation:
 
     def _walk(self, start: Knot, goal: float, done: float | None = None) -> tuple[list[Knot], Limit | None]:
         """The knots up to the goal, or to the limit before it; `done` so much of the path."""
-        knots, at, step = [start], start.travel, math.copysign(_FIRST * self.longest, goal - start.travel)
+        knots, at, step = [start], start.travel, math.copysign(FIRST * self.longest, goal - start.travel)
         while at != goal:
             left = goal - at
             step = left if abs(left) <= abs(step) + self.finest else step
             travel = goal if step == left else at + step
-            predicted = _ahead(knots[-_BACK:], travel)
+            predicted = _ahead(knots[-BACK:], travel)
             size = float(self._size(abs(travel - at), predicted - knots[-1].state, knots[-1].state))
             knot = self._closed(travel, predicted, size)
             if isinstance(knot, int) or not knot.regular(start):
                 step /= 2
                 if abs(step) < self.finest:
-                    return self._stopped(knots, math.copysign(_ACROSS * self.longest, step))
+                    return self._stopped(knots, math.copysign(ACROSS * self.longest, step))
                 continue
             missed = float(self._weighed(knot.state - predicted, predicted).max(initial=0.0)) / size
-            if missed <= _EASY and 2 * abs(step) <= self.longest:
+            if missed <= EASY and 2 * abs(step) <= self.longest:
                 step *= 2
-            elif missed > _HARD:
+            elif missed > HARD:
                 step /= 2
             knots.append(knot)
             at = travel
@@ -247,13 +247,13 @@ class Continuation:
                               float(self._size(abs(travel - before.travel), predicted - before.state, before.state)))
         if isinstance(beyond, int) or (beyond.determinants / before.determinants > 0).all():
             i = int(np.argmin(np.abs(last.determinants / (start.determinants if len(knots) > 1 else 1.0))))
-            return knots, Limit(last.travel, _SLACK * self.finest, self.linkage.parts[i], False)
+            return knots, Limit(last.travel, SLACK * self.finest, self.linkage.parts[i], False)
         ratio = beyond.determinants / before.determinants
         i = int(np.argmax(ratio <= 0))
         travel = before.travel + (travel - before.travel) / (1 - float(ratio[i]))
         there = last._replace(travel=travel, state=_ahead([before, beyond], travel))
         knots = [knot for knot in knots if abs(knot.travel) < abs(travel)]
-        return [*knots, there], Limit(travel, _ACROSS * abs(step), self.linkage.parts[i], True)
+        return [*knots, there], Limit(travel, ACROSS * abs(step), self.linkage.parts[i], True)
 
 
 def _ahead(knots: Sequence[Knot], travel: float) -> Array:

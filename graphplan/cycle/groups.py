@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import chain
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -35,17 +35,26 @@ CLOSED = 2.0**-26
 """Half of the digits: a correction below it, of the step, leaves none."""
 
 
+class End(NamedTuple):
+    """What an arm leads to: the link that it is fixed to, and a point; or of a guide through that the `way`."""
+
+    link: str
+    at: str
+    way: bool
+
+
 class Group:
     """One part of a linkage in its numbers; lengths are counted in reaches.
 
     `links` are its own, `carriers` those placed before that it needs, but for the frame. Those must be made before: the
-    linkage is told where the bases of links were given.
+    linkage is told where the bases of links were given. `ends` are for each of the `arms` the link that it is fixed to,
+    the point at its end or of its guide, and whether it is a guide's way. `drives` turn or slide, at rates.
     """
 
     def __init__(self, linkage: Linkage, part: tuple[str, ...]):
         made = _Maker(linkage, part)
         self.part, self.links, self.carriers = part, tuple(made.seated), made.carriers
-        self.layout, self.arms, self._drives = made.layout(), made.arms, made.drives
+        self.layout, self.arms, self.ends, self.drives = made.layout(), made.arms, made.ends, made.drives
         self.unknowns, self._angles = self.layout.unknowns, self.layout.angles
         self._run = newton.for_one(self.layout)
         self._flat = [number for arm in self.arms for number in arm]
@@ -59,7 +68,7 @@ class Group:
         for link in self.carriers:
             flat += placed[link]
         flat += self._flat
-        for turns, rate in self._drives:
+        for turns, rate in self.drives:
             angle = rate * travel
             flat += (math.cos(angle), math.sin(angle), rate) if turns else (angle, rate)
         for angle in state[: self._angles]:
@@ -99,7 +108,7 @@ class Group:
     def read(self, travel: Array, state: Sequence[Array]) -> tuple[list[closure.Drive], list[Any]]:
         """The drives of n poses, and their states as the closure has them."""
         drives = [closure.Drive((np.cos(rate * travel), np.sin(rate * travel)) if turns else rate * travel, None)
-                  for turns, rate in self._drives]
+                  for turns, rate in self.drives]
         return drives, [(np.cos(value), np.sin(value)) if i < self._angles else value for i, value in enumerate(state)]
 
     def lie(self, known: Sequence[Body], travel: Array, state: Sequence[Array]) -> list[Body]:
@@ -146,6 +155,7 @@ class _Maker:
         self.linkage, self.part, self.carriers = linkage, part, linkage.carriers(part)
         bonds = [bond for link in part for bond in linkage.bonds[link]]
         self.arms: list[tuple[float, float]] = []
+        self.ends: list[End] = []
         self.drives: list[tuple[bool, float]] = []
         self.turnings = [bond for bond in bonds if isinstance(bond, Turning)]
         self.joints: dict[tuple[str, str, str], list[Along]] = {}
@@ -205,37 +215,43 @@ class _Maker:
     def _seat(self, link: str, joint: Sequence[Along]) -> Seat:
         """A link on the pair that seats it."""
         if not joint:
-            return Seat(self.place[link], arm=self._arm(FRAME, self.linkage.origins[link]))
+            return Seat(self.place[link], arm=self._arm(FRAME, self.linkage.origins[link], ""))
         bond = max(joint, key=lambda bond: bool(bond.rate))
         on = bond.on if link == bond.link else bond.link
-        seat = Seat(self.place[link], self.place[on], self._arm(on, self.linkage.places[bond.at]))
+        seat = Seat(self.place[link], self.place[on], self._arm(on, self.linkage.places[bond.at], bond.at))
         if len(joint) == 2 and not bond.rate:
             return seat
         way = direction(bond) if len(joint) == 2 else -1j * direction(bond)
         rate = float(bond.rate) * (1 if link == bond.link else -1)
         drive = self._drive(False, rate / self.linkage.reach) if len(joint) == 2 else None
-        return seat._replace(guide=self.place[bond.to or bond.on], way=self._entered(way), drive=drive)
+        return seat._replace(guide=self.place[bond.to or bond.on], way=self._way(bond, way), drive=drive)
 
     def _closings(self, joint: Sequence[Along]) -> Iterator[Closing]:
         """What closes a loop: a joint at once, or one statement after another."""
         bond = joint[0]
         at = self.linkage.places[bond.at]
-        closing = Closing(self.place[bond.link], self._arm(bond.link, at), self.place[bond.on], self._arm(bond.on, at))
+        arm, rest = (self._arm(link, at, bond.at) for link in (bond.link, bond.on))
+        closing = Closing(self.place[bond.link], arm, self.place[bond.on], rest)
         if len(joint) == 2 and not any(bond.rate for bond in joint):
             yield closing
             return
         for bond in joint:
             drive = self._drive(False, float(bond.rate) / self.linkage.reach)
-            yield closing._replace(guide=self.place[bond.to or bond.on], way=self._entered(direction(bond)),
+            yield closing._replace(guide=self.place[bond.to or bond.on], way=self._way(bond, direction(bond)),
                                    drive=drive)
 
-    def _arm(self, link: str, place: complex) -> int | None:
-        """The arm from a link's base to a place."""
+    def _arm(self, link: str, place: complex, at: str) -> int | None:
+        """The arm from a link's base to a place, that of a point."""
         arm = (place - self.linkage.origins[link]) / self.linkage.reach
-        return self._entered(arm) if arm else None
+        return self._entered(arm, End(link, at, False)) if arm else None
 
-    def _entered(self, arm: complex) -> int:
+    def _way(self, bond: Along, way: complex) -> int:
+        """A direction that is fixed to the guide's link."""
+        return self._entered(way, End(bond.to or bond.on, bond.at, True))
+
+    def _entered(self, arm: complex, end: End) -> int:
         self.arms.append((arm.real, arm.imag))
+        self.ends.append(end)
         return len(self.arms) - 1
 
     def _drive(self, turns: bool, rate: float) -> int | None:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from graphplan.cycle.closure import RESIDUE, TRAVEL, Body, Drive, Layout, Row, Vector, bodies, left_open, rotated
 from graphplan.kernel.tape.blocks import Blocks
 from graphplan.kernel.tape.machine import Machine
-from graphplan.kernel.tape.record import Symbol, Symbols
+from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import function
 
 _TINY = 1e-150
@@ -162,15 +162,24 @@ class _Record:
             yield rate
 
 
-@lru_cache(maxsize=256)
-def for_one(layout: Layout) -> Callable[..., Any]:
-    """A function that corrects one pose: it reads the inputs of the record and gives the parts of :class:`Corrected`.
+def recorded(layout: Layout) -> tuple[Tape, list[int], Any]:
+    """The tape that corrects one pose: its inputs, and where on it the parts of a :class:`Corrected` stand.
+
+    The inputs are how each known link but the frame lies, the arms, the cosine and sine or the length of each drive
+    with its rate, and of each unknown the cosine and sine, or the displacement.
     """
     record = _Record(layout, rates=True)
     found, told = record.step, record.told
     lies = tuple(told(*record.lies(i), *record.moves(i)) for i in range(len(record.links)))
-    return function(record.tape, record.inputs,
-                    (told(*found.corrections), told(*found.rates), record.tape.place(found.determinant), lies))
+    return record.tape, record.inputs, Corrected(told(*found.corrections), told(*found.rates),
+                                                 record.tape.place(found.determinant), lies)
+
+
+@lru_cache(maxsize=256)
+def for_one(layout: Layout) -> Callable[..., Any]:
+    """A function that corrects one pose: it reads the inputs of the record and gives the parts of :class:`Corrected`.
+    """
+    return function(*recorded(layout))
 
 
 @lru_cache(maxsize=64)

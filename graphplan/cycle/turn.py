@@ -22,6 +22,7 @@ from graphplan.cycle.positions import Placing
 from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.motion.network import Network
+from graphplan.phrases import Said, said
 
 _BACK = 1e-9
 """Links that are so near to where they were, in radians and reaches, are back."""
@@ -93,7 +94,7 @@ class RangeOfMotion:
             array[lost] = complex(np.nan, np.nan)
         points = {name: placing.points[name] for name in scene.points}
         guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
-        points |= {name: points[at] for name, at in _under(scene).items()}
+        points |= {name: points[at] for name, at in under(scene).items()}
         back = self.closed and _comes_back(path, self.groups)
         return Turn(travel, points, guides, course.faults(placing.failures), back)
 
@@ -106,7 +107,7 @@ def _comes_back(path: Path, groups: Sequence[Group]) -> bool:
     return path.upper is None and max(apart, default=0.0) <= _BACK
 
 
-def _under(scene: Scene) -> dict[str, str]:
+def under(scene: Scene) -> dict[str, str]:
     """The points of guides' links that only mark the place under a sliding point, each with that point.
 
     A point is its link's own where another link has it too, where a load, another slide or its direction needs it.
@@ -159,7 +160,7 @@ class Course:
             which[poses] = len(reasons) - 1
 
         for limit, poses in self.stops:
-            because(_stopped(limit), poses)
+            because(stopped(limit.part, limit.change), poses)
         for failure, poses in reversed(failures):
             because(f"{_links(failure.part)} cannot be assembled: {failure.why}", poses)
         for limit, beyond in self._beyond():
@@ -183,10 +184,14 @@ class Course:
             yield limit, ~self.reached & (np.argmin(apart, axis=0) == i)
 
 
-def _stopped(limit: Limit) -> str:
-    """What is to be said of a pose at a limit."""
-    lost = "the drive does not say how they move on" if limit.change else "they have no velocities"
-    return f"{_links(limit.part)} {'are' if len(limit.part) > 1 else 'is'} in a {limit.kind}: {lost}"
+def stopped(part: tuple[str, ...], change: bool) -> Said:
+    """What is to be said of a part's pose at a limit: a change point or a limit position."""
+    first, last = ", ".join(part[:-1]), part[-1]
+    if change:
+        return (said("links {0} and {1} are in a change point: the drive does not say how they move on", first, last)
+                if first else said("link {0} is in a change point: the drive does not say how they move on", last))
+    return (said("links {0} and {1} are in a limit position: they have no velocities", first, last) if first
+            else said("link {0} is in a limit position: they have no velocities", last))
 
 
 def _links(names: tuple[str, ...]) -> str:

@@ -51,6 +51,12 @@ def run(options: argparse.Namespace) -> int:
     return 0
 
 
+def exported(name: str, on_sheet: Drafted) -> str | bytes:
+    """A construction on its sheet in the format of this name; fails with `Refused` where that cannot be had."""
+    content: str | bytes = back_end(name)(READ[FORMATS[name].reads](on_sheet))
+    return content
+
+
 def format_of(output: str, named: str | None) -> str:
     """The format of a file: the one named, else the first of its suffix."""
     if named:

@@ -1,77 +1,158 @@
-"""Draw every packaged scene, and an index page.
+"""Make a site of scenes, offline: sheets, constructions in words, moving pages, files, a tutorial and the reference.
+
+Without scenes it has the packaged ones. With --brief it has no moving pages and no files for other programs: sheets,
+words, tutorial and reference alone. Charts that stand in FOLDER/charts are shown.
 
 examples:
-  graphplan gallery gallery            write the sheets, protocols and index into the folder
-  graphplan gallery gallery --check    only say what would differ there; exit status 1 if anything does
+  graphplan gallery gallery --brief            write the site of the packaged scenes into the folder
+  graphplan gallery gallery --brief --check    only say what would differ there; exit status 1 if anything does
+  graphplan gallery site four-bar mine.toml --language de
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterable, Iterator
-from html import escape
-from importlib.resources import files
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from graphplan.commands.output import Messages, error, folder_at, write
+from graphplan.commands.choices import add_language
+from graphplan.commands.export import exported
+from graphplan.commands.output import Messages, error, folder_at, write_all
+from graphplan.commands.result_schemas import tables
+from graphplan.errors import Refused
+from graphplan.output import FORMATS
 
-HANDOUTS = {".pdf": "handout", ".html": "step by step"}  # what stands in the folder handouts, and how it is linked
+if TYPE_CHECKING:
+    from graphplan.accuracy.drafted import Drafted
+    from graphplan.mechanism.model import Scene
+    from graphplan.output.manual.scenes import ShownScene
+    from graphplan.words.tongue import Tongue
+
+FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
+LIVE = "live"
+RESERVED = ("index", "tutorial", "reference", *FILES, LIVE)
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("folder", metavar="FOLDER", type=Path, help="where the gallery stands")
+    command.add_argument("folder", metavar="FOLDER", type=Path, help="where the site stands")
+    command.add_argument("scenes", metavar="SCENE", nargs="*", help="scene files, or packaged scenes (all of these)")
+    command.add_argument("--brief", action="store_true", help="no moving pages, and no files for other programs")
     command.add_argument("--check", action="store_true", help="write nothing; compare with what is there")
+    add_language(command)
 
 
 def run(options: argparse.Namespace) -> int:
     folder_at(options.folder)
-    written, stale = set(), []
-    for name, text in _pages(options.folder, Messages(options.quiet)):
-        path = options.folder / name
-        written.add(name)
-        if not options.check:
-            write(text, str(path))
-        elif not path.is_file() or path.read_text(encoding="utf-8") != text:
-            stale.append(f"{path}: differs from what the scene gives now; run graphplan gallery {path.parent}")
-    stale += [f"{path}: no packaged scene makes this file" for path in sorted(options.folder.iterdir())
-              if path.is_file() and path.name not in written]
+    site = dict(_Site(options).files())
+    if options.check:
+        return _checked(options.folder, site)
+    for parent in {(options.folder / name).parent for name in site}:
+        parent.mkdir(exist_ok=True)
+    write_all([(str(options.folder / name), content) for name, content in site.items()])
+    return 0
+
+
+def _checked(folder: Path, site: Mapping[str, str | bytes]) -> int:
+    """Say what in the folder is not as the site is now: what differs, and what is no part of it."""
+    stale = [f"{folder / name}: differs from what the scene gives now; run graphplan gallery {folder}"
+             for name, content in site.items() if not _is(folder / name, content)]
+    there = (path for part in ("", *FILES, LIVE) for path in (folder / part).glob("*") if path.is_file())
+    stale += [f"{path}: no scene makes this file" for path in sorted({*there})
+              if path.relative_to(folder).as_posix() not in site]
     for line in stale:
         error(line)
     return 1 if stale else 0
 
 
-def _pages(folder: Path, messages: Messages) -> Iterator[tuple[str, str]]:
-    """Every file of the gallery: a sheet and a protocol for each scene, and the index, with the charts and handouts
-    that are there."""
-    from graphplan import sheet
-    from graphplan.accuracy.drafted import drafted
-    from graphplan.accuracy.pencil import Pencil
-    from graphplan.check.json_results import data
-    from graphplan.check.trusted import report
-    from graphplan.commands.steps import protocol
-    from graphplan.mechanism.scene import load, packaged
-
-    entries, names = [], packaged()
-    for count, name in enumerate(names, 1):
-        messages.progress(f"{count}/{len(names)} {name}")
-        found = report(load(name))
-        on_sheet = drafted(found.drawing, Pencil(), check=found.check)
-        yield f"{name}.svg", sheet.svg(found.drawing, composition=on_sheet.composition)
-        yield f"{name}.txt", protocol(on_sheet)
-        handouts = [suffix for suffix in HANDOUTS if (folder / "handouts" / f"{name}{suffix}").is_file()]
-        entries.append(_entry(name, found.scene.title, found.scene.source, data(found)["steps"], handouts))
-    messages.progress("")
-    charts = [_chart(path.stem) for path in sorted((folder / "charts").glob("*.svg"))]
-    page = files("graphplan.output").joinpath("gallery.html").read_text(encoding="utf-8")
-    yield "index.html", page.replace("{{entries}}", "\n".join(entries)).replace("{{charts}}", "\n".join(charts))
+def _is(path: Path, content: str | bytes) -> bool:
+    return path.is_file() and path.read_bytes() == (content.encode() if isinstance(content, str) else content)
 
 
-def _chart(name: str) -> str:
-    return f'<figure><a href="charts/{name}.svg"><img src="charts/{name}.svg" alt="{name}" loading="lazy"></a></figure>'
+@dataclass(frozen=True)
+class _Site:
+    """The site that the options ask for."""
+
+    options: argparse.Namespace
+
+    def files(self) -> Iterator[tuple[str, str | bytes]]:
+        """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
+        from graphplan.mechanism.scene import load, packaged
+        from graphplan.output.manual import scenes, tutorial
+        from graphplan.output.manual.reference import reference
+        from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL
+
+        messages, names = Messages(self.options.quiet), _names(self.options.scenes or packaged())
+        shown = []
+        for count, (name, scene) in enumerate(names.items(), 1):
+            messages.progress(f"{count}/{len(names)} {name}")
+            one, files = self._shown(load(scene), name)
+            yield from files.items()
+            yield f"{one.name}.html", scenes.scene_page(one, self.tongue)
+            shown.append(one)
+        messages.progress("")
+        charts = sorted(path.stem for path in (self.options.folder / "charts").glob("*.svg"))
+        yield INDEX, scenes.index(shown, charts, self.tongue)
+        yield TUTORIAL, tutorial.tutorial([f"{name}.svg" for name in names], self.tongue)
+        yield REFERENCE, reference(_help(), tables(), self.tongue)
+
+    @property
+    def tongue(self) -> Tongue:
+        from graphplan.words.tongue import tongue
+
+        return tongue(self.options.language or "en")
+
+    def _shown(self, scene: Scene, name: str) -> tuple[ShownScene, dict[str, str | bytes]]:
+        """A scene as the site shows it, and its files by their names."""
+        from graphplan import sheet
+        from graphplan.accuracy.drafted import drafted
+        from graphplan.accuracy.pencil import Pencil
+        from graphplan.check.json_results import data
+        from graphplan.check.trusted import report
+        from graphplan.commands.steps import protocol
+        from graphplan.output.manual.scenes import ShownScene
+        from graphplan.phrases import said
+        from graphplan.words.tongue import tongue
+
+        if self.options.language:
+            scene = replace(scene, sheet=replace(scene.sheet, language=self.options.language))
+        found = report(scene)
+        on_sheet = drafted(found.drawing, Pencil(), check=found.check, tongue=tongue(scene.sheet.language))
+        words = protocol(on_sheet)
+        files: dict[str, str | bytes] = {f"{name}.svg": sheet.svg(found.drawing, composition=on_sheet.composition),
+                                         f"{name}.txt": words}
+        told: dict[str, str] = {f"{name}.svg": said("the sheet"), f"{name}.txt": said("the construction in words")}
+        if not self.options.brief:
+            files |= {f"{name}.toml": scene.text} | dict(self._exported(name, on_sheet))
+            told |= {f"{name}.toml": said("the scene")} | {
+                path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
+        return ShownScene(scene, name, data(found)["steps"], words, told), files
+
+    def _exported(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
+        """What other programs read."""
+        for kind in FILES:
+            with suppress(Refused):  # its library is not installed, or the format has no place for the scene
+                yield f"{kind}/{name}{FORMATS[kind].suffix}", exported(kind, on_sheet)
 
 
-def _entry(name: str, title: str, source: str, steps: int, handouts: Iterable[str]) -> str:
-    links = "".join(f' · <a href="handouts/{name}{suffix}">{HANDOUTS[suffix]}</a>' for suffix in handouts)
-    return (f'<figure><a href="{name}.svg"><img src="{name}.svg" alt="{escape(title)}" loading="lazy"></a>'
-            f"<figcaption><b>{escape(title)}</b><br>{escape(source)}<br>"
-            f'<code>graphplan draw {name}</code> · <a href="{name}.txt">{steps} steps</a>{links}</figcaption></figure>')
+def _names(scenes: Sequence[str]) -> dict[str, str]:
+    """The scenes by the names of their pages. Fails with `Refused` where two have one."""
+    found: dict[str, str] = {}
+    for scene in scenes:
+        name = Path(scene).stem
+        if name in found:
+            raise Refused(f"{scene}: scene", f"{found[name]} has the name {name}, too", "another name of the file")
+        if name in RESERVED:
+            raise Refused(f"{scene}: scene", f"the site has a page {name} of its own", "another name of the file")
+        found[name] = scene
+    return found
+
+
+def _help() -> dict[str, str]:
+    """What each command prints as its help."""
+    from graphplan.commands import SUBCOMMANDS, parser
+
+    commands = next(action.choices for action in parser(SUBCOMMANDS)._actions if isinstance(action.choices, dict))
+    return {name: command.format_help() for name, command in commands.items()}

@@ -8,6 +8,7 @@ from __future__ import annotations
 import tomllib
 from functools import cache
 from importlib.resources import files
+from typing import Any
 
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE
 from graphplan.kernel.stages import Known
@@ -59,7 +60,7 @@ def _kind(word: str) -> Fragment:
         return listed(_kind(word[:-2]))
     if word.endswith("{}"):
         return {"type": "object", "additionalProperties": _kind(word[:-2])}
-    return _kind(f"{word[:-1]}|null") if word.endswith("?") else _table(dict(_tables()[word]))
+    return _kind(f"{word[:-1]}|null") if word.endswith("?") else _table(dict(tables()[word]))
 
 
 def _table(written: dict[str, str]) -> Fragment:
@@ -73,5 +74,6 @@ def _table(written: dict[str, str]) -> Fragment:
 
 
 @cache
-def _tables() -> dict[str, dict[str, str]]:
+def tables() -> dict[str, dict[str, Any]]:
+    """The tables of the file, as they are written."""
     return tomllib.loads(files(__package__).joinpath("results.toml").read_text(encoding="utf-8"))

@@ -6,6 +6,7 @@ What only the whole scene tells, such as names that nothing bears or drives that
 from __future__ import annotations
 
 from collections.abc import Collection, Iterable, Iterator
+from typing import NamedTuple
 
 from graphplan.mechanism.fields import Either, Field, Fragment, Kind, Named, Rows, Table, Value
 from graphplan.mechanism.scene import SCENE
@@ -54,13 +55,31 @@ def schema(value: Value) -> Fragment:
             return fragment
 
 
+class KeyRow(NamedTuple):
+    """A row of the reference of keys: a key, the head of a table, or one of the forms that a table may take."""
+
+    level: str
+    key: str
+    takes: str
+    words: str
+
+
+HEAD, FORM, KEY = "head", "form", "key"
+
+
 def reference() -> str:
     """All keys of a scene as a table in Markdown: each with what it takes and what it says, table after table."""
-    rows = ["| key | takes | what it says |", "|---|---|---|"]
+    written = {HEAD: "| **`{}`** | {} | {} |", FORM: "| | *{}* | |", KEY: "| `{}` | {} | {} |"}
+    rows = (written[row.level].format(row.key, row.takes, row.words) for row in keys())
+    return "\n".join(["| key | takes | what it says |", "|---|---|---|", *rows, ""])
+
+
+def keys() -> Iterator[KeyRow]:
+    """All keys of a scene, table after table."""
     for field in SCENE.fields:
         match field.kind:
             case Kind():
-                rows += _rows((field,))
+                yield from _rows((field,))
                 continue
             case Rows(entry=entry, single=single):
                 head = f"[[{field.name}]]" if not single else f"[{field.name}]` or `[[{field.name}]]"
@@ -68,18 +87,17 @@ def reference() -> str:
                 head = f"[{field.name}.{key.says.upper()}]"
             case Named(entry=entry) | entry:
                 head = f"[{field.name}]"
-        rows.append(f"| **`{head}`** | {'required' if field.wanted else ''} | {field.words} |")
+        yield KeyRow(HEAD, head, "required" if field.wanted else "", field.words)
         forms = entry.forms if isinstance(entry, Either) else (entry,)
         for form in forms:
-            rows += [f"| | *{form.says}* | |"] if len(forms) > 1 else []
-            rows += _rows(form.fields) if isinstance(form, Table) else []
-    return "\n".join(rows) + "\n"
+            yield from [KeyRow(FORM, form.says, "", "")] if len(forms) > 1 else []
+            yield from _rows(form.fields) if isinstance(form, Table) else []
 
 
-def _rows(fields: Iterable[Field], path: str = "") -> Iterator[str]:
+def _rows(fields: Iterable[Field], path: str = "") -> Iterator[KeyRow]:
     """The rows of keys, each before those below it."""
     for name, words, kind, wanted, default in fields:
         more = ["required"] if wanted else [] if default in (None, []) else [f"default {default}"]
-        yield f"| `{path}{name}` | {', '.join([kind.says, *more])} | {words} |"
+        yield KeyRow(KEY, f"{path}{name}", ", ".join([kind.says, *more]), words)
         if isinstance(kind, Table):
             yield from _rows(kind.fields, f"{path}{name}.")

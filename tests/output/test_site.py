@@ -1,0 +1,97 @@
+"""The site that `graphplan gallery` makes: whole, offline, and made from the records themselves."""
+
+from __future__ import annotations
+
+import re
+import shlex
+from collections.abc import Callable
+from html import unescape
+from pathlib import Path
+from urllib.parse import urlsplit
+
+import pytest
+
+import graphplan as gp
+from graphplan.commands import SUBCOMMANDS, main
+from graphplan.kernel import TABLE
+from graphplan.marking.judge.score import KINDS
+from graphplan.mechanism import pairs
+from graphplan.mechanism.schema import KEY, keys
+from graphplan.output.manual.tutorial import TUTORIALS, Lesson
+
+SCENES = ("four-bar", "triad-loaded")
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The site of a few scenes."""
+    folder = tmp_path_factory.mktemp("site")
+    assert main(["gallery", str(folder), *SCENES, "-q"]) == 0
+    return folder
+
+
+def text(page: Path) -> str:
+    return page.read_text(encoding="utf-8")
+
+
+def test_every_link_leads_to_a_file_of_the_site(site: Path) -> None:
+    """Links and pictures name files that are there, and nothing elsewhere."""
+    pages = [*site.glob("*.html")]
+    assert len(pages) == len(SCENES) + 3
+    for page in pages:
+        for address in re.findall(r'(?:href|src)="([^"]*)"', text(page)):
+            assert not urlsplit(address).netloc, f"{page.name}: {address}"
+            assert (site / unescape(address)).is_file(), f"{page.name}: {address}"
+
+
+@pytest.mark.parametrize(("title", "names"), [
+    ("commands", SUBCOMMANDS), ("primitives", [*TABLE]), ("mistakes", [*KINDS]), ("pairs", pairs.KINDS),
+    ("keys", sorted({row.key for row in keys() if row.level == KEY})), ("results", ["at", "velocity?", "reactions?"]),
+])
+def test_the_reference_tells_all_of_each_table(site: Path, title: str, names: list[str]) -> None:
+    """Every record of a table has a row in the reference."""
+    told = {unescape(name) for name in re.findall(r"<code>([^<]*)</code>", text(site / "reference.html"))}
+    assert [name for name in names if name not in told] == [], title
+
+
+def test_what_is_there_is_checked(site: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    """--check finds nothing in a fresh site; and a page that differs, one too many and one too few in another."""
+    again = ["gallery", str(site), *SCENES, "-q", "--check"]
+    assert main(again) == 0
+    (site / "live" if (site / "live").is_dir() else site / "ggb").joinpath("stray.txt").write_text("")
+    (site / "index.html").write_text("")
+    (site / "four-bar.txt").unlink()
+    assert main(again) == 1
+    err = capsys.readouterr().err
+    assert [name for name in ("stray.txt", "index.html", "four-bar.txt") if name not in err] == []
+
+
+def test_the_site_speaks_the_language_that_is_asked_for(tmp_path: Path) -> None:
+    """Pages and sheets are in the language chosen."""
+    assert main(["gallery", str(tmp_path), "four-bar", "--brief", "--language", "de", "-q"]) == 0
+    assert '<html lang="de">' in text(tmp_path / "index.html")
+    assert "Mechanismus" in text(tmp_path / "four-bar.txt") or "Getriebe" in text(tmp_path / "four-bar.txt")
+
+
+@pytest.mark.parametrize("lessons", TUTORIALS.values(), ids=lambda told: told.__name__)
+def test_the_tutorial_can_be_followed(lessons: Callable[[], list[Lesson]], tmp_path: Path,
+                                      monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
+    """What a tutorial has its reader write and type works, in order."""
+    monkeypatch.chdir(tmp_path)
+    Path("four-bar.toml").write_text(gp.load("four-bar").text, encoding="utf-8")
+    for lesson in lessons():
+        if lesson.writes[0]:
+            Path(lesson.writes[0]).write_text(lesson.writes[1], encoding="utf-8")
+        for command in lesson.commands:
+            assert main(shlex.split(command)[1:]) == 0, f"{command}: {capsys.readouterr().err}"
+
+
+@pytest.mark.parametrize(("scenes", "told"), [
+    (["four-bar", "sub/four-bar.toml"], "has the name four-bar, too"), (["index.toml"], "a page index of its own"),
+])
+def test_scenes_whose_pages_would_be_one_are_refused(scenes: list[str], told: str, tmp_path: Path,
+                                                     capsys: pytest.CaptureFixture[str]) -> None:
+    """Two scenes of one name, or one with the name of a page of the site, are refused; nothing is written."""
+    assert main(["gallery", str(tmp_path), *scenes]) == 2
+    assert told in capsys.readouterr().err
+    assert [*tmp_path.iterdir()] == []

@@ -41,6 +41,10 @@ class Placed(NamedTuple):
         """Where the point given at this place is."""
         return self.base + self.turn * (place - self.origin)
 
+    def ray(self, along: complex) -> Array:
+        """Where a direction points that was given so."""
+        return self.turn * along
+
     def beside(self, origin: complex, base: Array) -> Placed:
         """Another link that turns as this one does, and has this point."""
         return Placed(origin, base, self.turn)
@@ -67,7 +71,7 @@ class Hinge(NamedTuple):
     @property
     def ray(self) -> Array:
         """Where the guide points."""
-        return self.on.turn * self.along
+        return self.on.ray(self.along)
 
 
 def assembled(linkage: Linkage, groups: Sequence[Group],
@@ -83,8 +87,8 @@ def assembled(linkage: Linkage, groups: Sequence[Group],
                 continue
             if not group.unknowns:
                 placed.update(_driven(linkage, group, travel, placed))
-            elif dyad := _assembled(linkage, group, placed):
-                links, why = dyad
+            elif found_dyad := dyad(linkage, group, placed):
+                links, why = found_dyad
                 before = sum(placed[link].base for link in (FRAME, *group.carriers))
                 missing = ~np.isfinite(sum(link.base + link.turn for link in links)) & np.isfinite(before)
                 found.append((Failure(group.part, why), missing))
@@ -107,9 +111,12 @@ def _pair(z: Array) -> tuple[Array, Array]:
     return z.real, z.imag
 
 
-def _assembled(linkage: Linkage, group: Group,
-               placed: Mapping[str, Placed]) -> tuple[tuple[Placed, Placed], str] | None:
-    """Both links of a plain dyad, and why they may be nowhere; none where the group is anything else."""
+def dyad(linkage: Linkage, group: Group,
+         placed: Mapping[str, Placed]) -> tuple[tuple[Placed, Placed], str] | None:
+    """Both links of a plain dyad, and why they may be nowhere; none where the group is anything else.
+
+    The places and turns of links are arrays, or any numbers that compute as complex ones.
+    """
     part, before = group.part, (FRAME, *group.carriers)
     if len(part) != 2:
         return None
@@ -178,14 +185,16 @@ def _prp(one: Hinge, B: Hinge, two: Hinge) -> tuple[Placed, Placed, str]:
 
 def _rpp(A: Hinge, inner: Hinge, guide: Hinge) -> tuple[Placed, Placed, str]:
     """All turn alike; the middle link's point that was at A lies on its guide through A, and on one along the outer."""
-    at = _met(A.at, guide.on.turn * inner.along, guide.on.at(A.place), guide.ray)
+    at = _met(A.at, guide.on.ray(inner.along), guide.on.at(A.place), guide.ray)
     return guide.on.beside(A.place, A.at), guide.on.beside(A.place, at), "the two guides are parallel"
 
 
 def _met(one: Array, ray: Array, other: Array, across: Array) -> Array:
     """Where the lines through two points meet, if anywhere."""
     sine = (ray.conj() * across).imag
-    return one + ray * ((other - one).conj() * across).imag / np.where(np.abs(sine) > ZERO, sine, np.nan)
+    if isinstance(sine, np.ndarray):
+        sine = np.where(np.abs(sine) > ZERO, sine, np.nan)
+    return one + ray * ((other - one).conj() * across).imag / sine
 
 
 _RULES = {"RRR": _rrr, "RRP": _rrp, "RPR": _rpr, "PRP": _prp, "RPP": _rpp}

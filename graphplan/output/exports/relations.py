@@ -1,0 +1,457 @@
+"""The scene's own relations on a tape: where all its points are, from its fixed pins and the travels of its drives.
+
+Pins of the frame are free, but for those that the scene places by compasses or protractor from others. Driven links
+follow their drives; plain dyads are crossed by the compass rules, on the side of the given pose; all other groups are
+closed by Newton's steps, from where the undragged linkage has them at this travel (`knots`). Every link is carried
+rigidly. All in mm of paper. A pose that does not exist, or to which the steps do not lead, asks for the root of a
+negative number: undefined in every target.
+
+The inputs of the tape, by name: `x O`, `y O` of a free pin; of the drive k `cos k`, `sin k`, or `travel k` in mm; of
+the state i at the first drive's travel `cos state i`, `sin state i`, or `state i`.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from typing import Any, NamedTuple
+
+from graphplan.cycle import closure, newton
+from graphplan.cycle.closure import Body, Drive
+from graphplan.cycle.dyads import Placed, dyad
+from graphplan.cycle.groups import Group
+from graphplan.cycle.linkage import Linkage
+from graphplan.cycle.travel import TURN, closes, paces
+from graphplan.cycle.turn import RangeOfMotion, under
+from graphplan.errors import GraphplanError
+from graphplan.kernel.kinds import TABLE
+from graphplan.kernel.tape.record import Symbol, Symbols
+from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
+from graphplan.mechanism.directions import vector
+from graphplan.mechanism.model import FRAME, Placement, Scene
+from graphplan.mechanism.numerals import exactly
+from graphplan.mechanism.placements import needs
+from graphplan.sheet.plates.view import View
+
+STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
+CLOSE = 1e-5  # the largest last correction, in radians and reaches: its square is what is left
+SAME = 1e-6  # mm: how near places of the frame are that are one
+
+Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
+
+
+class Planar:
+    """A complex number of symbols, as the compass rules compute with it."""
+
+    __slots__ = ("im", "re")
+
+    def __init__(self, re: Any, im: Any = 0.0):
+        self.re, self.im = re, im
+
+    @property
+    def real(self) -> Planar:
+        return Planar(self.re)
+
+    @property
+    def imag(self) -> Planar:
+        return Planar(self.im)
+
+    def conj(self) -> Planar:
+        return Planar(self.re, -self.im)
+
+    def sqrt(self) -> Planar:
+        """The square root of a real number: numpy asks for it by this name."""
+        return Planar(self.re.tape.sqrt(self.re.place) if isinstance(self.re, Symbol) else math.sqrt(self.re))
+
+    def __add__(self, other: Any) -> Planar:
+        other = planar(other)
+        return Planar(self.re + other.re, self.im + other.im)
+
+    def __sub__(self, other: Any) -> Planar:
+        return self + -planar(other)
+
+    def __rsub__(self, other: Any) -> Planar:
+        return planar(other) + -self
+
+    def __neg__(self) -> Planar:
+        return Planar(-self.re, -self.im)
+
+    def __mul__(self, other: Any) -> Planar:
+        other = planar(other)
+        return Planar(_product(self.re, other.re) - _product(self.im, other.im),
+                      _product(self.re, other.im) + _product(self.im, other.re))
+
+    def __truediv__(self, other: Any) -> Planar:
+        other = planar(other)
+        if _nothing(other.im):
+            return Planar(self.re / other.re, 0.0 if _nothing(self.im) else self.im / other.re)
+        size = other.re * other.re + other.im * other.im
+        product = self * other.conj()
+        return Planar(product.re / size, product.im / size)
+
+    def __pow__(self, power: int) -> Planar:
+        assert power == 2
+        return self * self
+
+    def __rtruediv__(self, other: Any) -> Planar:
+        return planar(other) / self
+
+    __radd__, __rmul__ = __add__, __mul__
+
+
+def _nothing(number: Any) -> bool:
+    return not isinstance(number, Symbol) and number == 0
+
+
+def _product(one: Any, two: Any) -> Any:
+    return 0.0 if _nothing(one) or _nothing(two) else one * two
+
+
+def planar(number: Any) -> Planar:
+    """Any number, or pair of them, as a complex one."""
+    if isinstance(number, Planar):
+        return number
+    return Planar(*number) if isinstance(number, tuple) else Planar(float(number.real), float(number.imag))
+
+
+class _OnPaper(Linkage):
+    """The linkage in mm; each drive has its number as its pace, so that what it drives tells which one it was."""
+
+    reach = 1.0
+
+    def __init__(self, scene: Scene):
+        super().__init__(scene, tuple(float(k + 1) for k in range(len(scene.drives))))
+        places = self.places.values()
+        self.origins[FRAME] = complex(min(z.real for z in places) - 7.0, min(z.imag for z in places) - 5.0)  # no pin
+
+
+class _Ground(NamedTuple):
+    """The frame: its points where they are dragged, all else where it was given."""
+
+    pins: Mapping[str, Planar]
+    places: Mapping[str, complex]
+
+    def at(self, place: complex) -> Planar:
+        pin = next((name for name in self.pins if abs(self.places[name] - place) < SAME), None)
+        return planar(place) if pin is None else self.pins[pin]
+
+    def ray(self, along: complex) -> Planar:
+        return planar(along)
+
+    def beside(self, origin: complex, base: Any) -> Placed:
+        return Placed(origin, base, planar(1.0))
+
+
+class Knots(NamedTuple):
+    """Where the undragged linkage is at some travels of its first drive (radians, or mm): `states`, each as long."""
+
+    travel: tuple[float, ...]
+    states: tuple[tuple[float, ...], ...]
+
+
+class Written(NamedTuple):
+    """Relations in a language: terms by name, each after those it reads; x and y of points in mm, cosine and sine of
+    the turns of links, and directions of guides."""
+
+    terms: tuple[tuple[str, str], ...]
+    points: Mapping[str, tuple[str, str]]
+    turns: Mapping[str, tuple[str, str]]
+    guides: Mapping[str, tuple[str, str]]
+
+
+def relations(scene: Scene, view: View) -> Relations | None:
+    """The relations of a scene on paper; none where it cannot be followed: then its points only stay in their pose."""
+    try:
+        found = Relations(scene, view)
+        if scene.drives:
+            _ = found.motion
+    except GraphplanError:
+        return None
+    return found
+
+
+class Relations:
+    """The relations of a scene on paper.
+
+    `free` are the pins that may be dragged; `points` and `turns` (of links, as cosine and sine) and `guides` (of slides
+    on moving links) are pairs of places of the tape, or of numbers. `angles` tells which states are angles.
+    """
+
+    def __init__(self, scene: Scene, view: View):
+        self.scene, self.view = _grounded(scene), view
+        places = {name: view((float(x), float(y))) for name, (x, y) in scene.points.items()}
+        self.domain = Symbols()
+        self.tape = self.domain.tape
+        self._on_paper = _OnPaper(self.scene.posed(places, lambda one: one.direction))
+        self.places, self.angles = self._on_paper.places, list[bool]()
+        fixed = {end for slide in scene.slides if slide.along == FRAME for end in slide.through or ()}
+        self.free: list[str] = []
+        pins: dict[str, Planar] = {}
+        for name in self._still(fixed):
+            pins[name] = self._pin(name, pins, fixed)
+        self._ground = _Ground(pins, self.places)
+        self._senses: list[float] = []
+        self.placed: dict[str, Any] = {FRAME: self._ground}
+        self.groups = [Group(self._on_paper, part) for part in self._on_paper.parts]
+        for group in self.groups:
+            self.placed.update(self._followed(group))
+
+    # ---- the frame -------------------------------------------------------------------------------------------------
+
+    def _still(self, fixed: set[str]) -> list[str]:
+        """The points of the frame and of no link, each after those that place it."""
+        still = [name for name, links in self.scene.links_of.items() if FRAME in links or not links]
+        found: list[str] = []
+        while left := [name for name in still if name not in found]:
+            ready = [name for name in left if {*self._placers(name, still, fixed)} <= {*found}]
+            found += ready or left
+        return found
+
+    def _placers(self, name: str, still: Sequence[str], fixed: set[str]) -> tuple[str, ...]:
+        """The points from which a point of the frame is placed, if all are of the frame themselves."""
+        placed = self.scene.placements.get(name)
+        on = needs(placed) if placed and name not in fixed else ()
+        return on if {*on} <= {*still} else ()
+
+    def _pin(self, name: str, pins: Mapping[str, Planar], fixed: set[str]) -> Planar:
+        """A point of the frame: free, or as the scene places it from others."""
+        place = self.scene.placements.get(name)
+        if place and self._placers(name, [*pins], fixed):
+            x, y = self._put(name, place, {other: (pin.re, pin.im) for other, pin in pins.items()})
+            return Planar(x, y)
+        if name in fixed:
+            return planar(self.places[name])
+        self.free.append(name)
+        return Planar(self.tape.input(f"x {name}"), self.tape.input(f"y {name}"))
+
+    def _put(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
+        """Where a placement by distance, angle or compasses puts a point."""
+        data: dict[str, Any] = placement.data
+        scale = self.view.scale
+        if placement.how == "polar":
+            (x, y), off = at[data["from"]], self.places[name] - self.places[data["from"]]
+            return x + off.real, y + off.imag
+        if placement.how == "compass":
+            arcs = [(*at[centre], (scale * float(r)) ** 2) for centre, r in data["distances"].items()]
+            return TABLE["circles_meet"].rule(self.domain, *arcs, side=data["side"])
+        if placement.how == "on-line":
+            P, Q = (planar(at[end]) for end in data["on"].split())
+            found = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
+            return found.re, found.im
+        ((centre, r),) = data["distances"].items()
+        through, way = data["on"]["through"], data["on"]["direction"]
+        x, y = at[through] if isinstance(through, str) else self.view((float(through[0]), float(through[1])))
+        dx, dy = self._direction(way, at)
+        line, arc = (-dy, dx, dy * x - dx * y), (*at[centre], (scale * float(r)) ** 2)
+        return TABLE["line_meets_circle"].rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
+
+    def _direction(self, way: Any, at: Mapping[str, Spot]) -> Spot:
+        """A direction: of two points, or as it is given."""
+        if isinstance(way, str) and len(ends := way.split()) == 2:
+            (x, y), (u, v) = (at[end] for end in ends)
+            return u - x, v - y
+        x, y, _ = vector(way, lambda name: exactly(self.scene.points[name]))
+        return float(x), float(y)
+
+    # ---- the links -------------------------------------------------------------------------------------------------
+
+    def _followed(self, group: Group) -> Iterator[tuple[str, Any]]:
+        """The links of a group, driven, crossed or closed."""
+        links = dyad(self._on_paper, group, self.placed) if group.unknowns else None
+        if links and not self._on_paper.special(group.part):
+            self._skip(group)
+            yield from zip(group.part, links[0], strict=True)
+            return
+        known = [self._body(link) for link in (FRAME, *group.carriers)]
+        arms, drives = self._arms(group), self._drives(group)
+        if not group.unknowns:
+            lies = closure.bodies(group.layout, known, arms, drives, (), moving=False)
+        else:
+            lies = self._closed(group, known, arms, drives)
+        for link, body in zip(group.links, lies[len(known):], strict=True):
+            base = planar(body.base) + self._on_paper.origins[FRAME]
+            yield link, Placed(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
+
+    def _skip(self, group: Group) -> None:
+        """States that nobody reads."""
+        self.angles += [i < group.layout.angles for i in range(group.unknowns)]
+
+    def _body(self, link: str) -> Body:
+        """A link that is placed, as the closure has it."""
+        if link == FRAME:
+            return Body()
+        placed = self.placed[link]
+        base = placed.at(self._on_paper.origins[link]) - self._on_paper.origins[FRAME]
+        return Body((base.re, base.im), (placed.turn.re, placed.turn.im))
+
+    def _arms(self, group: Group) -> list[Spot]:
+        """The arms of a group: those of the frame end in pins."""
+        arms: list[Spot] = list(group.arms)
+        ends = [seat.arm for seat in group.layout.seats if seat.on == 0]
+        for closing in group.layout.closings:
+            ends += [arm for link, arm in ((closing.link, closing.arm), (closing.on, closing.rest)) if link == 0]
+        for arm in ends:
+            if arm is not None:
+                spot = self._ground.at(complex(*group.arms[arm]) + self._on_paper.origins[FRAME])
+                spot = spot - self._on_paper.origins[FRAME]
+                arms[arm] = spot.re, spot.im
+        return arms
+
+    def _drives(self, group: Group) -> list[Drive]:
+        """The drives of a group where their inputs have them."""
+        return [self._drive(turns, rate) for turns, rate in group.drives]
+
+    def _drive(self, turns: bool, rate: float) -> Drive:
+        """Which drive it is its rate says, and which way."""
+        k = round(abs(rate)) - 1
+        if not turns:
+            travel = self.tape.input(f"travel {k}")
+            return Drive(travel if rate > 0 else -travel, None)
+        cos, sin = self.tape.input(f"cos {k}"), self.tape.input(f"sin {k}")
+        return Drive((cos, sin if rate > 0 else -sin), None)
+
+    def _closed(self, group: Group, known: list[Body], arms: Sequence[Spot], drives: Sequence[Drive]) -> list[Body]:
+        """A group by Newton's steps, on its branch."""
+        layout, first, state = group.layout, len(self.angles), list[Any]()
+        self._skip(group)
+        for i, angle in enumerate(self.angles[first:], first):
+            parts = [self.tape.input(f"{part}state {i}") for part in (("cos ", "sin ") if angle else ("",))]
+            state.append(tuple(parts) if angle else parts[0])
+        for _ in range(STEPS):
+            links = closure.bodies(layout, known, arms, drives, state)
+            step = newton.step(closure.left_open(layout, links, arms, drives), layout.unknowns, Symbol.root)
+            state = newton.corrected(layout, state, step.corrections)
+        reach = super(_OnPaper, self._on_paper).reach
+        far = [move if i < layout.angles else move / reach for i, move in enumerate(step.corrections)]
+        sure = 0.0 * self.tape.sqrt(self.tape.place(CLOSE**2 - sum(move * move for move in far)))
+        sure = sure + 0.0 * self.tape.sqrt(self.tape.place(step.determinant * self._sense(group)))
+        state = [(one[0] + sure, one[1]) if isinstance(one, tuple) else one + sure for one in state]
+        return closure.bodies(layout, known, arms, drives, state, moving=False)
+
+    def _sense(self, group: Group) -> float:
+        """The sign of the determinant in the given pose."""
+        still = [Body((z.real, z.imag)) for z in (self._on_paper.origins[link] - self._on_paper.origins[FRAME]
+                                                  for link in (FRAME, *group.carriers))]
+        drives = [Drive((1.0, 0.0) if turns else 0.0, None) for turns, _ in group.drives]
+        state = [(1.0, 0.0) if i < group.layout.angles else 0.0 for i in range(group.unknowns)]
+        links = closure.bodies(group.layout, still, group.arms, drives, state)
+        open = closure.left_open(group.layout, links, group.arms, drives)
+        return math.copysign(1.0, newton.step(open, group.unknowns, math.sqrt).determinant)
+
+    # ---- what is made of them --------------------------------------------------------------------------------------
+
+    @cached_property
+    def points(self) -> dict[str, Spot]:
+        """Where every point is."""
+        found = {}
+        order = self._on_paper.order
+        for name, place in self.places.items():
+            links = self.scene.links_of[name]
+            carrier = min(links, key=order.__getitem__) if links else FRAME
+            at = self._ground.pins[name] if carrier == FRAME else self.placed[carrier].at(place)
+            found[name] = at.re, at.im
+        return found | {name: found[at] for name, at in under(self.scene).items()}
+
+    @cached_property
+    def turns(self) -> dict[str, Spot]:
+        """How far every moving link is turned, as cosine and sine."""
+        return {link: (placed.turn.re, placed.turn.im) for link, placed in self.placed.items() if link != FRAME}
+
+    @cached_property
+    def guides(self) -> dict[str, Spot]:
+        """Where the guides of slides on moving links point, as long as they are given."""
+        found = {}
+        for slide in self.scene.slides:
+            if slide.through is None and slide.along != FRAME:
+                ray = self.placed[slide.along].ray(complex(*map(float, slide.direction)))
+                found[slide.name] = ray.re, ray.im
+        return found
+
+    # ---- how far they lead -----------------------------------------------------------------------------------------
+
+    @cached_property
+    def motion(self) -> RangeOfMotion:
+        """How far the undragged linkage goes: once round, or to its limits."""
+        scene = self.scene
+        if not scene.drives[0].slides:
+            return RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
+        far = max(abs(p - q) for p in self.places.values() for q in self.places.values()) / self.view.scale
+        return RangeOfMotion(scene, -far, far, closed=False)
+
+    @cached_property
+    def limits(self) -> tuple[float, float]:
+        """From where to where the first drive travels, in radians or mm."""
+        size = self.view.scale if self.scene.drives[0].slides else 1.0
+        return float(self.motion.path.travel[0]) * size, float(self.motion.path.travel[-1]) * size
+
+    @cached_property
+    def knots(self) -> Knots | None:
+        """Where the states are on the way; none where the compass rules do all, or nothing drives."""
+        if not self.scene.drives or not any("state" in name for name in self.asked):
+            return None
+        path, size = self.motion.path, self.view.scale if self.scene.drives[0].slides else 1.0
+        long = self.motion.linkage.reach * self.view.scale
+        states = path.nearest(path.travel)
+        return Knots(tuple(size * t for t in path.travel.tolist()),
+                     tuple(tuple((row * (1.0 if angle else long)).tolist())
+                           for row, angle in zip(states, self.angles, strict=True)))
+
+    @cached_property
+    def asked(self) -> dict[str, int]:
+        """The inputs that are read, by name, each with its place on the tape."""
+        told = [self.tape.place(part) for spots in (self.points, self.turns, self.guides)
+                for spot in spots.values() for part in spot]
+        return {self.tape.entries[place][1]: place for place in self.tape.needed(told)
+                if self.tape.entries[place][0] == "in"}
+
+    def written(self, language: Language, inputs: Mapping[str, str], prefix: str, deepest: float = DEEPEST) -> Written:
+        """All of it in a language; `inputs` says how the inputs that are `asked` are called there."""
+        spots = (self.points, self.turns, self.guides)
+        told = [{name: tuple(map(self.tape.place, spot)) for name, spot in some.items()} for some in spots]
+        writer = Writer(self.tape, language, {place: inputs[name] for name, place in self.asked.items()}, prefix,
+                        deepest)
+        terms = tuple(writer.terms([place for some in told for spot in some.values() for place in spot]))
+        return Written(terms, *({name: (writer.text[x], writer.text[y]) for name, (x, y) in some.items()}
+                                for some in told))
+
+    def inputs(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> dict[str, float]:
+        """The inputs where some pins (mm) and the drives (radians, or mm) are elsewhere."""
+        found: dict[str, float] = {}
+        for name in self.free:
+            at = self.places[name]
+            found[f"x {name}"], found[f"y {name}"] = pins.get(name, (at.real, at.imag))
+        for k, travel in enumerate(travels):
+            found |= {f"cos {k}": math.cos(travel), f"sin {k}": math.sin(travel), f"travel {k}": travel}
+        for i in range(len(self.angles)):
+            state = interpolated(self.knots, i, travels[0]) if self.knots else 0.0
+            found |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
+        return found
+
+    def place(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> dict[str, Spot] | None:
+        """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
+        names = [*self.asked]
+        told = {name: tuple(map(self.tape.place, spot)) for name, spot in self.points.items()}
+        run = function(self.tape, [self.asked[name] for name in names], told)
+        numbers = self.inputs(pins, travels)
+        try:
+            found: dict[str, Spot] | None = run(*[numbers[name] for name in names])
+        except (ValueError, ZeroDivisionError, OverflowError):
+            return None
+        return found
+
+
+def interpolated(knots: Knots, i: int, travel: float) -> float:
+    """A state between the knots around a travel."""
+    ts, row = knots.travel, knots.states[i]
+    k = min(max(sum(t <= travel for t in ts), 1), len(ts) - 1)
+    part = (travel - ts[k - 1]) / (ts[k] - ts[k - 1])
+    return row[k - 1] + part * (row[k] - row[k - 1])
+
+
+def _grounded(scene: Scene) -> Scene:
+    """The scene with the points whose motion is given as pins of its frame."""
+    if not scene.motions:
+        return scene
+    return replace(scene, motions={}, links={**scene.links, FRAME: (*scene.links.get(FRAME, ()), *scene.motions)})

@@ -1,0 +1,86 @@
+"""The relations of a scene: in every pose that the drives and dragged pins lead to, each point is where the linkage has
+it."""
+
+from __future__ import annotations
+
+from random import Random
+
+import pytest
+from linkages import DraggedLinkage
+
+import graphplan as gp
+from graphplan.cycle.travel import paces
+from graphplan.cycle.turn import under
+from graphplan.mechanism.scene import packaged, parse
+from graphplan.output.exports.relations import Relations, relations
+from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.view import View
+
+VIEW = View(Rect(0, 0, 200, 200), 0.5, (30.0, 40.0))
+DRAGS, FAR = 3, 0.05  # of each scene; how far a pin goes, of the linkage's extent
+
+
+def relations_of(name: str) -> Relations:
+    found = relations(gp.load(name), VIEW)
+    assert found is not None
+    return found
+
+
+def travels(found: Relations, rng: Random) -> list[float]:
+    """Travels of all drives, in radians and scene lengths; drives on a moving base go each their own way."""
+    scene = found.scene
+    if not scene.drives:
+        return []
+    first = rng.uniform(*found.limits) / (VIEW.scale if scene.drives[0].slides else 1.0)
+    return [pace * first for pace in paces(scene)]
+
+
+def dragged(found: Relations, rng: Random) -> tuple[dict[str, complex], list[float]]:
+    """A pin somewhere near, and the drives anywhere."""
+    name = rng.choice(found.free)
+    x, y = (float(part) for part in found.scene.points[name])
+    far = FAR * found.scene.extent
+    return {name: complex(x + rng.uniform(-far, far), y + rng.uniform(-far, far))}, travels(found, rng)
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_the_linkage_follows(name: str) -> None:
+    """Wherever a linkage can be led by its drives and a dragged pin, its relations put every point there."""
+    found, scene, rng = relations_of(name), gp.load(name), Random(name)
+    linkage, led = DraggedLinkage(found.scene), 0
+    for _ in range(DRAGS):
+        pins, drives = dragged(found, rng)
+        truth = linkage.dragged(pins, drives)
+        if truth is None:
+            continue
+        led += 1
+        truth |= {one: truth[at] for one, at in under(found.scene).items()}
+        on_paper = [VIEW.scale * t if d.slides else t for d, t in zip(scene.drives, drives, strict=True)]
+        told = found.place({one: VIEW((z.real, z.imag)) for one, z in pins.items()}, on_paper)
+        assert told is not None
+        for point, z in truth.items():
+            assert abs(complex(*told[point]) - complex(*VIEW((z.real, z.imag)))) < 1e-6 * scene.extent * VIEW.scale
+    assert led
+
+
+def test_beyond_a_limit_there_is_nothing() -> None:
+    """Where a linkage cannot be put together there is no pose, and it comes back with the pin."""
+    found = relations_of("triad")
+    assert found.place({}, [0.0]) is not None
+    assert found.place({"O": (900.0, 900.0)}, [0.0]) is None
+    dyad = relations_of("four-bar")
+    assert dyad.place({"O": (900.0, 900.0)}, [0.0]) is None
+
+
+def test_points_that_the_scene_places_from_pins() -> None:
+    """A pin that is placed by compasses from others keeps its distances when those are dragged."""
+    text = gp.load("four-bar").text
+    scene = parse(text.replace('frame = "O C"', 'frame = "O C P"').replace(
+        "[links]", '[points.P]\ndistances = { O = 200, C = 210 }\nside = "right"\n[links]', 1), "placed.toml")
+    found = relations(scene, VIEW)
+    assert found is not None
+    assert "P" not in found.free
+    told = found.place({"O": (40.0, 52.0)}, [1.0])
+    assert told is not None
+    far = [abs(complex(*told["P"]) - complex(*told[centre])) for centre in "OC"]
+    assert far == pytest.approx([100.0, 105.0])

@@ -33,6 +33,7 @@ from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.placements import needs
+from graphplan.output.exports.planar import Planar, planar
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
@@ -40,80 +41,6 @@ CLOSE = 1e-5  # the largest last correction, in radians and reaches: its square 
 SAME = 1e-6  # mm: how near places of the frame are that are one
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
-
-
-class Planar:
-    """A complex number of symbols, as the compass rules compute with it."""
-
-    __slots__ = ("im", "re")
-
-    def __init__(self, re: Any, im: Any = 0.0):
-        self.re, self.im = re, im
-
-    @property
-    def real(self) -> Planar:
-        return Planar(self.re)
-
-    @property
-    def imag(self) -> Planar:
-        return Planar(self.im)
-
-    def conj(self) -> Planar:
-        return Planar(self.re, -self.im)
-
-    def sqrt(self) -> Planar:
-        """The square root of a real number: numpy asks for it by this name."""
-        return Planar(self.re.tape.sqrt(self.re.place) if isinstance(self.re, Symbol) else math.sqrt(self.re))
-
-    def __add__(self, other: Any) -> Planar:
-        other = planar(other)
-        return Planar(self.re + other.re, self.im + other.im)
-
-    def __sub__(self, other: Any) -> Planar:
-        return self + -planar(other)
-
-    def __rsub__(self, other: Any) -> Planar:
-        return planar(other) + -self
-
-    def __neg__(self) -> Planar:
-        return Planar(-self.re, -self.im)
-
-    def __mul__(self, other: Any) -> Planar:
-        other = planar(other)
-        return Planar(_product(self.re, other.re) - _product(self.im, other.im),
-                      _product(self.re, other.im) + _product(self.im, other.re))
-
-    def __truediv__(self, other: Any) -> Planar:
-        other = planar(other)
-        if _nothing(other.im):
-            return Planar(self.re / other.re, 0.0 if _nothing(self.im) else self.im / other.re)
-        size = other.re * other.re + other.im * other.im
-        product = self * other.conj()
-        return Planar(product.re / size, product.im / size)
-
-    def __pow__(self, power: int) -> Planar:
-        assert power == 2
-        return self * self
-
-    def __rtruediv__(self, other: Any) -> Planar:
-        return planar(other) / self
-
-    __radd__, __rmul__ = __add__, __mul__
-
-
-def _nothing(number: Any) -> bool:
-    return not isinstance(number, Symbol) and number == 0
-
-
-def _product(one: Any, two: Any) -> Any:
-    return 0.0 if _nothing(one) or _nothing(two) else one * two
-
-
-def planar(number: Any) -> Planar:
-    """Any number, or pair of them, as a complex one."""
-    if isinstance(number, Planar):
-        return number
-    return Planar(*number) if isinstance(number, tuple) else Planar(float(number.real), float(number.imag))
 
 
 class _OnPaper(Linkage):
@@ -261,7 +188,7 @@ class Relations:
         """The links of a group, driven, crossed or closed."""
         links = dyad(self._on_paper, group, self.placed) if group.unknowns else None
         if links and not self._on_paper.special(group.part):
-            self._skip(group)
+            self.angles += [i < group.layout.angles for i in range(group.unknowns)]
             yield from zip(group.part, links[0], strict=True)
             return
         known = [self._body(link) for link in (FRAME, *group.carriers)]
@@ -274,10 +201,6 @@ class Relations:
             base = planar(body.base) + self._on_paper.origins[FRAME]
             yield link, Placed(self._on_paper.origins[link], base, planar(body.turn or (1.0, 0.0)))
 
-    def _skip(self, group: Group) -> None:
-        """States that nobody reads."""
-        self.angles += [i < group.layout.angles for i in range(group.unknowns)]
-
     def _body(self, link: str) -> Body:
         """A link that is placed, as the closure has it."""
         if link == FRAME:
@@ -288,15 +211,11 @@ class Relations:
 
     def _arms(self, group: Group) -> list[Spot]:
         """The arms of a group: those of the frame end in pins."""
-        arms: list[Spot] = list(group.arms)
-        ends = [seat.arm for seat in group.layout.seats if seat.on == 0]
-        for closing in group.layout.closings:
-            ends += [arm for link, arm in ((closing.link, closing.arm), (closing.on, closing.rest)) if link == 0]
-        for arm in ends:
-            if arm is not None:
-                spot = self._ground.at(complex(*group.arms[arm]) + self._on_paper.origins[FRAME])
-                spot = spot - self._on_paper.origins[FRAME]
-                arms[arm] = spot.re, spot.im
+        arms, frame = list[Spot](group.arms), self._on_paper.origins[FRAME]
+        for k, end in enumerate(group.ends):
+            if end.link == FRAME and not end.way:
+                spot = self._ground.at(complex(*group.arms[k]) + frame) - frame
+                arms[k] = spot.re, spot.im
         return arms
 
     def _drives(self, group: Group) -> list[Drive]:
@@ -315,7 +234,7 @@ class Relations:
     def _closed(self, group: Group, known: list[Body], arms: Sequence[Spot], drives: Sequence[Drive]) -> list[Body]:
         """A group by Newton's steps, on its branch."""
         layout, first, state = group.layout, len(self.angles), list[Any]()
-        self._skip(group)
+        self.angles += [i < layout.angles for i in range(group.unknowns)]
         for i, angle in enumerate(self.angles[first:], first):
             parts = [self.tape.input(f"{part}state {i}") for part in (("cos ", "sin ") if angle else ("",))]
             state.append(tuple(parts) if angle else parts[0])

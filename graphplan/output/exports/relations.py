@@ -26,7 +26,7 @@ from graphplan.cycle.linkage import Linkage
 from graphplan.cycle.travel import TURN, closes, paces
 from graphplan.cycle.turn import RangeOfMotion, under
 from graphplan.errors import GraphplanError
-from graphplan.kernel.kinds import TABLE
+from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
 from graphplan.mechanism.directions import vector
@@ -162,7 +162,7 @@ class Relations:
             return x + off.real, y + off.imag
         if placement.how == "compass":
             arcs = [(*at[centre], (scale * float(r)) ** 2) for centre, r in data["distances"].items()]
-            return TABLE["circles_meet"].rule(self.domain, *arcs, side=data["side"])
+            return made_by(Movement.ARCS_MET).rule(self.domain, *arcs, side=data["side"])
         if placement.how == "on-line":
             P, Q = (planar(at[end]) for end in data["on"].split())
             found = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
@@ -172,7 +172,7 @@ class Relations:
         x, y = at[through] if isinstance(through, str) else self.view((float(through[0]), float(through[1])))
         dx, dy = self._direction(way, at)
         line, arc = (-dy, dx, dy * x - dx * y), (*at[centre], (scale * float(r)) ** 2)
-        return TABLE["line_meets_circle"].rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
+        return made_by(Movement.CUT).rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
 
     def _direction(self, way: Any, at: Mapping[str, Spot]) -> Spot:
         """A direction: of two points, or as it is given."""

@@ -6,7 +6,8 @@ is its key in the catalogues of `words`. The sentence of a drawing step has its 
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
@@ -84,8 +85,43 @@ def figures(written: str) -> Said:
     return Said(written, NUMBERS, written)
 
 
+class Unknown(ABC):
+    """A number that is known later, such as in other poses: in a text a place is left for it."""
+
+    @abstractmethod
+    def place(self, count: int) -> str:
+        """What stands for it in so many significant digits, or where that is 0 in tenths."""
+
+    @abstractmethod
+    def hypot(self, other: Any) -> Any:
+        """The length of a vector of which it is a component, and what other number is the other."""
+
+
+class Undecided(Exception, ABC):
+    """What was asked of an unknown number hangs on its value."""
+
+    @abstractmethod
+    def either(self, tell: Callable[[], Said]) -> Said:
+        """What is told by the one answer and by the other."""
+
+
+def in_any_case(tell: Callable[[], Said]) -> Said:
+    """What is told; of unknown numbers, whatever they turn out to be."""
+    try:
+        return tell()
+    except Undecided as asked:
+        return asked.either(tell)
+
+
+def tenths(value: float) -> Said:
+    """A number of mm as it is read off a ruler."""
+    return figures(value.place(0) if isinstance(value, Unknown) else f"{value:z.1f}".replace("-", "−"))
+
+
 def digits(value: float, count: int = 4) -> Said:
     """A number in at most `count` significant digits, with a power of ten only where it is very large or small."""
+    if isinstance(value, Unknown):
+        return figures(value.place(count))
     text = f"{value + 0.0:.{count}g}"
     mantissa, _, power = text.partition("e")
     if power and not 0 < int(power) < 7:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import textwrap
 from collections.abc import Iterable, Iterator
+from functools import partial
 from typing import Any
 
 from graphplan.kernel.lemoine import counts
@@ -58,7 +59,7 @@ def _pose(scene: Scene, scales: Scales, say: Tongue) -> list[str]:
              for step in program.steps[: program.givens]]
     lines = _wrapped(say(said("Mechanism plan, in mm of paper: {0}.", joined(given))), "")
     for step in program.steps[program.givens :]:
-        lines += _wrapped(say(measured(program.told(step.index), lengths.of(step))), "  ")
+        lines += _wrapped(say(measured(program.told(step.index), partial(lengths.of, step))), "  ")
     return lines
 
 

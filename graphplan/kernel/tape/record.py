@@ -118,6 +118,10 @@ class Tape:
         """The square root of what is never negative: nothing is asked."""
         return self._entered("sqrt", a)
 
+    def done(self, operation: str, *operands: int) -> Symbol:
+        """What no rule does, but the words that tell of a drawing; its language must have a word for it."""
+        return self._entered(operation, *operands)
+
     def sign(self, a: int, scale: int) -> Symbol:
         return self._entered("sign", a, scale)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -15,6 +14,7 @@ from graphplan.methods.forces.groups import pairs
 from graphplan.methods.panels import JointForce, slide_named
 from graphplan.phrases import Phrase, Said, arranged, coordinates, digits, joined, phrase, said, unit
 from graphplan.sheet.lettering.lettering import Runs, name_runs, sentence_runs
+from graphplan.sheet.words.lengths import size
 from graphplan.sheet.words.tables import Deviations, Table, figure, largest_size, with_deviations
 from graphplan.words.tongue import ENGLISH, Tongue
 
@@ -55,8 +55,8 @@ class ForceTables:
             letter, sign = letters[name]
             moment = self.values.get(kinds.SLIDE_MOMENT, {}).get(name)
             told = () if moment is None else self._figure(sign * moment, largest)
-            sizes = sign * force[0], sign * force[1], math.hypot(*force)
-            table.append([letter, *(self._figure(size, largest) for size in sizes)])
+            sizes = sign * force[0], sign * force[1], size(*force)
+            table.append([letter, *(self._figure(part, largest) for part in sizes)])
             column.append((*told, *self._off(kinds.SLIDE_MOMENT, name)))
         table = with_deviations(self.tongue, table, list(forces), self.pencil.of(kinds.REACTION, kinds.SLIDE_REACTION))
         if slides:
@@ -120,5 +120,5 @@ class ForceTables:
         parts = [[(*name_runs(f"{letter}{axis}"), *units), *(self._figure(v[i], largest) for v in ways.values())]
                  for i, axis in enumerate("xy")]  # fmt: skip
         found = zip(ways.values(), off, strict=True)
-        sizes = [(*self._figure(math.hypot(*v), largest), *within) for v, within in found]
+        sizes = [(*self._figure(size(*v), largest), *within) for v, within in found]
         return [*parts, [(*sentence_runs(f"|{letter}|"), *units), *sizes]]

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 from graphplan.kernel.kinds import LAID, OPENING, Movement, Quantity, Sizing
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.methods.construction import Compound
-from graphplan.phrases import Said, arranged, digits, figures, joined, said, unit
+from graphplan.phrases import Said, Unknown, arranged, digits, joined, said, tenths, unit
 from graphplan.sheet.layout.scales import Scales
 
 SAME = 5e-4  # of a length carried over: what differs by less is as long
@@ -46,9 +46,12 @@ class Length(NamedTuple):
         return self.measures[-1].mm
 
 
-def tenths(length: float) -> Said:
-    """A number of mm as it is read off a ruler."""
-    return figures(f"{length:z.1f}".replace("-", "−"))
+def size(x: Any, y: Any) -> float:
+    """How long a vector is; its numbers may be unknown."""
+    if isinstance(x, Unknown) or isinstance(y, Unknown):
+        found: float = x.hypot(y) if isinstance(x, Unknown) else y.hypot(x)
+        return found
+    return math.hypot(x, y)
 
 
 @dataclass(frozen=True)
@@ -70,7 +73,7 @@ class Lengths:
             case Sizing.SQUARE, (K, A, m, w, _), {"E": E}:
                 speed, arm, found = self.between(m, w), self.between(K, A), self.between(E, A)
                 times, v = self.per_mm(w) / self.per_mm(A), tenths(speed.mm)
-                v = v if math.isclose(times, 1, rel_tol=SAME) else arranged("({0} · {1})", v, digits(times))
+                v = v if abs(times - 1) <= SAME else arranged("({0} · {1})", v, digits(times))
                 told = arranged("v²/{0} = {1}² : {2} = {3}", self.side(K, A), v, tenths(arm.mm), found.told)
                 return (Length(told, (speed, arm, found)),)
             case Sizing.DOUBLE, (_, B, *_), {"K": K}:
@@ -86,19 +89,23 @@ class Lengths:
 
     def mm(self, P: int, Q: int) -> float:
         """How far apart two marks of one plan are."""
-        return math.hypot(*self.vector(P, Q)) / self.per_mm(Q)
+        return size(*self.vector(P, Q)) / self.per_mm(Q)
 
     def between(self, P: int, Q: int) -> Measure:
         return Measure(self.mm(P, Q), (P, Q))
 
     def arm(self, Y: int, C: int, p: int, q: int) -> Measure:
         """The arm about Y of a force at C, as from p to q, which may be marks of another plan."""
-        (x, y), (u, v) = self.vector(p, q), self.vector(Y, C)
-        return Measure(abs(u * y - v * x) / (math.hypot(x, y) or 1.0) / self.per_mm(C), (Y, C, p, q))
+        return Measure(abs(self.lever(Y, C, p, q)), (Y, C, p, q))
+
+    def lever(self, Y: int, C: int, p: int, q: int) -> float:
+        """The same in mm, with the sign of the moment."""
+        force, (u, v) = self.vector(p, q), self.vector(Y, C)
+        return (u * force[1] - v * force[0]) / (size(*force) or 1.0) / self.per_mm(C)
 
     def vector(self, P: int, Q: int) -> tuple[float, float]:
         (x, y), (u, v) = self.values[P][:2], self.values[Q][:2]
-        return float(u - x), float(v - y)
+        return u - x, v - y
 
     # ---- what a movement lays off or opens ------------------------------------------------------------------------
 
@@ -109,11 +116,11 @@ class Lengths:
         elif op.movement is Movement.OPENED:
             yield Length((wide := self.between(*args)).told, (wide,))
         elif op.gives == OPENING:
-            wide = Measure(math.sqrt(self.values[out][0]) / self.per_mm(out), (out, out))
+            wide = Measure(self.values[out][0] ** 0.5 / self.per_mm(out), (out, out))
             yield Length(self._given(step.quantity or LENGTH, wide, out), (wide,))
         elif op.movement is Movement.STRUCK:
-            wide = Measure(math.sqrt(self.values[out][2]) / self.per_mm(out), (out, out))
-            taken = Measure(math.sqrt(self.values[args[1]][0]) / self.per_mm(args[1]), (args[1], args[1]))
+            wide = Measure(self.values[out][2] ** 0.5 / self.per_mm(out), (out, out))
+            taken = Measure(self.values[args[1]][0] ** 0.5 / self.per_mm(args[1]), (args[1], args[1]))
             yield from () if self._alike(taken, wide) else (self._carried(taken, wide),)
         elif op.movement is Movement.PICKED and self.plan(args[1]) == self.plan(out):
             away = self.between(args[1], out)
@@ -142,7 +149,7 @@ class Lengths:
         return Length(told, (source, laid))
 
     def _alike(self, one: Measure, other: Measure) -> bool:
-        return math.isclose(one.mm, other.mm, rel_tol=SAME)
+        return abs(one.mm - other.mm) <= SAME * (one.mm + other.mm) / 2
 
     def _given(self, quantity: Quantity, laid: Measure, where: int) -> Said:
         """A quantity with its value, over the scale of its plan."""
@@ -188,7 +195,7 @@ class Lengths:
         """A force whose pair is the couple of inertia."""
         P, R, a, b, m = step.args
         u, v = self.vector(P, R), self.vector(a, b)
-        part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (math.hypot(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
+        part = Measure(abs(u[0] * v[1] - u[1] * v[0]) / (size(*u) or 1.0) / self.per_mm(b), (a, P, R, a, b))
         found = self._paired(step, P, R, m)
         return Length(said("Tangential part {0}, {1}", part.told, found.told), (part, *found.measures))
 

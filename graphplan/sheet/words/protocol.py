@@ -18,18 +18,20 @@ folded, a reader still finds every number that stands on the sheet, and unfolded
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cached_property, partial
 from itertools import groupby
 
 from graphplan.kernel.program import Panel, Program, Step
 from graphplan.kernel.stages import Stage
 from graphplan.methods.construction import Compound
-from graphplan.phrases import Said, arranged, joined, said
+from graphplan.phrases import Said, arranged, in_any_case, joined, said
 from graphplan.sheet.layout.scales import Scales
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.words.lengths import Length, Lengths
+
+Measuring = Callable[[], tuple[Length, ...]]  # finds how long something is on paper
 
 
 @dataclass(frozen=True)
@@ -40,7 +42,12 @@ class SpokenStep:
     number: int
     sentence: Said
     why: str
-    lengths: tuple[Length, ...]
+    measuring: Measuring
+
+    @property
+    def lengths(self) -> tuple[Length, ...]:
+        """How long it is on paper."""
+        return self.measuring()
 
     @property
     def index(self) -> int:
@@ -54,7 +61,12 @@ class Entry:
     sentence: Said
     why: str
     movements: tuple[SpokenStep, ...]
-    lengths: tuple[Length, ...]
+    measuring: Measuring
+
+    @property
+    def lengths(self) -> tuple[Length, ...]:
+        """How long it is on paper."""
+        return self.measuring()
 
     @property
     def folded(self) -> bool:
@@ -113,9 +125,9 @@ class Protocol:
         """Every step, in drawing order."""
         drawn, found = self._drawn, list[SpokenStep]()
         for step in drawn.steps[drawn.givens :]:
-            lengths = self.lengths.of(step) if self.lengths else ()
-            told = measured(drawn.sentence(step.index), lengths)
-            found.append(SpokenStep(step, drawn.number(step.index), told, step.why, lengths))
+            measuring = partial(self.lengths.of, step) if self.lengths else tuple
+            told = measured(drawn.sentence(step.index), measuring)
+            found.append(SpokenStep(step, drawn.number(step.index), told, step.why, measuring))
         return tuple(found)
 
     @property
@@ -174,14 +186,14 @@ class Protocol:
             if folded:
                 yield Entry(measured(*folded), _why(movements[-1], stage), movements, folded[1])
             else:
-                yield from (Entry(one.sentence, _why(one, stage), (one,), one.lengths) for one in movements)
+                yield from (Entry(one.sentence, _why(one, stage), (one,), one.measuring) for one in movements)
 
-    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, tuple[Length, ...]] | None:
+    def _folded(self, compound: Compound, movements: Sequence[SpokenStep]) -> tuple[Said, Measuring] | None:
         """What some movements of a compound are as one step: its end, or what of it is drawn beforehand."""
         if movements[-1].index == compound.step.index:
-            return compound.sentence, self.lengths.of(compound.step) if self.lengths else ()
-        lengths = self.lengths.before(compound) if self.lengths else ()
-        return (compound.before, lengths) if compound.before else None
+            return compound.sentence, partial(self.lengths.of, compound.step) if self.lengths else tuple
+        measuring = partial(self.lengths.before, compound) if self.lengths else tuple
+        return (compound.before, measuring) if compound.before else None
 
 
 def lengths_of(plans: Plans, scales: Scales) -> Lengths:
@@ -194,9 +206,13 @@ def reasoned(sentence: Said, why: str) -> Said:
     return arranged("{0} ({1:capital}.)", sentence, why) if why else sentence
 
 
-def measured(sentence: Said, lengths: Sequence[Length]) -> Said:
+def measured(sentence: Said, measuring: Measuring) -> Said:
     """A sentence with its lengths behind it."""
-    return arranged("{0} {1}.", sentence, joined(length.told for length in lengths)) if lengths else sentence
+    def told() -> Said:
+        lengths = measuring()
+        return arranged("{0} {1}.", sentence, joined(length.told for length in lengths)) if lengths else sentence
+
+    return in_any_case(told)
 
 
 def _why(step: SpokenStep, stage: Stage | None) -> str:

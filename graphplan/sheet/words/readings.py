@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from typing import Any, NamedTuple
 
 from graphplan.kernel.kinds import LINE
@@ -15,8 +16,8 @@ from graphplan.methods.construction import Construction
 from graphplan.methods.kinds import ResultKind
 from graphplan.methods.recorded import Reading
 from graphplan.methods.results import thing_named
-from graphplan.phrases import Said, arranged, digits, joined, said, unit
-from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, tenths
+from graphplan.phrases import Said, arranged, digits, in_any_case, joined, said, tenths, unit
+from graphplan.sheet.words.lengths import NOTHING, Length, Lengths, Measure, size
 
 VECTORS = units.SPEED, units.ACCELERATING, units.FORCE, units.LENGTH
 
@@ -49,32 +50,35 @@ class Readings:
 
     def __iter__(self) -> Iterator[Measured]:
         """Every result that is drawn, in the order of the construction; none that is given or nothing."""
-        for reading in self.drawing.readings:
-            marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
-            value = self.values[reading.kind][reading.of]
-            computed = math.hypot(*value) if isinstance(value, tuple) else float(value)
-            if reading.given is None and marks:
-                yield from self._measured(reading, marks, computed)
+        return filter(None, map(self.measured, self.drawn))
 
-    def _measured(self, reading: Reading, marks: Sequence[int], computed: float) -> Iterator[Measured]:
-        kind, dimension = reading.kind, reading.kind.dimension
+    @property
+    def drawn(self) -> Iterator[Reading]:
+        """The readings of what is drawn and not given."""
+        return (reading for reading in self.drawing.readings if reading.given is None and reading.marks)
+
+    def measured(self, reading: Reading) -> Measured | None:
+        """What is read off, unless it is nothing."""
+        kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
+        marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
         if dimension in VECTORS:
             start, end = marks[-2:]
             steps = self.lengths.program.steps
             if steps[start].op.gives == LINE or (long := self.lengths.mm(start, end)) < NOTHING:
-                return
+                return None
             found = self._vector(dimension, Measure(long, (start, end)), kind.group)
         elif dimension == units.MOMENT:
             found = self._moment(marks)
         elif self.lengths.mm(*marks[:2]) < NOTHING:
-            return  # no ruler tells how a link turns that is nothing on paper
+            return None  # no ruler tells how a link turns that is nothing on paper
         else:
             found = self._turning(reading, marks)
+        computed = size(*value) if isinstance(value, tuple) else value
         length, read = found
         symbol = unit(dimension.unit(self.drawing.scene.units).replace("^2", "²").replace("*", "·"))
         told = said("{0}: {1} = {2}; computed {3}", self._name(kind, reading.of), length.told,
                     joined((digits(read), symbol), " "), digits(computed))
-        yield Measured(kind, reading.of, length._replace(told=told), read, computed)
+        return Measured(kind, reading.of, length._replace(told=told), read, computed)
 
     def _name(self, kind: ResultKind, of: str) -> Said:
         """What a result is called: v_B, omega_3; of pairs and balances in words."""
@@ -113,10 +117,10 @@ class Readings:
         w = two[0] - one[0], two[1] - one[1]
         across = u[0] * w[1] - u[1] * w[0]
         across = across if not (drawing.turned and reading.kind == kinds.OMEGA) else -(u[0] * w[0] + u[1] * w[1])
-        group, base = reading.kind.group, math.hypot(*u)
-        part = Measure(abs(across) / base / lengths.per_mm(r1), (P, R, p0, p1, r0, r1))
-        per, symbol = lengths.scale(group, r1)
-        rate = math.copysign(round(part.mm, 1) * per / (round(side.mm, 1) * lengths.per_mm(R)), across)
+        mm = across / size(*u) / lengths.per_mm(r1)
+        part = Measure(abs(mm), (P, R, p0, p1, r0, r1))
+        per, symbol = lengths.scale(reading.kind.group, r1)
+        rate = round(mm, 1) * per / (round(side.mm, 1) * lengths.per_mm(R))
         whole = joined((digits(round(part.mm, 1) * per), unit(symbol)), " ")
         told = said("tangential part {0} · {1} = {2}, over {3} = {4} · {5}", part.told, digits(per), whole, names,
                     side.told, digits(lengths.per_mm(R)))
@@ -129,17 +133,19 @@ class Readings:
         terms, measures = list[Said](), list[Measure]()
         per = math.nan
         for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
-            force, arm = lengths.between(tail, head), lengths.arm(pole, C, tail, head)
-            (x, y), (u, v) = lengths.vector(pole, C), lengths.vector(tail, head)
-            sign = math.copysign(1.0, x * v - y * u)
+            force, lever = lengths.between(tail, head), lengths.lever(pole, C, tail, head)
             metre = float(units.metre(self.drawing.scene.units))
             per = lengths.scale(kinds.FORCES, head)[0] * lengths.per_mm(C) / metre
-            total += sign * round(force.mm, 1) * round(arm.mm, 1) * per
-            terms.append(arranged("−{0} · {1}" if sign < 0 else "{0} · {1}" if not terms else "+{0} · {1}",
-                                  tenths(force.mm), tenths(arm.mm)))
-            measures += [force, arm]
+            total += round(force.mm, 1) * round(lever, 1) * per
+            terms.append(in_any_case(partial(_term, force.mm, lever, "+" if terms else "")))
+            measures += [force, lengths.arm(pole, C, tail, head)]
         told = said("forces times arms ({0}) mm² · {1}", joined(terms, " "), digits(per))
         return Length(told, tuple(measures)), total
+
+
+def _term(force: float, lever: float, plus: str) -> Said:
+    """A moment, in mm times mm."""
+    return arranged("{0}{1} · {2}", "−" if lever < 0 else plus, tenths(force), tenths(abs(lever)))
 
 
 def _more(told: Said, excess: float) -> Said:

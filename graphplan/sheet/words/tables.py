@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import reduce
 from typing import Any
 
-from graphplan.phrases import Said, arranged, digits, figures, unit
+from graphplan.phrases import Said, arranged, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.words.lengths import size
 from graphplan.sheet.words.rows import Cell, TextRow
 from graphplan.words.tongue import Tongue
 
@@ -52,8 +53,8 @@ def vectors(say: Tongue, what: str, letter: str, unit: str, values: Mapping[str,
     The head tells what has them, their letter and their unit; names may be `spoken` in another way.
     """
     head = [sentence_runs(text) for text in (what, f"{letter}_x", f"{letter}_y", f"|{letter}| {unit}")]
-    found = {name: (*values[name], math.hypot(*values[name])) for name in order if name in values}
-    return _table(say, head, found, max(largest_size(values), largest_size(beside)), off, spoken)
+    found = {name: (*values[name], size(*values[name])) for name in order if name in values}
+    return _table(say, head, found, _larger(largest_size(values), largest_size(beside)), off, spoken)
 
 
 def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, Any], order: Iterable[str],
@@ -61,7 +62,7 @@ def scalars(say: Tongue, what: str, name: str, unit: str, values: Mapping[str, A
     """Single numbers with their deviations, each row with its name first; nothing if there are none."""
     head = [sentence_runs(what), (*name_runs(name), *sentence_runs(f" {unit}"))]
     found = {name: (values[name],) for name in order if name in values}
-    return _table(say, head, found, max(map(abs, values.values()), default=0.0), off)
+    return _table(say, head, found, reduce(_larger, map(abs, values.values()), 0.0), off)
 
 
 def _table(say: Tongue, head: list[Runs], values: Mapping[str, tuple[float, ...]], largest: float, off: Off,
@@ -84,12 +85,17 @@ def with_deviations(say: Tongue, table: Table, names: Sequence[str], off: Off) -
 
 def largest_size(values: Mapping[Any, Any]) -> float:
     """The size of the largest vector."""
-    return max((math.hypot(*value) for value in values.values()), default=0.0)
+    return reduce(_larger, (size(*value) for value in values.values()), 0.0)
+
+
+def _larger(a: float, b: float) -> float:
+    """The larger of two numbers, by arithmetic alone: they may be unknown."""
+    return (a + b + abs(a - b)) / 2
 
 
 def figure(say: Tongue, value: float, largest: float) -> Runs:
     """A number of a table; what is only rounding beside its largest is zero."""
-    return sentence_runs(say(digits(value if abs(value) > ROUNDING * largest else 0.0)))
+    return sentence_runs(say(in_any_case(lambda: digits(value if abs(value) > ROUNDING * largest else 0.0))))
 
 
 def joined_tables(one: Table, two: Table, fits: Callable[[Table], bool]) -> list[Table]:

@@ -1,0 +1,172 @@
+"""What a live page tells of a construction, as HTML: its steps, what is read off it, the results and the forms.
+
+Whatever may be another in other poses stands in an element of its own, with a number; by these numbers the same are
+told once more as templates, of unknown numbers, for the page to fill in (texts.js).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from html import escape
+from typing import Any
+
+from graphplan.kernel.numbers import Domain
+from graphplan.kernel.stages import Equation
+from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import WORDS
+from graphplan.methods.recorded import Reading
+from graphplan.output.live.unknown import EITHER, PLACE, Later, Laters, unknown
+from graphplan.phrases import Said, arranged, in_any_case, joined
+from graphplan.sheet.layout.scales import Scales
+from graphplan.sheet.lettering.lettering import Runs, equation_runs, sentence_runs
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.words.protocol import Entry, Passage, Protocol, lengths_of
+from graphplan.sheet.words.readings import Readings
+from graphplan.sheet.words.tables import Table
+from graphplan.sheet.words.texts import Words
+from graphplan.words.tongue import Tongue
+
+LEVELS = "{}", "<sup>{}</sup>", "<sub>{}</sub>"  # of letters: on the line, above it, and, as the last, below
+FOLLOWS = re.compile(f"[{PLACE}{EITHER}]")
+
+
+class Following(Construction):
+    """A construction whose marks lie wherever they will lie."""
+
+    def __init__(self, construction: Construction, later: Later):
+        self.__dict__ |= {**construction.__getstate__(), "compounds": construction.compounds,
+                          "controls": construction.controls,
+                          "_gathered": (construction.drawn, unknown(later, construction.values))}
+
+    def read(self, domain: Domain, *_: Any) -> dict[str, dict[str, Any]]:
+        """All readings of the drawn marks."""
+        return self.told([self.values[mark] for mark in self.drawn.wanted], Laters())
+
+
+@dataclass
+class Texts:
+    """The texts of a construction on its plans at these scales, in any tongue."""
+
+    plans: Plans
+    scales: Scales
+    later: Later = field(default_factory=Later)
+
+    def told(self, tongue: Tongue) -> dict[str, Any]:
+        """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
+        plans = replace(self.plans, tongue=tongue)
+        given = Telling(plans, self.scales)
+        following = Telling(Plans(Following(plans.drawing, self.later), tongue), self.scales)
+        parts = {"list": "\n".join(given.protocol()), "readings": "".join(given.readings()),
+                 "tables": given.results(), "forms": "".join(given.forms())}
+        for _ in (*following.protocol(), *following.readings(), following.results()):
+            pass
+        if len(given.parts) != len(following.parts):
+            raise ValueError("a text of other poses has other parts")
+        return {**parts, "names": [given.set(plans.drawing.drawn.text(i)) for i in range(len(plans.drawing.drawn))],
+                "templates": {k: told for k, told in enumerate(following.parts) if FOLLOWS.search(told)}}
+
+    def javascript(self) -> str:
+        """The function that fills all templates that were told."""
+        return self.later.javascript()
+
+
+@dataclass
+class Telling:
+    """The texts of one construction as HTML; `parts` are those that hang on the pose, by their numbers."""
+
+    plans: Plans
+    scales: Scales
+    parts: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.names = tuple(step.name for step in self.plans.drawing.drawn.steps if step.name)
+        self.words = Words(self.plans)
+
+    def set(self, text: str) -> str:
+        """Words with the names of marks set as on the sheet."""
+        return html(sentence_runs(self.plans.tongue(text), self.names))
+
+    def _part(self, told: str) -> str:
+        self.parts.append(told)
+        return f'<span data-told="{len(self.parts) - 1}">{told}</span>'
+
+    # ---- the protocol ------------------------------------------------------------------------------------------------
+
+    def protocol(self) -> Iterator[str]:
+        """The stages with their entries, and in these their movements, as items of an ordered list."""
+        plan = ""
+        for passage in Protocol(self.plans, self.scales).passages:
+            if passage.plan != plan:
+                plan = passage.plan
+                yield f"<li><h3>{self.set(arranged('{0:capital}', passage.plan.words))}</h3></li>"
+            yield f'<li class="stage">{self._head(passage)}<ol>{"".join(self._entries(passage.entries))}</ol></li>'
+
+    def _head(self, passage: Passage) -> str:
+        """A stage's title, its equations with what is known in them underlined, and its law."""
+        if passage.stage is None or passage.title is None:
+            return ""
+        equations = () if passage.again else passage.stage.equations
+        told = [f"<h4>{self.set(arranged('{0:capital}', passage.title))}</h4>"]
+        told += [f'<p class="equation">{_equation(equation)}</p>' for equation in equations]
+        told += [f"<p>{self.set(arranged('{0:capital}.', passage.law))}</p>"] if passage.law else []
+        return "".join(told)
+
+    def _entries(self, entries: Iterable[Entry]) -> Iterator[str]:
+        """Entries as items of a list; one of several movements has a list of these."""
+        for entry in entries:
+            told = f"<b>{entry.number}</b> {self._part(self.set(entry.told))}"
+            last = entry.movements[-1].number
+            if not entry.folded:
+                yield f'<li><button type="button" data-place="{last}">{told}</button></li>'
+                continue
+            parts = "".join(f'<li><button type="button" data-place="{one.number}"><b>{one.number}</b> '
+                            f"{self._part(self.set(one.sentence))}</button></li>" for one in entry.movements)
+            yield f'<li><button type="button" class="whole" data-until="{last}">{told}</button><ol>{parts}</ol></li>'
+
+    # ---- what is read ------------------------------------------------------------------------------------------------
+
+    def readings(self) -> Iterator[str]:
+        """What is measured on the drawing, and what it means, as items of a list; empty where that is nothing."""
+        found = Readings(self.plans.drawing, lengths_of(self.plans, self.scales), self.words.values)
+        return (f"<li>{self._part(self.set(in_any_case(lambda one=one: _reading(found, one))))}</li>"  # type: ignore[misc]
+                for one in found.drawn)
+
+    def results(self) -> str:
+        """What is read when all is drawn, as tables."""
+        return "".join(f"<table>{''.join(self._rows(table))}</table>" for table in self.words.result_tables())
+
+    def _rows(self, table: Table) -> Iterator[str]:
+        """The rows of a table, its head first."""
+        for number, row in enumerate(table):
+            cells = (f"<td>{self._part(html(runs))}</td>" if number else f"<th>{html(runs)}</th>" for runs in row[1:])
+            yield f"<tr><th>{html(row[0])}</th>{''.join(cells)}</tr>"
+
+    def forms(self) -> Iterator[str]:
+        """By which methods and in which forms it is drawn, and why, as items of a list."""
+        drawing = self.plans.drawing
+        for kind, ways in drawing.method.items():
+            yield f"<li>{self.set(arranged('{0:capital}: {1}.', WORDS[kind], joined(ways)))}</li>"
+        yield from (f"<li>{self.set(form)}</li>" for form in drawing.brief_forms)
+
+
+def _reading(found: Readings, reading: Reading) -> Said:
+    """A reading in a sentence, which is empty where there is nothing to read."""
+    measured = found.measured(reading)
+    return measured.told if measured else arranged("")
+
+
+def html(runs: Runs) -> str:
+    """Lettering as HTML."""
+    return "".join(LEVELS[run.level].format(escape(run.text)) for run in runs)
+
+
+def _equation(equation: Equation) -> str:
+    """An equation whose vectors are underlined as often as numbers of them are known."""
+    told, done = "", 0
+    for start, end, times in equation.underlined:
+        told += html(equation_runs(equation.text[done:start]))
+        told += f'<span class="known-{times}">{html(equation_runs(equation.text[start:end]))}</span>'
+        done = end
+    return told + html(equation_runs(equation.text[done:]))

@@ -1,0 +1,156 @@
+"""Numbers of a pose that is not known yet: what the words compute with them is recorded on a tape, to be done later.
+
+A text that is told of them has places for its numbers, and where its words hang on them it has both, each for the poses
+in which it is right. In a text stand, in characters of private use,
+
+    PLACE output : figures END          a number, in so many significant figures, or with 0 of them in tenths
+    EITHER output THEN one ELSE other END   the one where that output of the tape is above zero, else the other
+"""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.tape.record import Symbol, Tape
+from graphplan.kernel.tape.written import JAVASCRIPT, Writer
+from graphplan.phrases import Said, Undecided, Unknown, arranged, in_any_case
+
+PLACE, EITHER, THEN, ELSE, END = map(chr, range(0xE000, 0xE005))
+LIVE = JAVASCRIPT._replace(written={**JAVASCRIPT.written, "tenths": "tenths({})", "hypot": "hypot({}, {})"})
+
+
+@dataclass
+class Later:
+    """The tape of unknown numbers, those of it that are told or asked (by place, in order), and what is assumed."""
+
+    tape: Tape = field(default_factory=Tape)
+    outputs: dict[int, int] = field(default_factory=dict)
+    assumed: dict[int, bool] = field(default_factory=dict)
+
+    def input(self, name: str) -> Number:
+        """A number that JavaScript calls so."""
+        return Number(self, self.tape.input(name))
+
+    def output(self, number: Any) -> int:
+        """Which output of the tape a number is."""
+        return self.outputs.setdefault(self.tape.place(number), len(self.outputs))
+
+    def positive(self, number: Any) -> bool:
+        """Whether a number is above zero: what is assumed, if anything is."""
+        if isinstance(number, Number):
+            number = number.symbol
+        place = self.tape.place(number)
+        if self.tape.is_constant(place):
+            return bool(self.tape.entries[place][1] > 0)
+        if place not in self.assumed:
+            raise Asked(self, place)
+        return self.assumed[place]
+
+    def assuming(self, place: int, answer: bool, tell: Callable[[], Said]) -> Said:
+        """What is told where a number is above zero, or is not."""
+        self.assumed[place] = answer
+        try:
+            return in_any_case(tell)
+        finally:
+            del self.assumed[place]
+
+    def javascript(self) -> str:
+        """A function from the values of the marks to the outputs; it is given what is no arithmetic."""
+        writer = Writer(self.tape, LIVE)
+        body = writer.statements([*self.outputs])
+        told = ",".join(writer.text[place] for place in self.outputs)
+        return "\n".join(["function (v, {tenths, hypot}) {", *body, f"return [{told}];", "}"])
+
+
+class Asked(Undecided):
+    """Whether a number is above zero hangs on the pose."""
+
+    def __init__(self, later: Later, place: int):
+        self.later, self.place = later, place
+
+    def either(self, tell: Callable[[], Said]) -> Said:
+        output = self.later.output(Symbol(self.later.tape, self.place))
+        one, other = (self.later.assuming(self.place, answer, tell) for answer in (True, False))
+        return one if one == other else arranged(f"{EITHER}{output}{THEN}{{0}}{ELSE}{{1}}{END}", one, other)
+
+
+def _recorded(operation: Callable[[Any, Any], Any]) -> Callable[[Number, Any], Number]:
+    """Arithmetic with another number."""
+
+    def record(number: Number, other: Any) -> Number:
+        return Number(number.later, operation(number.symbol, other.symbol if isinstance(other, Number) else other))
+
+    return record
+
+
+def _turned(operation: Callable[[Any, Any], Any]) -> Callable[[Number, Any], Number]:
+    return _recorded(lambda symbol, other: operation(other, symbol))
+
+
+class Number(Unknown):
+    """A number of a pose; it can be computed with, compared and told, and is no float."""
+
+    __slots__ = ("later", "symbol")
+
+    def __init__(self, later: Later, symbol: Any):
+        self.later, self.symbol = later, symbol
+
+    __add__, __radd__ = _recorded(operator.add), _turned(operator.add)
+    __sub__, __rsub__ = _recorded(operator.sub), _turned(operator.sub)
+    __mul__, __rmul__ = _recorded(operator.mul), _turned(operator.mul)
+    __truediv__, __rtruediv__ = _recorded(operator.truediv), _turned(operator.truediv)
+
+    def __neg__(self) -> Number:
+        return Number(self.later, -self.symbol)
+
+    def __abs__(self) -> Number:
+        return Number(self.later, abs(self.symbol))
+
+    def __pow__(self, power: float) -> Number:
+        if power != 0.5:
+            raise TypeError("only square roots are recorded")
+        return Number(self.later, self.symbol.root())
+
+    def __round__(self, places: int) -> Number:
+        if places != 1:
+            raise TypeError("only rounding to tenths is recorded")
+        return Number(self.later, self.later.tape.done("tenths", self.symbol.place))
+
+    def __lt__(self, other: Any) -> bool:
+        return self.later.positive(other - self)
+
+    def __gt__(self, other: Any) -> bool:
+        return self.later.positive(self - other)
+
+    def __le__(self, other: Any) -> bool:
+        return not self.later.positive(self - other)
+
+    def __ge__(self, other: Any) -> bool:
+        return not self.later.positive(other - self)
+
+    def __bool__(self) -> bool:
+        return self.later.positive(abs(self))
+
+    def hypot(self, other: Any) -> Number:
+        tape = self.later.tape
+        other = other.symbol if isinstance(other, Number) else other
+        return Number(self.later, tape.done("hypot", self.symbol.place, tape.place(other)))
+
+    def place(self, count: int) -> str:
+        return f"{PLACE}{self.later.output(self.symbol)}:{count}{END}"
+
+
+class Laters(Floats):
+    """The domain of such numbers, for the readings of marks."""
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        return value**0.5
+
+
+def unknown(later: Later, values: Sequence[Any]) -> list[tuple[Number, ...]]:
+    """The values of marks, each number unknown."""
+    return [tuple(later.input(f"v[{mark}][{k}]") for k in range(len(value))) for mark, value in enumerate(values)]

@@ -40,6 +40,7 @@ FRONT = {"__init__", "__main__", "commands"}
 # Who may import what does not come with Python.
 OUTSIDE = {
     "matplotlib": {"output/pdf_png.py"},
+    "PIL": {"output/animation.py"},  # it comes with matplotlib
     "svgwrite": {"output/svg.py", "output/stepper.py"},
     "shapely": {"sheet", "marking"},
     "ezdxf": {"output", "marking"},

@@ -3,12 +3,15 @@
 Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
 singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
 text, or an archive of arrays (.npz). The plot shows displacement, velocity and acceleration, with graphical
-differentiation and integration compared with the plans.
+differentiation and integration compared with the plans. An animation shows the mechanism with its construction in
+motion: a full turn, or there and back between limits.
 
 examples:
   graphplan cycle four-bar --positions 12
   graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
+  graphplan cycle four-bar --animate four-bar.gif
+  graphplan cycle plough-lift --animate lift.svg --positions 60 --seconds 10
 """
 
 from __future__ import annotations
@@ -18,6 +21,7 @@ from collections.abc import Iterator, Mapping
 from itertools import groupby
 from typing import TYPE_CHECKING
 
+from graphplan.commands import animate
 from graphplan.commands.choices import add_choices, add_language, count, presented
 from graphplan.commands.output import Messages, apart, error, kind, write
 from graphplan.errors import Refused
@@ -31,7 +35,8 @@ NOTHING_REACHED = 3
 
 def options(command: argparse.ArgumentParser) -> None:
     add = command.add_argument
-    add("--positions", type=count("--positions", 1), required=True, metavar="N", help="how many poses")
+    add("--positions", type=count("--positions", 1), metavar="N",
+        help=f"how many poses; without it an animation has {animate.POSES}")
     add("--from", type=float, dest="start", metavar="A",
         help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
     add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
@@ -41,6 +46,7 @@ def options(command: argparse.ArgumentParser) -> None:
         help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
     add("--strips", type=int, metavar="N",
         help="in how many strips the diagrams are divided; without it 24, 12 or as positions allow")
+    animate.options(add)
     add("--workers", default="1", metavar="N", help="processes that share the work, or a dask scheduler's address")
     add("--compiled", action="store_true", help="machine code, if numba is installed: the same numbers, faster")
     add_choices(command)
@@ -56,9 +62,14 @@ def run(options: argparse.Namespace) -> int:
         raise Refused("--strips", "there is no plot to divide", "add --plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
-    apart(options.output, options.plot)
-    scene = presented(options)
+    animate.asked(options)
+    apart(options.output, options.plot, options.animate)
     span = None if options.start is None else (options.start, options.end)
+    if options.animate:
+        animate.run(options, span)
+        if not (options.output or options.plot):
+            return 0
+    scene = presented(options)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
     messages = Messages(options.quiet)

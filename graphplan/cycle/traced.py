@@ -7,11 +7,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from graphplan.cycle.linkage import Array
-from graphplan.cycle.travel import TURN, check_drives, closes, paces
-from graphplan.cycle.turn import RangeOfMotion
+from graphplan.cycle.loop import whole_motion
 from graphplan.errors import Refused
 from graphplan.mechanism.model import Scene
-from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
 from graphplan.sheet.plates.traced_motion import PointPath, TracedMotion
 
@@ -30,31 +28,16 @@ def traced(scene: Scene) -> TracedMotion | None:
     if not (wanted or count):
         return None
     try:
-        motion = _range(scene)
+        motion = whole_motion(scene)
     except Refused as refused:
         raise Refused(f"sheet.{'curves' if wanted else 'positions'}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
-    whole = motion.closed and not (motion.path.lower or motion.path.upper)
-    fine, even = _between(low, high), np.linspace(low, high, count, endpoint=not whole)
+    fine, even = _between(low, high), np.linspace(low, high, count, endpoint=not motion.whole)
     turn = motion.turn(np.concatenate([fine, even]))
     stops = motion.path.lower is not None, motion.path.upper is not None
     paths = [path for name in wanted for path in _paths(name, turn.points[name][: fine.size], stops)]
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
     return TracedMotion(tuple(paths), tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached))
-
-
-def _range(scene: Scene) -> RangeOfMotion:
-    """As far as the mechanism goes; fails with `Refused` where that is nowhere."""
-    check_drives(scene)
-    if scene.drives[0].slides:
-        places = [complex(*map(float, at)) for at in scene.points.values()]
-        far = max(abs(p - q) for p in places for q in places)
-        found = RangeOfMotion(scene, -far, far, closed=False)
-    else:
-        found = RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
-    if found.path.travel[0] == found.path.travel[-1]:
-        raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
-    return found
 
 
 def _between(low: float, high: float) -> Array:

@@ -76,6 +76,11 @@ class RangeOfMotion:
         self._continuation = Continuation(self.linkage, self.groups, lower, upper, progress)
         self.path = self._continuation.path(closed)
 
+    @property
+    def whole(self) -> bool:
+        """Whether a full turn leads back to its beginning, and no limit stands in the way."""
+        return self.closed and not (self.path.lower or self.path.upper)
+
     def turn(self, travel: Array, compiled: bool = False) -> Turn:
         """The poses at these travels, an array of shape (n,) in any order."""
         scene, path = self.scene, self.path

@@ -19,17 +19,22 @@ from graphplan.kernel.program import Program, evaluate
 from graphplan.mechanism.model import Pair, Scene, Slide
 from graphplan.methods.construction import Construction
 from graphplan.methods.panels import MECHANISM
+from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.divisions import MARGIN
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.layout import captions, framed, layout, sheet
+from graphplan.sheet.lettering.labels import placed
+from graphplan.sheet.lettering.letters import inside, of_mechanism
 from graphplan.sheet.plates import clip
 from graphplan.sheet.plates.display import Rect, Sheet, Spot
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate
 from graphplan.sheet.plates.view import View
 
 SAME = 1e-6  # of the largest mark: by more a drawn mark does not differ from what the rules say, unless its form fails
 Given = dict[Any, dict[str, float]]
+Places = Mapping[str, Sequence[complex]]  # of points, or the directions of guides, in each pose
 
 
 class Posed(Construction):
@@ -126,17 +131,18 @@ def standing(drawing: Construction, composition: Composition, why: str = "") -> 
 
 
 def turning(drawing: Construction, composition: Composition, travel: Sequence[float],
-            points: Mapping[str, Sequence[complex]], guides: Mapping[str, Sequence[complex]]) -> CycleFrames:
+            points: Places, guides: Places, others: Sequence[tuple[Construction, Places]] = ()) -> CycleFrames:
     """The construction in the poses of a turn, the first of which is the given pose.
 
     Reads a composed construction, the drive's travel in degrees, and where points and guides are; nan where nowhere.
+    `others` are constructions of the scene that take other forms, with where points are in poses that they serve: of
+    all that can be drawn in a pose on this sheet the first one is.
     """
     poses: dict[float, Posed] = {}
     lost: list[list[int]] = []
     for k in range(1, len(travel)):
-        here = [{name: complex(z[k]) for name, z in arrays.items()} for arrays in (points, guides)]
-        found = posed(drawing, *here) if all(map(cmath.isfinite, here[0].values())) else None
-        if found:
+        drawn = (_drawn(one, places, guides, k) for one, places in ((drawing, points), *others))
+        if found := next((one for one in drawn if one and composition.views.keys() >= {*Plans(one).panels}), None):
             poses[travel[k]] = found
         elif lost and lost[-1][-1] == k - 1:
             lost[-1].append(k)
@@ -147,6 +153,12 @@ def turning(drawing: Construction, composition: Composition, travel: Sequence[fl
               for travel, found in poses.items())
     ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
     return CycleFrames(drawing, base, (_frame(0.0, base), *frames), ends)
+
+
+def _drawn(drawing: Construction, points: Places, guides: Places, k: int) -> Posed | None:
+    """A construction in the pose at a place of these arrays."""
+    here, directions = ({name: complex(z[k]) for name, z in arrays.items()} for arrays in (points, guides))
+    return posed(drawing, here, directions) if all(map(cmath.isfinite, here.values())) else None
 
 
 def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
@@ -191,6 +203,18 @@ def _frame(travel: float, composition: Composition) -> CycleFrame:
     bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
     spots = {drawn.index: drawn.at for drawn in bare.plates.steps if drawn.kind == POINT}
     return CycleFrame(travel, bare.plans, layout(bare.plans.drawing, composition=bare), spots)
+
+
+def undrawn(composition: Composition, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Sheet:
+    """The sheet of a pose in which nothing can be constructed: the mechanism alone."""
+    bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
+    window, motion = bare.views[MECHANISM], bare.plans.motion
+    mechanism = DrawnMechanism(_scene(bare.plans.drawing.scene, points, guides), window)
+    shown = [*(motion.items(window) if motion else ()), *mechanism.items()]
+    items = [cut for item in shown for cut in clip.clipped(item, window.rect)]
+    letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,
+                     bare.arrangement.letters)
+    return sheet(bare, [*framed(bare), *captions(bare), *items, *letters], CONSTRUCTION)
 
 
 def slid(view: View, box: Rect) -> View:

@@ -61,10 +61,10 @@ def pictured(plate: Plate) -> Picture:
         wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
         marks += list(mechanism.shown.values())
     rect = plate.view.rect
-    return Picture(plate, items, lettering([*_inside(wishes, rect)], items, marks, rect, plate.plates.letters))
+    return Picture(plate, items, lettering([*inside(wishes, rect)], items, marks, rect, plate.plates.letters))
 
 
-def _inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
+def inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
     """The letters of what is on the panel."""
     for wish in wishes:
         if spots := tuple(filter(rect.holds, wish.spots)):

@@ -1,0 +1,79 @@
+"""Loops: the mechanism moved so that the end is the beginning, round and round, or there and back between limits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from graphplan.cycle.travel import TURN, check_drives, closes, paces, travels
+from graphplan.cycle.turn import RangeOfMotion, Turn
+from graphplan.errors import Refused
+from graphplan.mechanism.model import Scene
+from graphplan.phrases import said
+
+BEFORE = 0.002  # of the way: so far before a limit it turns round, as there are no velocities at the limit itself
+
+
+@dataclass(frozen=True)
+class Loop:
+    """The poses of a loop, and in which order they are gone through, as places in `turn`; the first is the given pose,
+    or of a span without it the nearest."""
+
+    turn: Turn
+    order: Sequence[int]
+
+
+def whole_motion(scene: Scene) -> RangeOfMotion:
+    """As far as the mechanism goes from its given pose: one turn of the first drive; of one that slides to its limits,
+    or where there are none as far as the mechanism is large.
+
+    Fails with `Refused` where that is nowhere.
+    """
+    check_drives(scene)
+    if scene.drives[0].slides:
+        places = [complex(*map(float, at)) for at in scene.points.values()]
+        far = max(abs(p - q) for p in places for q in places)
+        found = RangeOfMotion(scene, -far, far, closed=False)
+    else:
+        found = RangeOfMotion(scene, 0.0, TURN, closes(scene, paces(scene)))
+    if found.path.travel[0] == found.path.travel[-1]:
+        raise Refused("the cycle", said("the mechanism does not move on from the given pose"), "another pose")
+    return found
+
+
+def loop(scene: Scene, count: int, span: tuple[float, float] | None = None) -> Loop:
+    """The scene moved through so many poses: one full turn, or where it does not close, or a span is given in degrees
+    (lengths of a drive that slides), there and back, slower towards the ends.
+
+    Fails as :func:`graphplan.cycle.follow` does.
+    """
+    if span is None:
+        motion, ends = whole_motion(scene), (-math.inf, math.inf)
+    else:
+        low, high = sorted(travels(scene, 2, span).tolist())
+        motion, ends = RangeOfMotion(scene, min(0.0, low), max(0.0, high), closed=False), (low, high)
+    if motion.whole:
+        return Loop(motion.turn(TURN * np.arange(count) / count), range(count))
+    low, high = _inside(motion, *ends)
+    half = count // 2
+    travel = (low + high) / 2 - (high - low) / 2 * np.cos(np.pi * np.arange(half + 1) / max(1, half))
+    first = int(np.argmin(np.abs(travel)))
+    if low <= 0.0 <= high:
+        travel[first] = 0.0
+    back = [*range(half + 1), *range(half - 1, 0, -1)]
+    return Loop(motion.turn(travel), back[first:] + back[:first])
+
+
+def _inside(motion: RangeOfMotion, low: float, high: float) -> tuple[float, float]:
+    """The travels between which it goes: as far as it can within these ends, and not quite to limits."""
+    path = motion.path
+    least, most = float(path.travel[0]), float(path.travel[-1])
+    spare = BEFORE * (most - least)
+    low = max(low, least + spare if path.lower else least)
+    high = min(high, most - spare if path.upper else most)
+    if low >= high:
+        raise Refused("the cycle", said("the mechanism does not come there from the given pose"), "another range")
+    return low, high

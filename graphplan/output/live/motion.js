@@ -1,259 +1,11 @@
 "use strict";
 
-/** Groups of links, closed one after another by Newton's steps: one pose of the linkage. Lengths count in reaches. */
-class Linkage {
-  constructor(data, steps) {
-    this.data = data;
-    this.rules = data.rules;
-    this.unknowns = 0;
-    this.groups = data.groups.map((group) => {
-      const inputs = 7 * group.carriers.length + group.arms.length + 3 * group.drives.length + 2 * group.unknowns;
-      const made = { ...group, run: steps[group.step], first: this.unknowns, arms: Float64Array.from(group.arms),
-                     x: new Float64Array(inputs), y: new Float64Array(2 * group.unknowns + 1 + 7 * group.links.length) };
-      this.unknowns += group.unknowns;
-      return made;
-    });
-    this.turns = this.groups.flatMap((group) => Array.from({ length: group.unknowns }, (_, i) => i < group.angles));
-  }
-
-  /** Lays the frame's arms to its points, {name: [x, y]}. */
-  hold(points) {
-    const { origin, reach } = this.data;
-    for (const [g, k, way, P, Q, x, y] of this.data.anchors) {
-      const at = points[P], ray = Q ? [points[Q][0] - at[0], points[Q][1] - at[1]] : [1, 0];
-      const size = Math.hypot(...ray), u = ray[0] / size, v = ray[1] / size;
-      const end = [u * x - v * y, u * y + v * x], arms = this.groups[g].arms;
-      for (const i of [0, 1]) arms[2 * k + i] = way ? end[i] : (at[i] + end[i] - origin[i]) / reach;
-    }
-  }
-
-  /** One step of Newton's for a group from a state; fills its y. */
-  step(group, lies, drives, rates, state) {
-    const x = group.x;
-    let n = 0;
-    for (const link of group.carriers) for (let i = 0; i < 7; i++) x[n++] = lies[7 * link + i];
-    for (const number of group.arms) x[n++] = number;
-    for (const [drive, turns, rate] of group.drives) {
-      const at = rate * drives[drive];
-      x[n++] = turns ? Math.cos(at) : at;
-      if (turns) x[n++] = Math.sin(at);
-      x[n++] = rate * rates[drive];
-    }
-    for (let i = 0; i < group.unknowns; i++) {
-      x[n++] = i < group.angles ? Math.cos(state[i]) : state[i];
-      if (i < group.angles) x[n++] = Math.sin(state[i]);
-    }
-    group.run(x, group.y);
-    return group.y;
-  }
-
-  /** Closes a group from a predicted state, and says whether that is to be trusted: the first correction is small
-      beside the step that was predicted, each further one beside the one before. */
-  settle(group, lies, drives, rates, state, size) {
-    const rules = this.rules, n = group.unknowns;
-    let allowed = rules.near * size, settled = n === 0;
-    for (;;) {
-      const y = this.step(group, lies, drives, rates, state);
-      let far = 0;
-      for (let i = 0; i < n; i++) {
-        const change = Math.abs(y[i]) / (i < group.angles ? 1 : Math.max(1, Math.abs(state[i])));
-        far = change <= far ? far : change;  // not a number stays
-      }
-      if (!(far <= allowed) || Math.abs(y[2 * n]) < rules.nothing) return false;
-      for (let i = 0; i < n; i++) state[i] -= y[i];
-      if (settled || far <= rules.closed * size) return true;
-      settled = far <= rules.settled * size;
-      allowed = settled ? rules.near * size : rules.shrinking * far;
-    }
-  }
-
-  /** The knot where the drives are so, their rates being so; or the number of the group that is not to be trusted. */
-  closed(drives, rates, predicted, size) {
-    const state = Float64Array.from(predicted), rate = new Float64Array(this.unknowns);
-    const lies = new Float64Array(7 * this.data.links), determinants = new Float64Array(this.groups.length);
-    lies[2] = 1;
-    for (const [g, group] of this.groups.entries()) {
-      const n = group.unknowns, end = group.first + n;
-      if (!this.settle(group, lies, drives, rates, state.subarray(group.first, end), size)) return g;
-      rate.set(group.y.subarray(n, 2 * n), group.first);
-      determinants[g] = group.y[2 * n];
-      group.links.forEach((link, k) => lies.set(group.y.subarray(2 * n + 1 + 7 * k, 2 * n + 8 + 7 * k), 7 * link));
-    }
-    return { drives, state, rate, determinants, lies };
-  }
-
-  /** The knot at a state that closes it; where that is singular, the links as they lie in `lies`. */
-  placed(drives, rates, state, lies) {
-    const knot = this.closed(drives, rates, state, Infinity);
-    if (knot.state) return knot;
-    const determinants = Float64Array.from(this.groups, (_, g) => (g === knot ? 0 : 1));
-    return { drives, state: Float64Array.from(state), rate: new Float64Array(this.unknowns), lies, determinants };
-  }
-
-  /** The state after one step of Newton's, not guarded: the tangent, wherever the drives or the frame have gone. */
-  tangent(knot, drives) {
-    const state = Float64Array.from(knot.state), still = drives.map(() => 0), lies = Float64Array.from(knot.lies);
-    for (const group of this.groups) {
-      const n = group.unknowns;
-      const y = this.step(group, lies, drives, still, state.subarray(group.first, group.first + n));
-      for (let i = 0; i < n; i++) state[group.first + i] -= y[i];
-      group.links.forEach((link, k) => lies.set(y.subarray(2 * n + 1 + 7 * k, 2 * n + 8 + 7 * k), 7 * link));
-    }
-    return state;
-  }
-
-  /** How all links lie and move at a knot where the drives have these rates. */
-  moving(knot, rates) {
-    const lies = Float64Array.from(knot.lies);
-    for (const group of this.groups) {
-      const n = group.unknowns;
-      const y = this.step(group, lies, knot.drives, rates, knot.state.subarray(group.first, group.first + n));
-      group.links.forEach((link, k) => lies.set(y.subarray(2 * n + 1 + 7 * k, 2 * n + 8 + 7 * k), 7 * link));
-    }
-    return lies;
-  }
-
-  /** The largest change of an unknown, beside the state where that is a displacement of more than a reach. */
-  change(one, two) {
-    let most = 0;
-    for (let i = 0; i < this.unknowns; i++) {
-      const change = Math.abs(one[i] - two[i]) / (this.turns[i] ? 1 : Math.max(1, Math.abs(two[i])));
-      most = change <= most ? most : change;
-    }
-    return most;
-  }
-}
-
-/** The knots of a linkage along one way of its drives, from the first of them; `way` are the drives' travels for a unit
-    of travel, `start` the knot whose branch it is. Knots know their `travel`. */
-class Path {
-  constructor(linkage, knot, way, start, span) {
-    const { rules, data } = linkage;
-    Object.assign(this, { linkage, way, start, rules, origin: knot.drives, knots: [knot], stops: [null, null] });
-    this.zero = knot.travel;
-    const paces = way.map((pace, k) => [Math.abs(pace), data.drives[k].slides]).filter(([pace]) => pace);
-    this.pace = Math.max(0, ...paces.map(([pace, slides]) => (slides ? pace / data.reach : pace)));
-    this.longest = rules.longest * Math.min(...paces.map(([pace, slides]) => (slides ? span / (2 * Math.PI) : 1) / pace));
-    this.finest = rules.finest * this.longest;
-  }
-
-  drives(travel) {
-    return this.origin.map((from, k) => from + this.way[k] * (travel - this.zero));
-  }
-
-  /** The knot at a travel; else why not: the limit before it, with the knot there. */
-  to(travel) {
-    const knots = this.knots, found = knots.findIndex((knot) => knot.travel >= travel);
-    if (found >= 0 && knots[found].travel === travel) return { knot: knots[found] };
-    if (found > 0) {
-      const first = Math.max(0, Math.min(found - this.rules.beside / 2, knots.length - this.rules.beside));
-      const around = knots.slice(first, first + this.rules.beside);
-      const size = this.size(knots[found].travel - knots[found - 1].travel, knots[found].state, knots[found - 1].state);
-      const knot = this.closed(travel, ahead(around, travel), size);
-      if (knot) return { knot };
-    }
-    const up = found < 0 || (found > 0 && 2 * travel > knots[found].travel + knots[found - 1].travel);
-    const near = found < 0 ? knots.length - 1 : up ? found : Math.max(0, found - 1);
-    return this.walk(near, travel);
-  }
-
-  /** Walks from one of the knots. */
-  walk(near, goal) {
-    const { rules, knots } = this, start = knots[near], sense = Math.sign(goal - start.travel);
-    const stop = this.stops[sense > 0 ? 1 : 0];
-    if (stop && sense * (goal - stop.knot.travel) > 0) return stop;
-    const recent = [start];
-    let step = sense * rules.first * this.longest, last = start;
-    while (last.travel !== goal) {
-      const left = goal - last.travel;
-      if (Math.abs(left) <= Math.abs(step) + this.finest) step = left;
-      const travel = step === left ? goal : last.travel + step;
-      const predicted = ahead(recent.slice(-rules.back), travel);
-      const size = this.size(travel - last.travel, predicted, last.state);
-      const knot = this.closed(travel, predicted, size);
-      if (!knot) {
-        step /= 2;
-        if (Math.abs(step) >= this.finest) continue;
-        const found = this.stopped(recent, sense * rules.across * this.longest);
-        this.stops[sense > 0 ? 1 : 0] = found;
-        return found;
-      }
-      const missed = this.linkage.change(knot.state, predicted) / size;
-      if (missed <= rules.easy && 2 * Math.abs(step) <= this.longest) step *= 2;
-      else if (missed > rules.hard) step /= 2;
-      recent.push(knot);
-      last = knot;
-      this.keep(knot);
-    }
-    return { knot: last };
-  }
-
-  /** Where it stops: at a limit position, or at the change point through which the motion leads straight. */
-  stopped(recent, step) {
-    const last = recent[recent.length - 1], parts = this.linkage.groups.map((_, k) => k);
-    const left = (k) => Math.abs(last.determinants[k] / (recent.length > 1 ? this.start.determinants[k] : 1));
-    const before = recent.findLast((knot) => Math.abs(last.travel - knot.travel) >= Math.abs(step)) ?? recent[0];
-    const travel = last.travel + step, predicted = ahead([before], travel);
-    const size = this.size(travel - before.travel, predicted, before.state);
-    const beyond = this.linkage.closed(this.drives(travel), this.way, predicted, size);
-    const crossed = beyond.state ? parts.filter((k) => beyond.determinants[k] / before.determinants[k] <= 0) : [];
-    if (!crossed.length) {
-      const part = parts.reduce((least, k) => (left(k) < left(least) ? k : least), 0);
-      return { knot: last, travel: last.travel, part, change: false, slack: this.rules.slack * this.finest };
-    }
-    const ratio = (k) => beyond.determinants[k] / before.determinants[k];
-    const part = crossed.reduce((most, k) => (ratio(k) > ratio(most) ? k : most));
-    const there = before.travel + (travel - before.travel) / (1 - ratio(part));
-    return { knot: last, travel: there, part, change: true, slack: this.rules.across * Math.abs(step) };
-  }
-
-  /** The knot at a travel, on the branch; none where that is not certain. */
-  closed(travel, predicted, size) {
-    const knot = this.linkage.closed(this.drives(travel), this.way, predicted, size);
-    if (!knot.state) return null;
-    for (const [g, determinant] of knot.determinants.entries()) {
-      if (!(determinant / this.start.determinants[g] >= this.rules.singular)) return null;
-    }
-    knot.travel = travel;
-    return knot;
-  }
-
-  size(travel, one, two) {
-    return Math.min(1, Math.max(this.linkage.change(one, two), this.pace * Math.abs(travel)));
-  }
-
-  keep(knot) {
-    const place = this.knots.findIndex((other) => other.travel > knot.travel);
-    if (place < 0) this.knots.push(knot);
-    else this.knots.splice(place, 0, knot);
-  }
-}
-
-/** The state at a travel on the curve through these knots with their rates (Hermite, in Lagrange's form). */
-function ahead(knots, travel) {
-  const state = new Float64Array(knots[0].state.length);
-  for (const knot of knots) {
-    const away = travel - knot.travel;
-    let weight = 1, slope = 0;
-    for (const other of knots) {
-      if (other === knot) continue;
-      weight *= (travel - other.travel) / (knot.travel - other.travel);
-      slope += 2 / (knot.travel - other.travel);
-    }
-    weight *= weight;
-    for (let i = 0; i < state.length; i++) {
-      state[i] += weight * ((1 - slope * away) * knot.state[i] + away * knot.rate[i]);
-    }
-  }
-  return state;
-}
-
 /** The mechanism of a live page: where its drives are, where that puts its points, and what the construction says. */
 class Motion {
   constructor(data, tape) {
     this.data = data;
     this.tape = tape;
-    this.fixed = structuredClone(data.points);
+    this.fixed = { ...data.points };
     this.said = "";
     this._program = 0;
     if (data.linkage.still) {
@@ -261,18 +13,30 @@ class Motion {
       return;
     }
     this.linkage = new Linkage(data.linkage, tape.steps);
-    this.linkage.hold(this.fixed);
-    this.limited = data.linkage.limits;
-    const drives = data.linkage.drives.map(() => 0), way = data.linkage.drives.map((drive) => drive.pace);
-    const lies = Float64Array.from(data.linkage.bases.flatMap(([x, y]) => [x, y, 1, 0, 0, 0, 0]));
-    this.start = { ...this.linkage.placed(drives, way, new Float64Array(this.linkage.unknowns), lies), travel: 0 };
-    this.way = way;
-    this.set(new Path(this.linkage, this.start, way, this.start, this.span), { knot: this.start });
+    this.opinion = new Opinion(data, this.linkage);
+    this.way = data.linkage.drives.map((drive) => drive.pace);
+    this.reset();
   }
 
-  get span() {
-    const [from, to] = this.data.linkage.span;
-    return to - from;
+  /** The given pose, with all pins where the scene has them. */
+  reset() {
+    if (this.still) return;
+    const { bases, drives, limits, span } = this.data.linkage;
+    const lies = Float64Array.from(bases.flatMap(([x, y]) => [x, y, 1, 0, 0, 0, 0]));
+    this.fixed = { ...this.data.points };
+    this.linkage.hold(this.fixed);
+    const knot = this.linkage.placed(drives.map(() => 0), this.way, new Float64Array(this.linkage.unknowns), lies);
+    this.start = { ...knot, travel: 0 };
+    this.set(new Path(this.linkage, this.start, this.way, this.start, span[1] - span[0]), { knot: this.start });
+    this.limited = limits;
+  }
+
+  /** A new path along the drives' own way from a knot. */
+  leave(knot) {
+    const { drives, state, lies } = knot, { way, start, span } = this.path;
+    const from = { ...this.linkage.placed(drives, this.way, state, lies), travel: drives[0] };
+    this.set(new Path(this.linkage, from, this.way, start, span), { knot: from });
+    this.limited = null;
   }
 
   /** Takes a knot of a path as the pose; a knot with a part is at a limit. */
@@ -306,9 +70,9 @@ class Motion {
 
   /** The limits of the path, within a span each way. */
   searched() {
-    const path = new Path(this.linkage, this.path.knots[0], this.way, this.start, this.span);
+    const { first, start, span } = this.path, path = new Path(this.linkage, first, this.way, start, span);
     return this.data.linkage.span.map((end) => {
-      const found = path.to(path.zero + end);
+      const found = path.to(first.travel + end);
       return found.part === undefined ? null : { travel: found.travel, slack: found.slack };
     });
   }
@@ -377,9 +141,15 @@ class Motion {
     if (program < 0) program = programs.findIndex((_, k) => serves(k));
     const { values, rules, why } = tried(Math.max(0, program));
     if (program >= 0) this._program = program;
-    const singular = this.stop || !rules;
-    return { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "",
-             results: singular ? null : this.told(rules.results) };
+    const drawn = { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "" };
+    return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
+  }
+
+  /** Results with how they were found, and by how much the linkage's own opinion differs. */
+  checked(results, points, guides) {
+    const { method, steps } = this.data.programs[this._program];
+    const check = this.still ? {} : this.opinion.beside(results, this.knot, points, guides);
+    return { ...results, method, check, arithmetic: "floats", steps };
   }
 
   /** One program in this pose: the values of its marks, what the rules say, and by how much they differ. */
@@ -398,9 +168,160 @@ class Motion {
     return { values, rules, why: "", apart: apart === 0 ? 0 : apart / size };
   }
 
-  told(results) {
-    return results;
+  // ---- drags ----------------------------------------------------------------------------------------------------
+
+  /** Takes a point as near to a place as it comes: a moving one by the drives, a pin of the frame with the frame. */
+  drag(name, x, y) {
+    const { under, linkage } = this.data;
+    if (this.still) this.said = this.still;
+    else if ((under[name] ?? name) in linkage.owned) this.pull(under[name] ?? name, [x, y]);
+    else this.shift(name, [x, y]);
   }
+
+  /** Turns the drives until a moving point is as near to a place as it comes, downhill from here (Levenberg). */
+  pull(name, goal) {
+    const apart = (knot) => {
+      const [x, y] = this.at(name, knot.lies);
+      return [goal[0] - x, goal[1] - y];
+    };
+    let found = { ...this.stop, knot: this.knot, path: this.path }, left = apart(this.knot), damping = 1e-9;
+    const tried = (change) => {
+      const next = this.along(found, change), gap = apart(next.knot);
+      if (!(Math.hypot(...gap) < Math.hypot(...left))) return false;
+      [found, left] = [next, gap];
+      return true;
+    };
+    for (let round = 0; round < ROUNDS && damping < STIFF; round++) {
+      const columns = this.columns(name, found.knot);
+      const change = downhill(columns, left, damping, found.path.rules.longest);
+      if (Math.max(...change.map(Math.abs)) < found.path.rules.finest) {
+        if (round || !this.nudges().some(tried)) break;  // at a dead point either way may lead there
+      } else damping = tried(change) ? Math.max(1e-9, damping / 4) : 8 * Math.max(1e-3, damping);
+    }
+    if (found.path === this.path) this.set(found.path, found);
+    else {
+      this.leave(found.knot);
+      if (found.part !== undefined) this.set(this.path, { ...found, knot: this.knot });
+    }
+  }
+
+  /** How a point moves by each drive: for a radian, or a reach of a sliding one. */
+  columns(name, knot) {
+    const { drives, reach } = this.data.linkage;
+    return drives.map((drive, k) => {
+      const alone = drives.map((_, i) => (i !== k ? 0 : drive.slides ? reach : 1));
+      return this.rate(name, this.linkage.moving(knot, alone));
+    });
+  }
+
+  /** Small turns of each drive, either way. */
+  nudges() {
+    const size = this.linkage.rules.first * this.linkage.rules.longest;
+    return this.way.flatMap((_, k) => [size, -size].map((turn) => this.way.map((_, i) => (i === k ? turn : 0))));
+  }
+
+  /** From a knot with its path, where the drives lead that turn so far (a sliding one in reaches), or to the limit. */
+  along({ knot, path }, change) {
+    const { drives, reach } = this.data.linkage, way = change.map((turn, k) => turn * (drives[k].slides ? reach : 1));
+    if (way.length === 1) return { ...path.to(knot.travel + way[0]), path };
+    const from = { ...this.linkage.placed(knot.drives, way, knot.state, knot.lies), travel: 0 };
+    const other = new Path(this.linkage, from, way, path.start, path.span);
+    return { ...other.to(1), path: other };
+  }
+
+  /** Moves a pin of the frame towards a place as far as the linkage follows, the drives standing still. */
+  shift(name, goal) {
+    const { shared, linkage: data } = this.data, serves = (pin) => shared[pin] ?? pin;
+    if (data.locked) {
+      this.said = data.locked;
+      return;
+    }
+    const pins = Object.keys(this.fixed).filter((pin) => serves(pin) === serves(name)), from = this.fixed[name];
+    const far = Math.hypot(goal[0] - from[0], goal[1] - from[1]) / data.reach;
+    let knot = this.knot, done = 0, step = 1, part;
+    while (done < 1 && step > this.linkage.rules.finest) {
+      step = Math.min(step, 1 - done);
+      const at = from.map((start, i) => start + (goal[i] - start) * (done + step));
+      const next = this.held({ ...this.fixed, ...Object.fromEntries(pins.map((pin) => [pin, at])) }, knot, far * step);
+      if (next.state) {
+        [knot, done, step] = [next, done + step, 2 * step];
+        for (const pin of pins) this.fixed[pin] = at;
+      } else [part, step] = [next, step / 2];
+    }
+    this.linkage.hold(this.fixed);
+    this.leave(knot);
+    if (done < 1) this.set(this.path, { knot: this.knot, part, change: false });
+  }
+
+  /** The knot when the frame's points have gone a little, or the group that cannot be followed there. */
+  held(points, knot, far) {
+    const { linkage } = this, { start, rules } = this.path;
+    linkage.hold(points);
+    const predicted = linkage.tangent(knot, knot.drives), size = Math.max(linkage.change(predicted, knot.state), far);
+    const next = linkage.closed(knot.drives, this.way, predicted, size < rules.longest ? size : 0);
+    if (!next.state) return next;
+    const part = linkage.strayed(next, start);
+    return part < 0 ? next : part;
+  }
+
+  // ---- as a scene -----------------------------------------------------------------------------------------------
+
+  /** What of the scene is otherwise in this pose: all points, and the directions of guides that are given as vectors. */
+  scene() {
+    return { points: this.points(), guides: this.guides() };
+  }
+
+  /** This pose as a scene of its own, a TOML text. */
+  toml() {
+    const { points, guides } = this.scene(), scene = structuredClone(this.data.scene);
+    delete scene.vary;
+    scene.points = points;
+    for (const slide of scene.slides ?? []) slide.direction = guides[`${slide.link} along ${slide.along}`] ?? slide.direction;
+    this.data.lines.forEach((line, k) => {
+      if (line) scene.balance[k].direction = line;
+    });
+    return written(scene);
+  }
+}
+
+const ROUNDS = 100, STIFF = 1e12;  // of a pull: how many steps at most, and how stiff it becomes before it gives up
+
+/** The turns of the drives that take a point nearer by so much, none longer than the longest: damped least squares. */
+function downhill(columns, [x, y], damping, longest) {
+  const n = columns.length, size = Math.max(...columns.map(([u, v]) => u * u + v * v)) || 1;
+  const rows = columns.map(([u, v], i) => [
+    ...columns.map(([a, b], k) => u * a + v * b + (i === k ? damping * size : 0)), u * x + v * y]);
+  for (let i = 0; i < n; i++) {
+    for (let k = i + 1; k < n; k++) {
+      const part = rows[k][i] / rows[i][i];
+      for (let j = i; j <= n; j++) rows[k][j] -= part * rows[i][j];
+    }
+  }
+  const found = new Array(n).fill(0);
+  for (let i = n - 1; i >= 0; i--) {
+    found[i] = (rows[i][n] - rows[i].reduce((sum, a, j) => (j > i && j < n ? sum + a * found[j] : sum), 0)) / rows[i][i];
+  }
+  const most = Math.max(...found.map(Math.abs));
+  return most > longest ? found.map((turn) => (turn * longest) / most) : found.map((turn) => (turn === turn ? turn : 0));
+}
+
+/** Tables as TOML: plain keys first, then tables and lists of tables. */
+function written(table, above = "") {
+  const key = (name) => (/^[\w-]+$/.test(name) ? name : JSON.stringify(name));
+  const isTable = (value) => value !== null && typeof value === "object" && !Array.isArray(value);
+  const isList = (value) => Array.isArray(value) && value.length > 0 && value.every(isTable);
+  const inline = (value) => {
+    if (Array.isArray(value)) return `[${value.map(inline).join(", ")}]`;
+    if (isTable(value)) return `{ ${Object.entries(value).map(([name, part]) => `${key(name)} = ${inline(part)}`).join(", ")} }`;
+    return JSON.stringify(value);
+  };
+  const entries = Object.entries(table), whole = (value) => !above && (isTable(value) || isList(value));
+  let text = entries.filter(([, value]) => !whole(value)).map(([name, value]) => `${key(name)} = ${inline(value)}\n`).join("");
+  for (const [name, value] of entries.filter(([, value]) => whole(value))) {
+    const head = isList(value) ? `[[${key(name)}]]` : `[${key(name)}]`;
+    for (const part of isList(value) ? value : [value]) text += `\n${head}\n${written(part, name)}`;
+  }
+  return text;
 }
 
 if (typeof module !== "undefined") module.exports = { Motion };

@@ -10,6 +10,7 @@ import json
 import tomllib
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from importlib.resources import files
 from typing import Any, NamedTuple, cast
 
 from graphplan.check.forces import Forces
@@ -28,6 +29,7 @@ from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.units import inertia, metre, weight
 from graphplan.methods.construction import Construction
 from graphplan.phrases import said
 from graphplan.sheet.cycle_frames import SAME
@@ -53,11 +55,20 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
         "guides": {slide.name: [*map(float, slide.direction)] for slide in scene.slides},
         "under": under(scene), "shared": drawings[0].shared, "scene": _plain(tomllib.loads(scene.text)),
-        "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
+        "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
+        if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
     }  # fmt: skip
     tapes = {"steps": steps, "drawn": [program.drawn for program in programs],
              "rules": [program.rules for program in programs]}
     return data, "{" + ",\n".join(f"{name}: [{', '.join(texts)}]" for name, texts in tapes.items()) + "}"
+
+
+SCRIPTS = "linkage.js", "opinion.js", "motion.js"
+
+
+def script() -> str:
+    """What moves it: the classes `Linkage`, `Path`, `Opinion` and `Motion`."""
+    return "\n".join(files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
 
 
 def _plain(value: Any) -> Any:
@@ -98,15 +109,37 @@ def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     return {
         "rules": RULES, "unit": unit, "length": name, "reach": linkage.reach, "span": [*ends],
         "origin": _pair(linkage.origins[FRAME]),
-        "drives": [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change)}
+        "drives": [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
+                    "slide": scene.driven_slide(drive).name if drive.slides else ""}
                    for drive, pace in zip(scene.drives, paces(scene), strict=True)],
         "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
-        "links": len(linkage.links), "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach)
-                                               for link in linkage.links],
+        "opinion": _opinion(scene, moving), "links": len(linkage.links),
+        "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
         "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
         "anchors": list(_anchors(linkage, parts)), "limits": [_limit(path.path.lower), _limit(path.path.upper)],
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
     }, [_step(layout) for layout in layouts]  # fmt: skip
+
+
+def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
+    """What the linkage's own rates are told of, and what acts on the links: forces, and moments in force times length.
+    """
+    long, loads = float(metre(scene.units)), scene.loads
+    weigh, resist, couple = float(weight(scene.units)), float(inertia(scene.units)), float(weight(scene.units)) * long
+    pull = [weigh * float(part) for part in loads.gravity] if loads else [0.0, 0.0]
+    return {
+        "points": {name: moving[links[0]] for name, links in scene.links_of.items() if links}, "links": dict(moving),
+        "slides": [{"name": slide.name, "link": moving[slide.link], "along": moving[slide.along], "at": slide.at,
+                    "direction": [*map(float, slide.direction)], "through": slide.through} for slide in scene.slides],
+        "acting": [*({"link": moving[force.on], "at": force.at, "force": [*map(float, force.value)]}
+                     for force in (loads.forces if loads else ())),
+                   *({"link": moving[moment.on], "moment": long * float(moment.value)}
+                     for moment in (loads.moments if loads else ()))],
+        "masses": [{"link": moving[link], "at": mass.centre, "mass": resist * float(mass.mass),
+                    "inertia": couple * float(mass.inertia), "weight": [float(mass.mass) * part for part in pull]}
+                   for link, mass in (loads.masses.items() if loads else ())],
+        "metre": long,
+    }  # fmt: skip
 
 
 def _pair(z: complex, unit: float = 1.0) -> list[float]:

@@ -14,10 +14,10 @@ from graphplan import __version__
 from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
-SUBCOMMANDS = ("new", "list", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost", "handout",
-               "variants", "verify", "chart", "gallery", "schema", "completion")
-MODULES = {"list": "catalogue"}  # a module called list would hide the built-in one here
-SCENELESS = ("new", "list", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
+SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost",
+               "handout", "variants", "verify", "chart", "gallery", "schema", "completion")
+MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
+SCENELESS = ("new", "list", "import", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
 
 GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 

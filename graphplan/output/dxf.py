@@ -38,6 +38,7 @@ def dxf(sheet: Sheet) -> bytes:
         document = _Model(sheet).document
         for kind in sorted(document.entitydb.dxf_types_in_use()):  # else declared in the order of a set
             document.classes.add_class(kind)
+        text.write("".join(f"999\nscene: {line}\n" for line in sheet.scene.splitlines()))  # `import` reads these
         document.write(text)
         return bytes(document.encode(text.getvalue()))
 

@@ -62,7 +62,7 @@ class Placed(Plans):
 def loose(program: Program, values: Sequence[Any], place: Callable[[int], Panel],
           views: Mapping[str, View] = VIEWS) -> Plates:
     """A program as it is drawn, without vectors and links."""
-    scene = SimpleNamespace(title="A figure", source="", points={}, links={}, moving=(), slides=(), drives=(),
+    scene = SimpleNamespace(title="A figure", source="", text="", points={}, links={}, moving=(), slides=(), drives=(),
                             joints=(), motions={}, links_of={})  # fmt: skip
     sentences = [program.sentence(step.index) for step in program.steps]
     drawing = SimpleNamespace(scene=scene, drawn=program, values=values, arrows=(), sentences=lambda: sentences)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 import math
 import re
-from collections.abc import Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import ezdxf
 from ezdxf.filemanagement import dxf_stream_info
@@ -22,6 +22,8 @@ from graphplan.marking.files.safe import MB, TRACES, Budget, contents
 from graphplan.marking.traces import Frames, Lettering, Spot, Submission, Trace
 from graphplan.sheet.lettering.lettering import CAPS
 
+T = TypeVar("T")
+
 LARGEST = 8 * MB
 LINES, ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
 DEEPEST = 8  # blocks within each other
@@ -33,20 +35,27 @@ STEPS = 48  # spots of an ellipse
 def read_dxf(path: Path, frames: Frames, size: tuple[float, float] | None = None) -> Submission:
     """The things drawn in the model space of a DXF file; on graphplan's own sheet of this size plans lie where its
     frames say."""
-    data = _bounded(path, contents(path, LARGEST))
-    try:
-        document = _document(data)
+    def of(document: Any) -> _DxfReader:
         reader = _DxfReader(path, document)
         reader.read(document.modelspace(), 0)
         reader.endless()
+        return reader
+
+    reader = of_document(path, contents(path, LARGEST), of)
+    known = frames if reader.own and same_paper(reader.size, size) else {}
+    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
+                   reader.millimetres)
+
+
+def of_document(path: Path, data: bytes, read_out: Callable[[Any], T]) -> T:
+    """What is read from a document as ezdxf has it; fails with `Refused` where it is damaged."""
+    try:
+        return read_out(_document(_bounded(path, data)))
     except Refused:
         raise
     except Exception as error:  # whatever ezdxf stumbles over in a stranger's file
         said = " ".join(f"{type(error).__name__} {error}".split())[:80]
         raise Refused(f"{path}", f"the drawing is damaged ({said})", "save it anew") from None
-    known = frames if reader.own and same_paper(reader.size, size) else {}
-    return drawing(path, reader.traces, reader.words, known, reader.tips, reader.leaders if reader.own else None,
-                   reader.millimetres)
 
 
 def _document(data: bytes) -> Any:

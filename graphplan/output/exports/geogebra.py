@@ -117,7 +117,8 @@ LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
 SOLID, DASHED = 0, 15  # GeoGebra's types of line
 LINKS, CURVES, VECTORS, POINTS = 0, 2, 5, 8  # its layers
 NAME, CAPTION = 0, 3  # what it shows as a label
-STAMP = (1980, 1, 1, 0, 0, 0)  # of the file in the archive: a construction has no date
+STAMP = (1980, 1, 1, 0, 0, 0)  # of the files in the archive: a construction has no date
+SCENE = "scene.toml"  # what GeoGebra does not look at, and `import` reads: the scene
 
 
 def geogebra(plates: Plates) -> bytes:
@@ -125,10 +126,12 @@ def geogebra(plates: Plates) -> bytes:
     root = _GeoGebraWriter(plates).document()
     indent(root, " ")
     packed = io.BytesIO()
+    text = '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
     with zipfile.ZipFile(packed, "w", zipfile.ZIP_DEFLATED) as archive:
-        entry = zipfile.ZipInfo("geogebra.xml", STAMP)
-        entry.compress_type = zipfile.ZIP_DEFLATED
-        archive.writestr(entry, '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n")
+        for name, member in (("geogebra.xml", text), (SCENE, plates.scene.text)):
+            entry = zipfile.ZipInfo(name, STAMP)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, member)
     return packed.getvalue()
 
 

@@ -1,0 +1,44 @@
+"""Make a scene of a linkage drawn in another program: GeoGebra, DXF, Linkage or PMKS+.
+
+What a file cannot tell, such as units, speeds, or which link drives, is guessed so that the scene moves, and each
+guess is a comment in it. Coordinates are kept as the file has them. A file that graphplan exported gives back the
+scene that it was made of.
+
+formats:
+  .ggb         GeoGebra: segments and polygons are links; how points depend tells what moves
+  .dxf         lines are bars, closed polylines links, circles pins; layers `ground`, `slide`, `drive`, `link 3`
+  .linkage2    Linkage, by David Rector: connectors, links, sliders, inputs, actuators
+  .csv .pmks   PMKS and PMKS+; also a text file with the address of a linkage of PMKS+
+
+examples:
+  graphplan import crank.ggb -o crank.toml
+  graphplan import mechanism.linkage2 -o - | graphplan solve -
+  graphplan import walker.csv -o walker.toml && graphplan draw walker.toml -o walker.svg
+"""
+
+from __future__ import annotations
+
+import argparse
+
+from graphplan.commands.output import STANDARD, Messages, apart, kind, write
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("file", metavar="FILE", help="a file of GeoGebra, Linkage or PMKS+, or a DXF")
+    command.add_argument("-o", "--output", metavar="SCENE", default=STANDARD,
+                         help="the scene to write, such as scene.toml; without it standard output")
+
+
+def run(options: argparse.Namespace) -> int:
+    from pathlib import Path
+
+    from graphplan.importing.files import imported
+
+    kind(options.output, (".toml",), "scene")
+    apart(options.file, options.output)
+    text = imported(Path(options.file))
+    write(text, options.output)
+    if "\n# - " in text:
+        told = "not all could be told; comments in the scene say what is guessed"
+        Messages(options.quiet).remark(f"{options.file}: {told}")
+    return 0

@@ -1,0 +1,210 @@
+"""Linkages drawn in DXF: lines are bars, polylines rigid links, circles pins, and ends that meet are joints.
+
+Layers and blocks tell more by their names: what is on `ground` or `frame` is fixed, what is on `slide` or `guide` are
+lines along which pins slide, what is on `drive`, `crank` or `input` drives, and all that is on a layer `link 3` is one
+link. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS).
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from graphplan.errors import Refused
+from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.marking.files.dxf import DEEPEST, of_document
+from graphplan.marking.files.safe import Budget, on_paper
+from graphplan.mechanism.model import FRAME
+
+GROUND = re.compile(r"ground|frame|fixed|base|gestell|support|pivot", re.IGNORECASE)
+GUIDES = re.compile(r"slide|guide|slot", re.IGNORECASE)
+DRIVES = re.compile(r"drive|crank|input|motor", re.IGNORECASE)
+LINK = re.compile(r"link[ _-]*(\S+)", re.IGNORECASE)
+OTHER = re.compile(r"dim|text|title|border|hidden|defpoints|hatch|cent(re|er)", re.IGNORECASE)
+NEAR = 2e-4  # of the drawing: ends that are so near are one joint
+PIN = 0.06  # of the drawing: a larger circle is no pin
+BESIDE = 2.5  # heights of letters from a pin to its name
+UNITS = {1: "in", 2: "ft", 4: "mm", 5: "cm", 6: "m"}  # of $INSUNITS
+THINGS = 4000
+
+
+def read(path: Path, data: bytes) -> Sketch:
+    """The linkage of a file."""
+    return of_document(path, data, lambda document: _Drawing(path, document).sketch())
+
+
+@dataclass
+class _Shape:
+    """A link as it is drawn, and the layer it is on."""
+
+    corners: list[complex]
+    layer: str
+    closed: bool = False
+
+
+@dataclass
+class _Pin:
+    at: complex
+    radius: float
+    layer: str
+
+
+@dataclass
+class _Drawing:
+    """What is drawn, and then the sketch of it."""
+
+    path: Path
+    document: Any
+    shapes: list[_Shape] = field(default_factory=list)
+    pins: list[_Pin] = field(default_factory=list)
+    texts: list[tuple[complex, float, str]] = field(default_factory=list)
+    left: dict[str, int] = field(default_factory=dict)
+    joints: list[complex] = field(default_factory=list)
+
+    def sketch(self) -> Sketch:
+        """Its sketch: joints, links, slides, what is fixed and what drives."""
+        self.budget = Budget(self.path, THINGS, "lines, circles and texts")
+        self.hidden = {layer.dxf.name for layer in self.document.layers if layer.is_off() or layer.is_frozen()}
+        self._read(self.document.modelspace(), 0, "")
+        spots = [corner for shape in self.shapes for corner in shape.corners] + [pin.at for pin in self.pins]
+        if not all(on_paper(spot.real, spot.imag) for spot in spots):
+            raise Refused(f"{self.path}", "a line lies too far away", "coordinates below a million")
+        self.size = max((max(part) - min(part) for part in ([spot.real for spot in spots],
+                                                            [spot.imag for spot in spots]) if part), default=0.0) or 1.0
+        big = [pin for pin in self.pins if pin.radius > PIN * self.size]
+        self.pins = [pin for pin in self.pins if pin not in big]
+        found = Sketch("DXF", length=UNITS.get(self.document.units, ""))
+        if not found.length:
+            found.note("the unit of length: the drawing states none that a scene has, mm is a guess")
+        for what, count in [*self.left.items(), *([("large circles", len(big))] if big else [])]:
+            found.note(f"{count} {what}: left out")
+        self._links(found)
+        self._named(found)
+        return found
+
+    def _read(self, entities: Iterable[Any], depth: int, within: str) -> None:
+        """Lines, polylines, circles and texts, those of blocks among them."""
+        for entity in entities:
+            self.budget.spend()
+            layer = entity.dxf.get("layer", "0")
+            layer = within if layer == "0" and within else layer
+            if layer in self.hidden or entity.dxf.get("invisible", 0):
+                continue
+            match entity.dxftype():
+                case "INSERT" if depth < DEEPEST:
+                    if GROUND.search(entity.dxf.name):
+                        self.pins.append(_Pin(_spot(entity.dxf.insert), 0.0, "ground"))
+                    else:
+                        self._read(entity.virtual_entities(), depth + 1, layer)
+                case "TEXT" | "MTEXT" | "ATTRIB":
+                    high = entity.dxf.char_height if entity.dxftype() == "MTEXT" else entity.dxf.height
+                    self.texts.append((_spot(entity.dxf.insert), high, entity.plain_text().strip()))
+                case "CIRCLE":
+                    self.pins.append(_Pin(_spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius, layer))
+                case "POINT":
+                    self.pins.append(_Pin(_spot(entity.dxf.location), 0.0, layer))
+                case "LINE" | "LWPOLYLINE" | "POLYLINE" if not OTHER.search(layer):
+                    corners = _corners(entity)
+                    self.budget.spend(len(corners))
+                    if len({*corners}) > 1:
+                        self.shapes.append(_Shape(corners, layer, getattr(entity, "is_closed", False)))
+                case "ARC" | "SPLINE" | "ELLIPSE" as kind:
+                    self.left[f"{kind.lower()}s"] = self.left.get(f"{kind.lower()}s", 0) + 1
+
+    # ---- joints and links ------------------------------------------------------------------------------------------
+
+    def _joint(self, spot: complex) -> str:
+        """The joint at a place: that of the pin whose circle it touches, else the nearest; a new one where none is."""
+        pin = next((pin for pin in self.pins if abs(pin.at - spot) <= 1.02 * pin.radius + NEAR * self.size), None)
+        at = spot if pin is None else pin.at
+        for place, joint in enumerate(self.joints):
+            if abs(joint - at) <= NEAR * self.size:
+                return str(place)
+        self.joints.append(at)
+        return str(len(self.joints) - 1)
+
+    def _links(self, found: Sketch) -> None:
+        """Links by shapes and by layers, then pins that lie on them; guides are lines of slides, and drive nothing."""
+        bars = [shape for shape in self.shapes if not GUIDES.search(shape.layer)]
+        for shape in bars:
+            points = [self._put(found, corner) for corner in shape.corners]
+            name = LINK.fullmatch(shape.layer.strip())
+            if GROUND.search(shape.layer):
+                found.fixed |= dict.fromkeys(points)
+            elif name and shape.layer in found.links:
+                found.links[shape.layer] = [*dict.fromkeys([*found.links[shape.layer], *points])]
+            else:
+                link = found.link(points, shape.layer if name else "", name[1] if name else "")
+                if DRIVES.search(shape.layer):
+                    told = f"It is on the layer {shape.layer}; its speed is a guess."
+                    found.drives.append(Driven(link, "omega = 1", told))
+        for pin in self.pins:
+            self._pinned(found, pin, bars)
+        for shape in self.shapes:
+            if GUIDES.search(shape.layer):
+                self._guide(found, shape.corners)
+
+    def _put(self, found: Sketch, spot: complex) -> str:
+        key = self._joint(spot)
+        return key if key in found.places else found.point(key, self.joints[int(key)])
+
+    def _pinned(self, found: Sketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
+        """A pin on the way of a bar is a joint of it, one on the ground is fixed."""
+        on = [shape for shape in bars if any(_beside(pin.at, *side) <= NEAR * self.size for side in _sides(shape))]
+        if on:
+            key = self._put(found, pin.at)
+            for shape in on:
+                corners = {self._joint(corner) for corner in shape.corners}
+                for points in found.links.values():
+                    if corners <= {*points} and key not in points:
+                        points.append(key)
+        if GROUND.search(pin.layer) and (key := self._joint(pin.at)) in found.places:
+            found.fixed[key] = None
+
+    def _guide(self, found: Sketch, corners: Sequence[complex]) -> None:
+        """The pins on a guide slide along it; it is of the link that has both its ends, else of the frame."""
+        start, end = corners[0], corners[-1]
+        ends = [key for key, at in found.places.items() if min(abs(at - start), abs(at - end)) <= NEAR * self.size]
+        along = next((link for link, points in found.links.items() if len(ends) == 2 and {*ends} <= {*points}), FRAME)
+        way = (end - start) / abs(end - start)
+        for key, at in found.places.items():
+            if _beside(at, start, end) <= NEAR * self.size and key not in found.fixed and (
+                    along == FRAME or key not in found.links[along]):
+                found.slots.append(Slot(key, along, way))
+
+    def _named(self, found: Sketch) -> None:
+        """Names by the texts beside the joints."""
+        for key, at in found.places.items():
+            near = [(abs(spot - at), text) for spot, high, text in self.texts
+                    if abs(spot - at) <= BESIDE * high + PIN * self.size and re.fullmatch(r"\S{1,6}", text)]
+            found.names[key] = min(near)[1] if near else ""
+
+
+def _spot(vector: Any) -> complex:
+    return complex(vector[0], vector[1])
+
+
+def _corners(entity: Any) -> list[complex]:
+    """The corners of a line or a polyline; a closed one does not name its first again."""
+    if entity.dxftype() == "LINE":
+        return [_spot(entity.dxf.start), _spot(entity.dxf.end)]
+    if entity.dxftype() == "LWPOLYLINE":
+        return [*map(_spot, entity.vertices_in_wcs())]
+    return [_spot(vertex.dxf.location) for vertex in entity.vertices]
+
+
+def _sides(shape: _Shape) -> Iterator[tuple[complex, complex]]:
+    yield from pairwise([*shape.corners, *shape.corners[:shape.closed]])
+
+
+def _beside(at: complex, start: complex, end: complex) -> float:
+    """How far a place is from a stroke."""
+    way = end - start
+    if not way:
+        return abs(at - start)
+    part = ((at - start) * way.conjugate()).real / abs(way) ** 2
+    return abs(at - start - min(max(part, 0.0), 1.0) * way)

@@ -1,0 +1,264 @@
+"""Linkages drawn in GeoGebra (.ggb): segments and polygons are links, and how points depend tells what moves.
+
+| drawn                                                | read as                                                      |
+|------------------------------------------------------|--------------------------------------------------------------|
+| a segment, a polyline, a polygon between points      | a bar, bars, a rigid link                                    |
+| a point where a circle of given radius is crossed    | a point of one link with the centre                          |
+| a point on a circle, or turned by an angle's slider  | the pin of a crank, which drives                             |
+| a point on a line that stands still                  | a slide on the frame; a free one drives                      |
+| a point where a line through two points is crossed   | a slide along the link of the two                            |
+| a point on a segment, a midpoint, a constant turn    | a point of that link                                         |
+| free points, where others move; points made fixed    | the frame                                                    |
+
+GeoGebra knows no speeds. Values and dependences are read as they are for drawings that are handed in.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+from typing import Any
+
+from graphplan.importing.sketch import Driven, Sketch, Slot
+from graphplan.marking.files.constructions import CAPTION, LINES, NAME, Objects, Vector, of_construction, seen
+from graphplan.mechanism.model import FRAME
+
+AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
+RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
+TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
+FOLLOWED = 200  # objects on which one depends, one after another
+GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
+
+
+def read(path: Path, data: bytes) -> Sketch:
+    """The linkage of a file."""
+    return of_construction(path, data, lambda objects: _Drawing(objects).sketch)
+
+
+class _Drawing:
+    """Reads the objects, link by link and then point by point."""
+
+    def __init__(self, objects: Objects):
+        self.objects = objects
+        self.moves = cache(self._moves)
+        self.points = {label for label, element in objects.elements.items()
+                       if element.get("type") == "point" and isinstance(objects.values.get(label), complex)}
+        self.driving = {*self._driving()}
+        self.sketch = Sketch("GeoGebra")
+        self.sketch.note("the unit of length: a unit of GeoGebra's plane is read as mm")
+        own = any(label.startswith("stroke_") for label in objects.elements)
+        for ends in self._links(own):
+            self._used(*ends)
+            self.sketch.link(ends)
+        for label in [*self.sketch.places]:
+            self._bound(label)
+        for label in sorted(self.points - self.sketch.places.keys()):
+            self._carried(label)
+        self._frame()
+
+    def _used(self, *labels: str) -> None:
+        for label in labels:
+            if label not in self.sketch.places:
+                self.sketch.point(label, self.objects.values[label], self._name(label))
+
+    def _name(self, label: str) -> str:
+        element = self.objects.elements[label]
+        mode, caption = element.find("labelMode"), element.find("caption")
+        shown = caption is not None and mode is not None and mode.get("val") == CAPTION
+        return caption.get("val", "") or label if shown and caption is not None else label
+
+    # ---- what moves ------------------------------------------------------------------------------------------------
+
+    def _needs(self, label: str) -> set[str]:
+        """The objects that one is made of."""
+        _, inputs, _ = self.objects.commands.get(label, ("", [], 0))
+        texts = [*inputs, self.objects.terms.get(label, "")]
+        return {name for text in texts for name in re.findall(NAME, text) if name in self.objects.elements} - {label}
+
+    def _free(self, label: str) -> bool:
+        term = self.objects.terms.get(label, "")
+        return label not in self.objects.commands and not any(name in self.objects.elements for name in
+                                                              re.findall(NAME, term))
+
+    def _driving(self) -> Iterator[str]:
+        """The free numbers that turn something, or are animated."""
+        turned = [inputs[1] for name, inputs, _ in self.objects.commands.values() if name == "Rotate" and inputs[1:]]
+        turned += ["".join(found) for term in self.objects.terms.values() for found in TURNED.findall(term)]
+        turning = {name for text in turned for name in re.findall(NAME, text)}
+        for label, element in self.objects.elements.items():
+            if element.get("type") in ("numeric", "angle") and self._free(label):
+                animated = element.find("animation")
+                playing = animated is not None and animated.get("playing") == "true"
+                if label in turning or playing:
+                    yield label
+
+    def _moves(self, label: str, depth: int = 0) -> bool:
+        """Whether a driving number, or a point that runs on something, makes an object move."""
+        if label in self.driving or depth > FOLLOWED:
+            return label in self.driving
+        command, _, _ = self.objects.commands.get(label, ("", [], 0))
+        return command in ("Point", "PointIn") or any(self._moves_on(name, depth) for name in self._needs(label))
+
+    def _moves_on(self, name: str, depth: int) -> bool:
+        return self.moves(name, depth + 1)
+
+    # ---- links -----------------------------------------------------------------------------------------------------
+
+    def _links(self, own: bool) -> Iterator[list[str]]:
+        """The points of each link that is drawn; on graphplan's own files links are on the lowest layer."""
+        left = 0
+        for label, element in self.objects.elements.items():
+            command, inputs, place = self.objects.commands.get(label, ("", [], 0))
+            layer = element.find("layer")
+            strange = own and (layer is None or layer.get("val") != "0")
+            if command not in ("Segment", "Polygon", "PolyLine", "Polyline") or place or not seen(element) or strange:
+                continue
+            corners = [name for name in inputs if name in self.points]
+            if len(corners) < len(inputs) or len(corners) < 2:
+                left += not own
+            elif command in ("PolyLine", "Polyline"):
+                yield from ([*pair] for pair in pairwise(corners))
+            else:
+                yield corners
+        if left:
+            self.sketch.note(f"{left} segments or polygons whose ends are no points of their own: left out")
+
+    def _bound(self, label: str) -> None:
+        """What holds a point of a link: circles, lines, turns."""
+        command, inputs, _ = self.objects.commands.get(label, ("", [], 0))
+        if command == "Intersect":
+            self._crossed(label, inputs[:2])
+        elif command in ("Point", "PointIn") and inputs:
+            self._on(label, inputs[0])
+        elif command == "Rotate" and len(inputs) == 3 and {inputs[0], inputs[2]} <= self.points:
+            self._turned(label, *inputs)
+        elif term := self.objects.terms.get(label, ""):
+            self._written(label, term)
+
+    def _crossed(self, label: str, inputs: list[str]) -> None:
+        lines = [name for name in inputs if self._is_line(name)]
+        for centre in map(self._centre, inputs):
+            if centre is None:
+                continue
+            self._bar(centre, label)
+            through = {*self._ends(next((line for line in lines), ""))} - {centre, label}
+            if lines and centre in self._ends(lines[0]) and through:
+                self._pointed(centre, label, through.pop())
+                lines = []
+        for line in lines:
+            self._guided(label, line)
+
+    def _pointed(self, centre: str, label: str, other: str) -> None:
+        """A link that points where another point is: that slides on it, or is a handle that drives it."""
+        if self.moves(other) or other in self.sketch.places:
+            self._used(other)
+            link = next(link for link, points in self.sketch.links.items() if {centre, label} <= {*points})
+            self.sketch.slots.append(Slot(other, link, (centre, label)))
+        else:
+            self._drive(centre, label)
+
+    def _on(self, label: str, path: str) -> None:
+        """A point that runs on something: a crank's pin, a slide, or a point of a bar that moves."""
+        centre, ends = self._centre(path), self._ends(path)
+        if centre is not None:
+            self._bar(centre, label)
+            self._drive(centre, label)
+        elif len(ends) == 2 and self.moves(path):
+            self._bar(*ends, label)
+        elif self._is_line(path):
+            self._guided(label, path)
+            self.sketch.note(f"{self.sketch.names[label]} is free on a line: a drive, if nothing else drives")
+
+    def _turned(self, label: str, point: str, angle: str, centre: str) -> None:
+        if any(self.moves(name) for name in re.findall(NAME, angle) if name in self.objects.elements):
+            self._bar(centre, label)
+            if not self.moves(point):
+                self._drive(centre, label)
+        elif self.moves(point) or self.moves(centre):
+            self._bar(centre, point, label)
+
+    def _written(self, label: str, term: str) -> None:
+        """An expression with a driving number, from one point that stands still: the pin of a crank."""
+        needs = self._needs(label)
+        pivots = [name for name in needs & self.points if not self.moves(name)]
+        turned = {name for found in TURNED.findall(term) for name in re.findall(NAME, "".join(found))}
+        if len(pivots) == 1 and len(needs & self.points) == 1 and any(self.moves(name) for name in turned & needs):
+            self._bar(pivots[0], label)
+            self._drive(pivots[0], label)
+        elif turned & self.driving:
+            partners = [other for points in self.sketch.links.values() if label in points for other in points
+                        if not self.moves(other)]
+            if partners:
+                self._drive(partners[0], label)
+
+    def _carried(self, label: str) -> None:
+        """A point that is seen, and made of points of one link alone, is one of that link."""
+        command, inputs, _ = self.objects.commands.get(label, ("", [], 0))
+        on = command in ("Point", "PointIn") and len(inputs) == 1
+        of = [*self._ends(inputs[0])] if on else [name for name in inputs if name in self.points]
+        if not (seen(self.objects.elements[label]) and (on or command in RIGID) and len(of) > 1):
+            return
+        if any(self.moves(name) for name in self._needs(label) - self.points) and not on:
+            return
+        if link := next((key for key, points in self.sketch.links.items() if {*of} <= {*points}), ""):
+            self._used(label)
+            self.sketch.links[link].append(label)
+
+    # ---- circles and lines -----------------------------------------------------------------------------------------
+
+    def _centre(self, circle: str) -> str | None:
+        """The centre of a circle whose radius is given, or the distance of points that stand still."""
+        command, inputs, _ = self.objects.commands.get(circle, ("", [], 0))
+        if command != "Circle" or len(inputs) != 2 or inputs[0] not in self.points:
+            return None
+        radius = {name for name in re.findall(NAME, inputs[1]) if name in self.objects.elements}
+        return None if any(self.moves(name) for name in radius) else inputs[0]
+
+    def _is_line(self, name: str) -> bool:
+        element = self.objects.elements.get(name)
+        return name in AXES or (element is not None and element.get("type") in LINES)
+
+    def _ends(self, line: str) -> tuple[str, ...]:
+        """The two points by which a line is drawn, if it is."""
+        command, inputs, _ = self.objects.commands.get(line, ("", [], 0))
+        ends = tuple(name for name in inputs if name in self.points)
+        return ends if command in ("Line", "Segment", "Ray") and len(ends) == len(inputs) == 2 else ()
+
+    def _guided(self, label: str, line: str) -> None:
+        """A slide along a line."""
+        value: Any = self.objects.values.get(line)
+        ends, along = self._ends(line), AXES.get(line, getattr(value, "along", None))
+        if along is not None and not isinstance(value, Vector) and not self.moves(line):
+            self.sketch.slots.append(Slot(label, FRAME, along / abs(along)))
+        elif len(ends) == 2:
+            self._bar(*ends)
+            link = next(link for link, points in self.sketch.links.items() if {*ends} <= {*points})
+            self.sketch.slots.append(Slot(label, link, (ends[0], ends[1])))
+        else:
+            self.sketch.note(f"{self.sketch.names[label]} lies on the line {line}, which moves: left out")
+
+    def _bar(self, *points: str) -> None:
+        """A link of points, where none has them all."""
+        self._used(*points)
+        if not any({*points} <= {*held} for held in self.sketch.links.values()):
+            self.sketch.link(points)
+
+    def _drive(self, centre: str, pin: str) -> None:
+        self.sketch.drives.append(Driven((centre, pin), "omega = 1", GUESS.format(unit="rad/s")))
+
+    def _frame(self) -> None:
+        """Points that are made fixed; where anything moves also all that do not."""
+        moving = any(self.moves(label) for label in self.sketch.places)
+        for label in self.sketch.places:
+            flag = self.objects.elements[label].find("fixed")
+            made = flag is not None and flag.get("val") == "true" and self._free(label)
+            if made or ((moving or bool(self.sketch.drives)) and not self.moves(label) and not self._hangs(label)):
+                self.sketch.fixed[label] = None
+
+    def _hangs(self, label: str) -> bool:
+        """Whether a point that does not move by itself is led by a handle."""
+        led = {point for drive in self.sketch.drives if isinstance(drive.link, tuple) for point in drive.link[1:]}
+        return label in led or any(name in led or self._hangs(name) for name in self._needs(label))

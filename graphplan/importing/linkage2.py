@@ -1,0 +1,138 @@
+"""Mechanisms of the program Linkage (.linkage2): connectors, links, slots, inputs, actuators.
+
+A connector that is an anchor is fixed; one that is an input turns its links by its rpm, clockwise positive. A slider
+runs between two others, which are of one link, or anchors. An actuator is a link of two connectors whose length
+grows and shrinks by its throw, cpm times a minute. Coordinates are in units of the program's own, 96 to an inch on
+its screen, y upwards. What is on the drawing layer moves nothing.
+
+Source: D. Rector's Linkage, its reader and writer of files (`CLinkageDoc`) and its simulator.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+from xml.etree.ElementTree import Element
+
+from graphplan.errors import Refused
+from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
+from graphplan.importing.written import number
+from graphplan.marking.files.safe import number as read_number
+from graphplan.marking.files.safe import tree
+from graphplan.mechanism.model import FRAME
+
+DRAWING = 0xF  # the layers of what only is drawn
+LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz"
+STROKES = 30  # an actuator makes its throw twice in a cycle
+
+
+def read(path: Path, data: bytes) -> Sketch:
+    """The linkage of a file."""
+    root = tree(path, data)
+    if root.tag != "linkage2":
+        raise Refused(f"{path}", "this is no file of the program Linkage", "a file that it saved, .linkage2")
+    try:
+        return _Linkage(root).sketch
+    except ValueError as error:
+        raise Refused(f"{path}", f"the file is damaged ({error})", "save it anew") from None
+
+
+class _Linkage:
+    def __init__(self, root: Element):
+        self.sketch = Sketch("Linkage")
+        self.sketch.note("the unit of length: the file's own units, 96 to an inch on Linkage's screen, are read as mm")
+        connectors = {connector.get("id", ""): connector for connector in root.iter("connector") if "x" in
+                      connector.attrib and _moves(connector)}
+        for key, connector in connectors.items():
+            self.connector(key, connector)
+        gears = 0
+        for link in root:
+            if link.tag in ("Link", "element") and _moves(link):
+                gears += _true(link, "gear")
+                self.link(link)
+        for key, connector in connectors.items():
+            if _true(connector, "slider"):
+                self.slider(key, connector)
+            if _true(connector, "input"):
+                self.turned(key, connector)
+        if gears:
+            self.sketch.note(f"{gears} gears or chain wheels were left out")
+        for ratio in root.iter("ratio"):
+            sizes = " : ".join(wheel.get("size", "?") for wheel in ratio)
+            wheels = " and ".join(wheel.get("id", "?") for wheel in ratio)
+            self.sketch.note(f"{ratio.get('type', 'gears')} between the links of id {wheels}, sizes {sizes}: left out")
+
+    def connector(self, key: str, connector: Element) -> None:
+        at = complex(read_number(connector.get("x", "")), read_number(connector.get("y", "")))
+        self.sketch.point(key, at, connector.get("name", "").strip() or _letter(key))
+        if _true(connector, "anchor"):
+            self.sketch.fixed[key] = None
+
+    def link(self, link: Element) -> None:
+        points = [point for point in (part.get("id", "") for part in link if part.tag == "connector")
+                  if point in self.sketch.places]
+        name = link.get("name", "").strip()
+        if _true(link, "gear") or not points:
+            return
+        if _true(link, "actuator") and len(points) == 2:
+            self.actuator(link, points, name)
+        else:
+            self.sketch.link(points, name=name)
+
+    def actuator(self, link: Element, points: list[str], name: str) -> None:
+        """A barrel and a rod that slides in it."""
+        sketch, (start, end) = self.sketch, points
+        barrel = sketch.link([start], name=f"{name} barrel" if name else "")
+        rod = sketch.link([end], name=f"{name} rod" if name else "")
+        sketch.guides.append(Guide(rod, barrel, end, (start, end)))
+        throw, cycles = (read_number(link.get(what, "0") or "0") for what in ("throw", "cpm"))
+        speed = throw * cycles / STROKES
+        told = f"An actuator: throw {number(throw)}, {number(cycles)} cycles a minute, here at the speed of its stroke."
+        if not speed:
+            told, speed = "An actuator; its speed is a guess.", 1.0
+        sketch.drives.append(Driven(rod, f"speed = {number(speed)}", told, barrel, True))
+
+    def slider(self, key: str, connector: Element) -> None:
+        limits = [limit.get("id", "") for limit in connector if limit.tag == "slidelimit"]
+        sketch = self.sketch
+        name = sketch.names[key]
+        if len(limits) != 2 or not {*limits} <= sketch.places.keys() or limits[0] == limits[1]:
+            return sketch.note(f"{name} slides, but the file does not tell along what: left out")
+        if read_number(connector.get("slideradius", "0") or "0"):
+            return sketch.note(f"{name} slides in a curved slot, of radius {connector.get('slideradius')}: left out")
+        along = next((link for link, points in sketch.links.items() if {*limits} <= {*points}), FRAME)
+        if along == FRAME and not {*limits} <= sketch.fixed.keys():
+            return sketch.note(f"{name} slides between connectors that are on no one link: left out")
+        return sketch.slots.append(Slot(key, along, (limits[0], limits[1])))
+
+    def turned(self, key: str, connector: Element) -> None:
+        """An anchored input turns each of its links."""
+        sketch, written = self.sketch, connector.get("rpm", "")
+        links = [link for link, points in sketch.links.items() if key in points and len(points) > 1]
+        if not _true(connector, "anchor"):
+            return sketch.note(f"{sketch.names[key]} is an input that is no anchor, rpm {written}: left out")
+        speed = -read_number(written) if written else 0.0
+        told = "" if speed else "The file tells no speed: 1 rad/s is a guess."
+        rate = f"rpm = {number(speed)}" if speed else "omega = 1"
+        return sketch.drives.extend(_driven(links, rate, told))
+
+
+def _driven(links: list[str], rate: str, told: str) -> Iterator[Driven]:
+    yield from (Driven(link, rate, told) for link in links)
+
+
+def _true(element: Element, name: str) -> bool:
+    return element.get(name) == "true"
+
+
+def _moves(element: Element) -> bool:
+    """Whether it is on a layer of the mechanism, and measures nothing."""
+    layer = element.get("layer", "")
+    drawn = layer.isdecimal() and 0 < int(layer[:9]) <= DRAWING
+    return not drawn and not _true(element, "measurementelement")
+
+
+def _letter(key: str) -> str:
+    """The letter by which Linkage shows a connector without a name."""
+    place = int(key) if key.isdecimal() and len(key) < 7 else 0
+    return LETTERS[place % 52] + (str(place // 52) if place >= 52 else "")

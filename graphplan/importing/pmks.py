@@ -1,0 +1,358 @@
+"""Linkages of PMKS and PMKS+: files, and the addresses that the programs keep them in.
+
+| form                          | what it looks like                                                   |
+|-------------------------------|----------------------------------------------------------------------|
+| PMKS text                     | `mech=`, a line for each joint: its links, its type, x, y, angle     |
+| PMKS file (.pmks)             | JSON with `Joints`                                                   |
+| PMKS+ table (.csv) or address | `joints`, `links`, `settings`; `?j=...&l=...&s=...`                  |
+| PMKS+ short address           | `?0P.TY.K,0.101.MA,A,0mv,0VU,0.` in letters of base 64, then a check |
+| PMKS+ of 2025                 | `--- j ---` in tables; `?data=...` packed JSON                       |
+
+Joints are revolute (R), sliding (P: along the ground, or along the first of their links), or pins in a slot of the
+first of their links (RP). A piston of PMKS+ is a link of a revolute joint and a sliding one in the same place.
+
+Sources: M. Campbell, PMKS file format 1.0 (2019), and the joints of PMKS; PMKS+, its writers and readers of addresses
+and tables (2022, 2023, 2025).
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+import math
+import re
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+from urllib.parse import unquote
+
+from graphplan.errors import Refused
+from graphplan.importing.packed import unpacked
+from graphplan.importing.sketch import Driven, Guide, Sketch, Slot
+from graphplan.importing.written import number as shown
+from graphplan.marking.files.safe import Budget, number
+from graphplan.mechanism.model import FRAME
+
+MOST = 2_000_000  # characters of what an address unpacks to
+JOINTS = 2000
+ADDRESS = re.compile(r"https?://[^\s?]*\?(\S+)")
+STARTS = re.compile(r"^---\s*\w+\s*---|^joints\b|^mech\s*=|^\s*[\w ]+,[\w ]+,\s*(R|P|RP)\s*,", re.MULTILINE)
+DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"
+UNITS = {"in": "in", "inch": "in", "cm": "cm", "centimeter": "cm", "m": "m", "meter": "m", "mm": "mm"}
+LENGTHS = ("in", "cm", "m", "")  # in the short address, by their place
+SAME = 1e-6  # of the places of a piston's two joints
+
+
+@dataclass
+class Joint:
+    """A joint as any of the forms has it; angles in radians."""
+
+    key: str
+    name: str
+    at: complex
+    kind: str
+    links: list[str]
+    angle: float = 0.0
+    ground: bool = False
+    input: bool = False
+    rpm: float | None = None
+    welded: bool = False
+
+
+@dataclass
+class Read:
+    """What a file says: joints, links that are welded together, the speed of all inputs, and the unit of length."""
+
+    joints: list[Joint]
+    welds: Sequence[Sequence[str]] = ()
+    rate: str = ""
+    unit: str = ""
+    title: str = ""
+
+
+def knows(text: str) -> bool:
+    """Whether a text looks like one of the forms."""
+    start = text.lstrip()[:2000]
+    address = start[:1] != "<" and ADDRESS.search(text)
+    return bool(address or STARTS.search(start) or (start[:1] == "{" and '"Joints"' in text))
+
+
+def read(path: Path, text: str) -> Sketch:
+    """The linkage of a file.
+
+    Fails with `Refused` where it is damaged.
+    """
+    try:
+        found = _read(text)
+        Budget(path, JOINTS, "joints").spend(len(found.joints))
+        return _sketch(found)
+    except (ValueError, IndexError, KeyError, TypeError, AttributeError, csv.Error, RecursionError) as error:
+        told = " ".join(str(error).split())[:80]
+        raise Refused(f"{path}", f"this is no whole linkage of PMKS ({told})", "save or copy it anew") from None
+
+
+def _read(text: str) -> Read:
+    if address := ADDRESS.search(text):
+        query = unquote(address[1])
+        if query.startswith("data="):
+            return _packed(query[len("data=") :])
+        return _long_address(query) if re.search(r"(^|&)j=", query) else _short(query)
+    start = text.lstrip()
+    if start.startswith("{"):
+        return _file(json.loads(text))
+    if start.startswith("---"):
+        return _sections(text)
+    return _tables(text) if start.startswith("joints") else _lines(text)
+
+
+# ---- PMKS ------------------------------------------------------------------------------------------------------------
+
+
+def _file(data: Any) -> Read:
+    """A .pmks file: JSON; the driving joint is between two links, or the first that has the ground."""
+    driving = int(data.get("DrivingIndex", 0))
+    joints = [Joint(str(place), str(joint.get("Name", "")), complex(float(joint["X"]), float(joint["Y"])),
+                    str(joint["TypeOfJoint"]).upper(), [str(link) for link in joint["Links"]],
+                    float(joint.get("Angle") or 0), input=place == driving)
+              for place, joint in enumerate(data["Joints"])]
+    return Read(joints, rate=f"omega = {shown(float(data.get('InputSpeed', 0)))}", title=str(data.get("Name", "")))
+
+
+def _lines(text: str) -> Read:
+    """The text of PMKS: a joint a line, or between bars."""
+    found, speed, title, driving = Read([]), "", "", -1
+    for line in re.split(r"[\n|]", text):
+        key, equals, value = line.partition("=")
+        if equals:
+            speed, title = (value.strip(), title) if key.strip() == "s" else (speed, value.strip() if key.strip() ==
+                                                                             "name" else title)
+            driving = int(value) if key.strip() == "d" else driving
+        elif words := [word for word in re.split(r"[,\s]+", line.strip()) if word]:
+            kind = next(place for place, word in enumerate(words) if word.upper() in ("R", "P", "RP", "G"))
+            numbers = [float(number(word)) for word in words[kind + 1 : kind + 4] if not word.isalpha()]
+            shows = words[-1] if re.fullmatch("[tf]{1,4}", words[-1]) else ""
+            found.joints.append(Joint(str(len(found.joints)), "", complex(numbers[0], numbers[1]), words[kind].upper(),
+                                      words[:kind], numbers[2] if len(numbers) > 2 else 0.0,
+                                      input=shows[3:] == "t"))
+    if not any(joint.input for joint in found.joints):
+        found.joints[max(driving, 0)].input = driving >= 0
+    return Read(found.joints, rate=f"omega = {shown(number(speed))}" if speed else "", title=title)
+
+
+# ---- PMKS+, 2022: tables and long addresses --------------------------------------------------------------------------
+
+
+def _tables(text: str) -> Read:
+    rows: dict[str, list[list[str]]] = {}
+    section, heads = "", False
+    for row in csv.reader(text.splitlines()):
+        if len([part for part in row if part]) == 1:
+            section, heads = row[0].strip(), True
+        elif heads:
+            heads = False
+        elif row:
+            rows.setdefault(section, []).append(row)
+    return _rows(rows["joints"], ",", (rows.get("settings") or [[]])[0])
+
+
+def _long_address(query: str) -> Read:
+    parts = dict(part.split("=", 1) for part in re.split(r"&(?=[jlfs]|pp|tp)", query) if "=" in part)
+    rows = [line.split(",") for line in parts["j"].split("\n") if line.strip()]
+    return _rows(rows, "|", parts.get("s", "").strip().split(","))
+
+
+def _rows(rows: Sequence[Sequence[str]], between: str, settings: Sequence[str]) -> Read:
+    """Joints: id, x, y, links, type, ground, angle, (friction,) input; settings: speed, clockwise, gravity, unit."""
+    joints = []
+    for row in rows:
+        flags = [part.strip() for part in row[6:] if part.strip()]
+        angle = 0.0 if flags[0] in ("Null", "") or not flags[0][-1:].isdigit() else number(flags[0])
+        joints.append(Joint(row[0].strip(), row[0].strip(), complex(number(row[1]), number(row[2])), row[4].strip(),
+                            [link for link in row[3].split(between) if link], angle, _yes(row[5]), _yes(flags[-1])))
+    told = [*map(str.strip, settings), "", "", "", ""]
+    speed = number(told[0]) * (-1 if _yes(told[1]) else 1) if told[0] else 0.0
+    return Read(joints, rate=f"rpm = {shown(speed)}" if speed else "", unit=UNITS.get(told[3].lower(), ""))
+
+
+def _yes(written: str) -> bool:
+    return written.strip().lower() in ("t", "true", "y")
+
+
+# ---- PMKS+, 2023: short addresses ------------------------------------------------------------------------------------
+
+
+def _short(query: str) -> Read:
+    """Settings, joints, links, in letters of base 64; the last letter is the length, as a check."""
+    whole, check = query[:-1], query[-1:]
+    if not check or DIGITS[len(whole) % 62] != check:
+        raise ValueError("its letters do not fit its check: it is not whole")
+    flags, _, integers, choices, rest = whole.split(".", 4)
+    joints_part, _, rest = rest.partition("..")
+    links_part = rest.partition("..")[0]
+    joints, kinds = [], {}
+    for row in joints_part.split("."):
+        bits, (key, name, x, y, angle) = DIGITS.index(row[0]), row[1:].split(",")[:5]
+        joints.append(Joint(key, name, complex(_thousandths(x), _thousandths(y)), "P" if bits & 1 else "R", [],
+                            _thousandths(angle), bool(bits & 4), bool(bits & 2), welded=bool(bits & 8)))
+    of = {joint.key: joint for joint in joints}
+    for row in filter(None, links_part.split(".")):
+        head, *parts = row.split(",")
+        kinds[head[2:]] = head[1]
+        if head[0] == "Y":
+            for key in parts[6 : parts.index("", 6)]:
+                of[key].links.append(head[2:])
+    clockwise = _based("".join(("1", flags))) & 1 if flags else 0
+    speed = _integer(integers.split(",")[0])
+    unit = LENGTHS[DIGITS.index(choices[0])] if choices[:1] in ("0", "1", "2", "3") else ""
+    return Read(joints, rate=f"rpm = {'-' if clockwise else ''}{speed}" if speed else "", unit=unit)
+
+
+def _based(letters: str) -> int:
+    found = 0
+    for letter in letters:
+        found = 64 * found + DIGITS.index(letter)
+    return found
+
+
+def _integer(letters: str) -> int:
+    return -_based(letters[1:]) if letters[:1] == "0" else _based(letters)
+
+
+def _thousandths(letters: str) -> float:
+    return _integer(letters) / 1000
+
+
+# ---- PMKS+, 2025: sections, and packed addresses ---------------------------------------------------------------------
+
+
+def _packed(letters: str) -> Read:
+    """JSON in which separators are shortened, whole numbers are hexadecimal texts, and truths are y and n."""
+    text = unpacked(letters, MOST)
+    for short, long in (("--", '"]_["'), ("RP", "Reference Point"), ("_", ","), ("~", '","')):
+        text = text.replace(short, long)
+    data = json.loads(text)
+
+    def value(part: Any) -> str:
+        return str(int(part, 16)) if isinstance(part, str) and re.fullmatch("-?[0-9a-f]+", part) else str(part)
+
+    def rows(what: str, *numeric: int) -> list[list[str]]:
+        return [[value(part) if place in numeric else str(part) for place, part in enumerate(row)]
+                for row in data.get(what) or ()]
+
+    return _late(rows("j", 0, 2, 3, 4, 5, 8), rows("l", 0), rows("c", 0))
+
+
+def _sections(text: str) -> Read:
+    rows: dict[str, list[list[str]]] = {}
+    section, heads = "", False
+    for row in csv.reader(text.splitlines()):
+        if row and (title := re.fullmatch(r"\s*---\s*(\w+)\s*---\s*", row[0])):
+            section, heads = title[1], True
+        elif heads:
+            heads = False
+        elif any(row):
+            rows.setdefault(section, []).append(row)
+    return _late(rows["j"], rows["l"], rows.get("c", []))
+
+
+def _late(joints: Sequence[Sequence[str]], links: Sequence[Sequence[str]], welds: Sequence[Sequence[str]]) -> Read:
+    """Joints: id, name, x, y, type, angle, ground, input, speed, welded ...; links: id, name, ..., joints in the
+    seventh place; compound links: links in the sixth. Angles are degrees, speeds turns a minute, counter-clockwise."""
+    found = [Joint(row[0], row[1], complex(number(row[2]), number(row[3])), "PR"[int(row[4])], [],
+                   math.radians(number(row[5])), _yes(row[6]), _yes(row[7]), number(row[8]), _yes(row[9]))
+             for row in joints]
+    of = {joint.key: joint for joint in found}
+    names = {row[0]: row[1].strip() or row[0] for row in links}
+    for row in links:
+        for key in filter(None, row[6].split("|")):
+            if key in of:
+                of[key].links.append(names[row[0]])
+    return Read(found, [[names[key] for key in row[5].split("|") if key in names] for row in welds])
+
+
+# ---- what they have in common ----------------------------------------------------------------------------------------
+
+
+def _sketch(found: Read) -> Sketch:
+    sketch = Sketch("PMKS", title=found.title, length=found.unit)
+    if not found.unit:
+        sketch.note("the unit of length: mm is a guess")
+    pistons = {joint.key: twin for joint in found.joints if joint.kind == "P" and (twin := _twin(joint, found.joints))}
+    for joint in found.joints:
+        if joint.key not in pistons:
+            sketch.point(joint.key, joint.at, joint.name)
+            if (joint.ground and joint.kind != "P") or (joint.kind == "R" and _is_ground(joint.links)):
+                sketch.fixed[joint.key] = None
+    names = dict.fromkeys(link for joint in found.joints for link in joint.links if not _is_ground([link]))
+    for name in names:
+        held = [pistons.get(joint.key, joint).key for joint in found.joints if name in _carried(joint)]
+        sketch.link(held, name, name)
+    for weld in found.welds:
+        first, *others = [link for link in weld if link in sketch.links] or [""]
+        for other in others:
+            sketch.links[first] = [*dict.fromkeys([*sketch.links[first], *sketch.links.pop(other)])]
+            sketch.called.pop(other)
+    for joint in found.joints:
+        _sliding(sketch, joint, pistons.get(joint.key))
+    sketch.drives += [drive for joint in found.joints if joint.input for drive in _drives(sketch, found, joint)]
+    return sketch
+
+
+def _twin(joint: Joint, joints: Sequence[Joint]) -> Joint | None:
+    """The revolute joint of a piston, in the same place as its sliding joint."""
+    return next((other for other in joints if other.kind == "R" and {*other.links} & {*joint.links}
+                 and abs(other.at - joint.at) <= SAME * (1 + abs(joint.at))), None)
+
+
+def _is_ground(links: Sequence[str]) -> bool:
+    return any(link.lower() == "ground" for link in links)
+
+
+def _carried(joint: Joint) -> list[str]:
+    """The links that have a joint as a point: of a sliding joint or a slot not that of the guide."""
+    return joint.links[1:] if joint.kind in ("P", "RP") and len(joint.links) > 1 else joint.links
+
+
+def _sliding(sketch: Sketch, joint: Joint, twin: Joint | None) -> None:
+    way = complex(math.cos(joint.angle), math.sin(joint.angle))
+    way = complex(round(way.real, 14), round(way.imag, 14))
+    if joint.kind == "G":
+        sketch.note(f"a gear joint at ({joint.at.real:g}, {joint.at.imag:g}) of {' '.join(joint.links)}: left out")
+    elif joint.kind == "P" and twin:
+        others = [link for link in joint.links if link not in twin.links and not _is_ground([link])]
+        piston = next(link for link in joint.links if link in twin.links)
+        sketch.guides.append(Guide(piston, FRAME if joint.ground or not others else others[0], twin.key, way))
+    elif joint.kind in ("P", "RP") and len(joint.links) > 1:
+        along, link = (FRAME if _is_ground([name]) else name for name in joint.links[:2])
+        if joint.kind == "P" and link == FRAME:  # the guide of the first link is what stands still
+            sketch.links[along].append(joint.key)
+            sketch.guides.append(Guide(along, FRAME, joint.key, way))
+        elif joint.kind == "P":
+            sketch.guides.append(Guide(link, along, joint.key, way))
+        else:
+            if link == FRAME:
+                sketch.fixed[joint.key] = None
+            sketch.slots.append(Slot(joint.key, along, way))
+    elif joint.kind == "P" and joint.welded and joint.links:
+        sketch.guides.append(Guide(joint.links[0], FRAME, joint.key, way))
+    elif joint.kind == "P":
+        sketch.slots.append(Slot(joint.key, FRAME, way))
+
+
+def _drives(sketch: Sketch, found: Read, joint: Joint) -> Iterator[Driven]:
+    links = [link for link in joint.links if not _is_ground([link]) and link in sketch.links]
+    rate = f"rpm = {shown(joint.rpm)}" if joint.rpm else found.rate
+    guess = "" if rate and rate != "omega = 0" else "The file tells no speed: 1 rad/s is a guess."
+    if joint.kind != "R":
+        guide = next((one for one in sketch.guides if one.link in links), None)
+        if guide:
+            yield Driven(guide.link, "speed = 1", "A sliding input: its speed is a guess.", guide.along, True)
+        else:
+            sketch.note(f"the input at {joint.name or 'a sliding joint'}: left out")
+    elif joint.ground or _is_ground(joint.links):
+        yield from (Driven(link, "omega = 1" if guess else rate, guess) for link in links)
+    elif len(links) == 2:
+        yield Driven(links[1], "omega = 1" if guess else rate, guess, links[0])
+    else:
+        sketch.note(f"the input at {joint.name or 'a joint'} between {len(links)} links: left out")

@@ -1,0 +1,306 @@
+"""A sketch: a linkage as another program's file has it, before it is a scene.
+
+Points have the keys that the file knows them by; a link is the points that it holds rigidly together. Which points are
+one link, where pins run in slots and what hangs on nothing, is told here, alike for all formats.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field, replace
+from itertools import combinations
+
+from graphplan.mechanism.model import FRAME
+
+Way = tuple[str, str] | complex
+"""The direction of a guide: from one point to another, or a vector."""
+
+NEAR = 1e-9  # of the sketch: points that rounding alone keeps apart, and pins that lie on a line
+
+
+@dataclass(frozen=True)
+class Guide:
+    """A link that slides along another, its point `at` on the guide line."""
+
+    link: str
+    along: str
+    at: str
+    way: Way
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A pin that slides in a slot of a link, and turns in it."""
+
+    at: str
+    along: str
+    way: Way
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A drive: the rate as TOML writes it (`rpm = 15`), of a link, or of the link that holds two points; `on` another.
+
+    One that `slides` drives the guide of its two links. `told` says where the rate is from, or that it is a guess.
+    """
+
+    link: str | tuple[str, str]
+    rate: str
+    told: str = ""
+    on: str = FRAME
+    slides: bool = False
+
+
+@dataclass
+class Sketch:
+    """What was read, and in `notes` what could not be told."""
+
+    program: str
+    title: str = ""
+    length: str = ""
+    places: dict[str, complex] = field(default_factory=dict)
+    names: dict[str, str] = field(default_factory=dict)
+    links: dict[str, list[str]] = field(default_factory=dict)
+    called: dict[str, str] = field(default_factory=dict)
+    fixed: dict[str, None] = field(default_factory=dict)
+    guides: list[Guide] = field(default_factory=list)
+    slots: list[Slot] = field(default_factory=list)
+    drives: list[Driven] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def point(self, key: str, at: complex, name: str = "") -> str:
+        """Put a point; its key."""
+        self.places[key], self.names[key] = at, name
+        return key
+
+    def link(self, points: Iterable[str], key: str = "", name: str = "") -> str:
+        """Put a link; its key, which is made where none, or one that is there already, is given."""
+        number = len(self.links)
+        while not key or key in self.links or key == FRAME:
+            key, number = f"link {number}", number + 1
+        self.links[key], self.called[key] = [*dict.fromkeys(points)], name
+        return key
+
+    def note(self, told: str) -> None:
+        """Note what could not be told, once."""
+        if told not in self.notes:
+            self.notes.append(told)
+
+    @property
+    def bodies(self) -> dict[str, list[str]]:
+        """The links with their points, the frame among them."""
+        return {**self.links, FRAME: [*self.fixed]}
+
+    def holders(self, point: str) -> list[str]:
+        """The bodies that have a point."""
+        return [key for key, points in self.bodies.items() if point in points]
+
+    @property
+    def size(self) -> float:
+        """The larger of width and height; 1 of a single point."""
+        xs, ys = [at.real for at in self.places.values()], [at.imag for at in self.places.values()]
+        return max(max(xs) - min(xs), max(ys) - min(ys)) if xs and max(xs) - min(xs) + max(ys) - min(ys) else 1.0
+
+    def vector(self, way: Way) -> complex:
+        """The direction of a guide as a vector."""
+        return self.places[way[1]] - self.places[way[0]] if isinstance(way, tuple) else way
+
+    @property
+    def freedoms(self) -> int:
+        """Chebyshev's count of its mobility."""
+        held = Counter(point for points in self.bodies.values() for point in points)
+        return 3 * len(self.links) - 2 * sum(count - 1 for count in held.values()) - 2 * len(self.guides)
+
+
+def tidied(sketch: Sketch) -> Sketch:
+    """The sketch itself, with links that are rigid together as one, pins in slots as blocks, and no loose pieces."""
+    _join(sketch)
+    _rigid(sketch)
+    _slide(sketch)
+    _find_driven(sketch)
+    _connected(sketch)
+    used = {point for points in sketch.bodies.values() for point in points}
+    used |= {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
+    sketch.places = {key: at for key, at in sketch.places.items() if key in used}
+    return sketch
+
+
+def _join(sketch: Sketch) -> None:
+    """Points of one link that coincide are one."""
+    for points in [*sketch.links.values()]:
+        for one, other in combinations([*points], 2):
+            if one != other and abs(sketch.places[one] - sketch.places[other]) <= NEAR * sketch.size:
+                _replace_point(sketch, other, one)
+
+
+def _replace_point(sketch: Sketch, old: str, new: str) -> None:
+    def kept(way: Way) -> Way:
+        return (new if way[0] == old else way[0], new if way[1] == old else way[1]) if isinstance(way, tuple) else way
+
+    for key, points in sketch.links.items():
+        sketch.links[key] = [*dict.fromkeys(new if point == old else point for point in points)]
+    if old in sketch.fixed:
+        del sketch.fixed[old]
+        sketch.fixed[new] = None
+    sketch.guides = [replace(one, at=new if one.at == old else one.at, way=kept(one.way)) for one in sketch.guides]
+    sketch.slots = [replace(one, at=new if one.at == old else one.at, way=kept(one.way)) for one in sketch.slots]
+
+
+# ---- rigid together --------------------------------------------------------------------------------------------------
+
+
+def _rigid(sketch: Sketch) -> None:
+    """Bodies that share two points are one, and so are three of which each two share another point."""
+    while together := next(_found_rigid(sketch), None):
+        into = FRAME if FRAME in together else together[0]
+        for other in together:
+            if other != into:
+                _absorb(sketch, other, into)
+
+
+def _found_rigid(sketch: Sketch) -> Iterator[tuple[str, ...]]:
+    bodies = {key: {*points} for key, points in sketch.bodies.items()}
+    at: dict[str, list[str]] = {}
+    for key, points in bodies.items():
+        for point in points:
+            at.setdefault(point, []).append(key)
+    shared: dict[tuple[str, str], set[str]] = {}
+    for point, keys in at.items():
+        for pair in combinations(sorted(keys), 2):
+            shared.setdefault(pair, set()).add(point)
+    yield from (pair for pair, points in shared.items() if len(points) > 1)
+    beside: dict[str, set[str]] = {}
+    for one, other in shared:
+        beside.setdefault(one, set()).add(other)
+        beside.setdefault(other, set()).add(one)
+    for one, other in sorted(shared):
+        for third in sorted(beside[one] & beside[other]):
+            if third > other and len(shared[one, other] | shared[one, third] | shared[other, third]) == 3:
+                yield one, other, third
+
+
+def _absorb(sketch: Sketch, link: str, into: str) -> None:
+    """Give the points of a link, and all that is said of it, to another."""
+    points = sketch.links.pop(link)
+    name = sketch.called.pop(link)
+    if into == FRAME:
+        sketch.fixed |= dict.fromkeys(points)
+    else:
+        sketch.links[into] = [*dict.fromkeys([*sketch.links[into], *points])]
+        sketch.called[into] = sketch.called[into] or name
+
+    def now(key: str) -> str:
+        return into if key == link else key
+
+    guides = [replace(one, link=now(one.link), along=now(one.along)) for one in sketch.guides]
+    sketch.guides = [one for one in guides if one.link != one.along]
+    sketch.slots = [replace(one, along=now(one.along)) for one in sketch.slots]
+    sketch.drives = [replace(one, link=one.link if isinstance(one.link, tuple) else now(one.link), on=now(one.on))
+                     for one in sketch.drives]
+    sketch.drives = [one for one in sketch.drives if one.link not in (FRAME, one.on)]
+
+
+# ---- slots -----------------------------------------------------------------------------------------------------------
+
+
+def _slide(sketch: Sketch) -> None:
+    """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
+    slots = [slot for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]]
+    while slots:
+        slot = slots.pop(0)
+        holders = [key for key in sketch.holders(slot.at) if key != slot.along]
+        twin = next(((other, key) for other in slots for key in holders if other.along == slot.along
+                     and key in sketch.holders(other.at) and _on_one_line(sketch, slot, other)), None)
+        if twin:
+            slots.remove(twin[0])
+            sketch.guides.append(_guide(sketch, twin[1], slot))
+            continue
+        block = next((key for key in holders if sketch.links.get(key) == [slot.at] and not _slides(sketch, key)), "")
+        if len(holders) == (block != ""):
+            sketch.note(f"{sketch.names[slot.at] or 'a pin'} slides in a slot, but no link has it: left out")
+            continue
+        block = block or sketch.link([slot.at])
+        sketch.guides.append(Guide(block, slot.along, slot.at, slot.way))
+    sketch.slots = []
+    for link in [key for key, points in sketch.links.items() if len(points) == 1 and not _slides(sketch, key)]:
+        del sketch.links[link], sketch.called[link]  # it only turns about its point
+
+
+def _slides(sketch: Sketch, link: str) -> bool:
+    return any(link in (guide.link, guide.along) for guide in sketch.guides)
+
+
+def _guide(sketch: Sketch, link: str, slot: Slot) -> Guide:
+    """The guide of a link that slides alone; of the frame's pins it is the other link that slides."""
+    if link != FRAME:
+        return Guide(link, slot.along, slot.at, slot.way)
+    ends = slot.way if isinstance(slot.way, tuple) else ()
+    at = next((point for point in ends if point in sketch.links[slot.along]), "")
+    if not at:
+        at = sketch.point(f"{slot.at} on {slot.along}", sketch.places[slot.at], sketch.names[slot.at])
+        sketch.links[slot.along].append(at)
+    return Guide(slot.along, FRAME, at, slot.way)
+
+
+def _on_one_line(sketch: Sketch, slot: Slot, other: Slot) -> bool:
+    ahead, size = sketch.vector(slot.way), sketch.size
+    across = [sketch.vector(other.way), sketch.places[other.at] - sketch.places[slot.at]]
+    return slot.at != other.at and all(abs((ahead.conjugate() * vector).imag) <= 1e-6 * abs(ahead) * size
+                                       for vector in across)
+
+
+# ---- drives, and what hangs together ---------------------------------------------------------------------------------
+
+
+def _find_driven(sketch: Sketch) -> None:
+    """The links that drives mean by two of their points."""
+    found: list[Driven] = []
+    for drive in sketch.drives:
+        link: str | tuple[str, str] = drive.link
+        if isinstance(link, tuple):
+            pair = link
+            link = next((key for key, points in sketch.links.items() if {*pair} <= {*points}), "")
+        if link and link not in (one.link for one in found if one.on == drive.on):
+            found.append(replace(drive, link=link))
+    sketch.drives = found
+
+
+def _connected(sketch: Sketch) -> None:
+    """Leave out what hangs on nothing: of several pieces that which has the frame stays, or else the largest."""
+    bodies = {key: points for key, points in sketch.bodies.items() if key != FRAME or points}
+    beside: dict[str, set[str]] = {key: set() for key in bodies}
+    at: dict[str, list[str]] = {}
+    for key, points in bodies.items():
+        for point in points:
+            at.setdefault(point, []).append(key)
+    pairs = [*at.values(), *([guide.link, guide.along] for guide in sketch.guides)]
+    for keys in pairs:
+        for key in keys:
+            beside.setdefault(key, set()).update(keys)
+    pieces: list[set[str]] = []
+    for key in beside:
+        if not any(key in piece for piece in pieces):
+            piece, new = {key}, [key]
+            while new:
+                new += (further := beside[new.pop()] - piece)
+                piece |= further
+            pieces.append(piece)
+    if not pieces:
+        return
+    kept = next((piece for piece in pieces if FRAME in piece and len(piece) > 1), None) or max(pieces, key=len)
+    lone = [key for key in sketch.links if key not in kept]
+    for key in lone:
+        points = sketch.links.pop(key)
+        if len(points) > 1:
+            named = " ".join(sketch.names[point] or "?" for point in points)
+            sketch.note(f"a link that hangs on no other was left out: {sketch.called[key] or named}")
+    sketch.guides = [one for one in sketch.guides if one.link in kept and one.along in kept]
+    sketch.drives = [one for one in sketch.drives if one.link in kept]
+    if FRAME not in kept:
+        sketch.fixed = {}
+    else:
+        told = {point for points in sketch.links.values() for point in points}
+        ways = {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
+        sketch.fixed = {point: None for point in sketch.fixed if point in told | ways} or dict(
+            [*sketch.fixed.items()][:1])

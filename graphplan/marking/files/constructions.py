@@ -1,0 +1,319 @@
+"""Constructions of GeoGebra: their objects, with the values of those that have one.
+
+What its objects are, the file states, or commands and expressions make it of others. Nothing is executed: a term
+becomes a syntax tree, of which a table of few operations gives the value. Points are complex numbers. What is not in
+the tables has no value.
+"""
+
+from __future__ import annotations
+
+import ast
+import cmath
+import math
+import operator
+import re
+from collections.abc import Callable, Mapping
+from contextlib import suppress
+from pathlib import Path
+from typing import Any, NamedTuple, TypeVar
+from xml.etree.ElementTree import Element
+
+from graphplan.errors import Refused
+from graphplan.marking.files.curves import NEAR
+from graphplan.marking.files.safe import MB, number, tree, unpacked
+
+T = TypeVar("T")
+LARGEST = 16 * MB
+CAPTION = "3"  # the mode in which a caption is shown as label
+
+LINES, CIRCLES = {"line", "segment", "ray", "vector"}, {"conic", "conicpart"}
+UNDEFINED = ("NaN", "?", "Infinity", "-Infinity")  # coordinates of what cannot be drawn
+LETTERS, LONGEST = 300_000, 2000  # of all terms that are worked out, and of one; what is beyond has no value
+NUMERAL, NAME = r"\d+\.?\d*(?:E[+-]?\d+)?|\.\d+", r"[^\W\d](?:\w|')*(?:\{[^{}]*\}'*)?"
+TOKEN = re.compile(rf"\s*(?:({NUMERAL})|({NAME})|(<=|>=|[-+*/^(),\[\]°<>≤≥]))")
+SIGNS = {"^": "**", "≤": "<=", "≥": ">=", "[": "(", "]": ")", "°": "**degree"}  # in Python's grammar
+PARALLEL = 2.0**-50  # the sine of the angle between lines that is mere rounding
+
+
+class LineValue(NamedTuple):
+    """A line through a point, and the way in which it runs."""
+
+    at: complex
+    along: complex
+
+
+class CircleValue(NamedTuple):
+    """A circle by its centre and its radius."""
+
+    at: complex
+    radius: float
+
+
+class Vector(NamedTuple):
+    """A vector, which is no point."""
+
+    along: complex
+
+
+def _line(point: complex, second: Any) -> LineValue:
+    return LineValue(point, second - point if isinstance(second, complex) else second.along)
+
+
+def _bisector(one: complex, two: complex) -> LineValue:
+    return LineValue((one + two) / 2, 1j * (two - one))
+
+
+def _meet(one: LineValue, two: LineValue) -> complex:
+    across = _across(one.along, two.along)
+    if abs(across) <= PARALLEL * abs(one.along) * abs(two.along):
+        raise ValueError("parallel lines do not meet")
+    return one.at + one.along * _across(two.at - one.at, two.along) / across
+
+
+def _across(one: complex, two: complex) -> float:
+    """The vector product."""
+    return (one.conjugate() * two).imag
+
+
+def _distance(point: complex, other: Any) -> float:
+    if isinstance(other, LineValue):
+        return abs(_across(other.along, point - other.at)) / abs(other.along)
+    return float(abs(point - other))
+
+
+def _circle(centre: complex, other: Any) -> CircleValue:
+    return CircleValue(centre, abs(other - centre if isinstance(other, complex) else other))
+
+
+def _unit(thing: Any, turn: complex = 1.0) -> Vector:
+    return Vector(turn * thing.along / abs(thing.along))
+
+
+NUMBER = float | int
+DIRECTED = LineValue | Vector
+CALLS: dict[str, tuple[Callable[..., Any], tuple[Any, ...]]] = {  # what a command does, and of which kinds of thing
+    **dict.fromkeys(("Line", "Ray"), (_line, (complex, complex | DIRECTED))), "Segment": (_line, (complex, complex)),
+    **dict.fromkeys(("OrthogonalLine", "PerpendicularLine"),
+                    (lambda point, other: LineValue(point, 1j * other.along), (complex, DIRECTED))),
+    **dict.fromkeys(("LineBisector", "PerpendicularBisector"), (_bisector, (complex, complex))),
+    "Intersect": (_meet, (LineValue, LineValue)),
+    "Midpoint": (lambda one, two: (one + two) / 2, (complex, complex)),
+    "Distance": (_distance, (complex, complex | LineValue)), "Circle": (_circle, (complex, complex | NUMBER)),
+    "Center": (lambda circle: circle.at, (CircleValue,)), "Radius": (lambda circle: circle.radius, (CircleValue,)),
+    "Vector": (lambda start, end=None: Vector(start if end is None else end - start), (complex, complex)),
+    "Direction": (lambda line: Vector(line.along), (LineValue,)), "UnitVector": (_unit, (DIRECTED,)),
+    "OrthogonalVector": (lambda thing: Vector(1j * thing.along), (DIRECTED,)),
+    "UnitOrthogonalVector": (lambda thing: _unit(thing, 1j), (DIRECTED,)),
+    "Translate": (lambda point, vector: point + vector.along, (complex, Vector)),
+    "Rotate": (lambda point, angle, centre: centre + (point - centre) * cmath.exp(1j * angle),
+               (complex, NUMBER, complex)),
+    "If": (lambda holds, one, other: one if holds else other, (bool, object, object)),
+    "sqrt": (math.sqrt, (NUMBER,)), "abs": (abs, (complex | NUMBER,)),
+    "sgn": (lambda value: (value > 0) - (value < 0), (NUMBER,)), "sin": (math.sin, (NUMBER,)),
+    "cos": (math.cos, (NUMBER,)), "x": (lambda thing: _place(thing).real, (complex | Vector,)),
+    "y": (lambda thing: _place(thing).imag, (complex | Vector,)),
+}  # fmt: skip
+
+
+def _place(thing: Any) -> complex:
+    return thing.along if isinstance(thing, Vector) else complex(thing)
+
+
+def _called(name: str, arguments: list[Any]) -> Any:
+    """What a command gives.
+
+    Fails with `ValueError` where it is not known, or not for these arguments.
+    """
+    made, kinds = CALLS.get(name, (None, ()))
+    if made is None or len(arguments) > len(kinds) or not all(map(isinstance, arguments, kinds)):
+        raise ValueError(f"{name} is not known, or not of these")
+    try:
+        return made(*arguments)
+    except (TypeError, ArithmeticError) as error:  # TypeError: it lacks arguments
+        raise ValueError(f"{name}: {error}") from None
+
+
+def _number(value: Any) -> float:
+    if not isinstance(value, NUMBER):
+        raise ValueError("a number is meant")
+    return float(value)
+
+
+def _plus(one: Any, two: Any) -> Any:
+    if isinstance(two, Vector) and isinstance(one, complex | Vector):
+        return one + two.along if isinstance(one, complex) else Vector(one.along + two.along)
+    if isinstance(one, complex | NUMBER) and isinstance(two, complex | NUMBER):
+        return one + two
+    raise ValueError("these cannot be added")
+
+
+def _times(one: Any, two: Any) -> Any:
+    if isinstance(two, Vector):
+        one, two = two, one
+    factor = two if isinstance(two, complex) else _number(two)
+    if not isinstance(one, complex | NUMBER | Vector):
+        raise ValueError("these cannot be multiplied")
+    return Vector(one.along * factor) if isinstance(one, Vector) else one * factor
+
+
+OPERATIONS: dict[type[ast.AST], Callable[[Any, Any], Any]] = {
+    ast.Add: _plus, ast.Sub: lambda one, two: _plus(one, _times(two, -1.0)),
+    ast.Mult: _times, ast.Div: lambda one, two: _times(one, 1 / _number(two)),
+    ast.Pow: lambda one, two: _number(_number(one) ** _number(two)),
+    ast.LtE: operator.le, ast.GtE: operator.ge, ast.Lt: operator.lt, ast.Gt: operator.gt,
+}  # fmt: skip
+
+
+def _written(term: str, names: list[str]) -> str:
+    """A term in Python's grammar; its names are numbered, and gathered."""
+    found, place, term = [], 0, term.rstrip()
+    while place < len(term):
+        token = TOKEN.match(term, place)
+        if token is None or len(term) > LONGEST:
+            raise ValueError(f"{term[place:place + 10]!r} is not understood")
+        numeral, name, sign = token.groups()
+        if name:
+            names.append(name)
+        found.append(repr(float(numeral)) if numeral else f"n{len(names) - 1}" if name else SIGNS.get(sign, sign))
+        place = token.end()
+    return " ".join(found)
+
+
+def _valued(node: ast.AST, names: list[str], known: Mapping[str, Any]) -> Any:
+    def of(part: ast.AST) -> Any:
+        return _valued(part, names, known)
+
+    match node:
+        case ast.Constant(value=float(value)):
+            return value
+        case ast.Name(id=name):
+            return known[names[int(name[1:])]]
+        case ast.Tuple(elts=[x, y]):
+            return complex(_number(of(x)), _number(of(y)))
+        case ast.UnaryOp(op=ast.USub(), operand=part):
+            return _times(of(part), -1.0)
+        case ast.BinOp(op=ast.Pow(), left=part, right=ast.Name(id="degree")):
+            return _times(of(part), math.pi / 180)
+        case ast.BinOp(op=sign, left=one, right=two):
+            return OPERATIONS[type(sign)](of(one), of(two))
+        case ast.Compare(left=one, ops=[sign], comparators=[two]):
+            return OPERATIONS[type(sign)](_number(of(one)), _number(of(two)))
+        case ast.Call(func=ast.Name(id=name), args=arguments):
+            return _called(names[int(name[1:])], [of(part) for part in arguments])
+    raise ValueError("a term is not understood")
+
+
+class Objects:
+    """The objects of a construction by label: elements, the commands that make them, and values of those that have one.
+    """
+
+    def __init__(self, construction: Element):
+        self.elements: dict[str, Element] = {}
+        self.commands: dict[str, tuple[str, list[str], int]] = {}  # its name, of what, and which of its results
+        self.values: dict[str, Any] = {}
+        self.terms: dict[str, str] = {}  # the expressions of those that have one
+        self.left = LETTERS
+        for child in construction:
+            if child.tag == "expression":
+                self.terms[child.get("label", "")] = child.get("exp", "")
+            elif child.tag == "command":
+                inputs = _arguments(child.find("input"))
+                for place, label in enumerate(_arguments(child.find("output"))):
+                    self.commands[label] = child.get("name", ""), inputs, place
+            elif child.tag == "element":
+                label = child.get("label", "")
+                self.elements[label] = child
+                value = stated(child)
+                if value is None and label in self.terms:
+                    value = self.term(self.terms[label])
+                name, inputs, place = self.commands.get(label, ("", [], 0))
+                if value is None and name and not place:
+                    with suppress(ValueError):
+                        value = _called(name, [self.term(term) for term in inputs])
+                if value is not None:
+                    self.values[label] = value
+
+    def term(self, term: str) -> Any:
+        """The value of a label or a term: a number, a point as complex number, a line, a circle, a vector.
+
+        None where it has none.
+        """
+        if term in self.values:
+            return self.values[term]
+        self.left -= len(term)
+        try:
+            if self.left >= 0:
+                names: list[str] = []
+                return _valued(ast.parse(_written(term, names), mode="eval").body, names, self.values)
+        except (ValueError, ArithmeticError, SyntaxError, RecursionError, MemoryError, KeyError):
+            pass  # it is not understood
+        return None
+
+    def point(self, term: str) -> complex | None:
+        """The value of a term if it is a point."""
+        value = self.term(term)
+        return value if isinstance(value, complex) else None
+
+
+def _arguments(element: Element | None) -> list[str]:
+    """a0, a1, ... of a command."""
+    return [] if element is None else [element.get(f"a{i}", "") for i in range(len(element.attrib))]
+
+
+def stated(element: Element) -> Any:
+    """The value that the file states for an object; None where it states none, or it is undefined.
+
+    Fails with `ValueError` where a number is none.
+    """
+    kind, coords = element.get("type"), element.find("coords")
+    if kind in ("numeric", "angle"):
+        value = element.find("value")
+        return None if value is None else finite(value.get("val", ""))
+    if kind in CIRCLES:
+        return _conic(element.find("matrix"))
+    if coords is None:
+        return None
+    x, y, z = (finite(coords.get(name, "0")) for name in "xyz")
+    if not math.isfinite(x + y + z):
+        return None
+    if kind == "point":
+        return complex(x / z, y / z) if z else None
+    if kind == "vector":
+        return Vector(complex(x, y))
+    across = complex(x, y)  # of the line x X + y Y + z = 0
+    return LineValue(-z * across / abs(across) ** 2, -1j * across) if across and kind in LINES else None
+
+
+def finite(written: str) -> float:
+    """A coordinate; what cannot be drawn has none."""
+    return math.nan if written in UNDEFINED else number(written)
+
+
+def _conic(matrix: Element | None) -> CircleValue | None:
+    """A circle by the coefficients of x², y², 1, xy, x and y, the last three halved; None where it is none."""
+    if matrix is None:
+        return None
+    xx, yy, one, xy, x, y = (finite(matrix.get(f"A{i}", "0")) for i in range(6))
+    if not math.isfinite(xx + yy + one + xy + x + y) or not xx or abs(xx - yy) + abs(xy) > NEAR * abs(xx):
+        return None
+    centre = complex(-x / xx, -y / xx)
+    square = abs(centre) ** 2 - one / xx
+    return CircleValue(centre, math.sqrt(square)) if square > 0 else None
+
+
+def seen(element: Element) -> bool:
+    """Whether an object is shown."""
+    show = element.find("show")
+    return show is None or show.get("object") != "false"
+
+
+def of_construction(path: Path, data: bytes, read: Callable[[Objects], T]) -> T:
+    """What is read from the objects of a GeoGebra file; fails with `Refused` where it is damaged."""
+    root = tree(path, unpacked(path, data, "geogebra.xml", LARGEST))
+    construction = root.find("construction")
+    if root.tag != "geogebra" or construction is None:
+        raise Refused(f"{path}", "it holds no construction of GeoGebra", "save the drawing anew")
+    try:
+        return read(Objects(construction))
+    except (ValueError, ArithmeticError) as error:
+        raise Refused(f"{path}", f"the drawing is damaged ({error})", "save it anew") from None

@@ -111,9 +111,9 @@ class _SheetWriter:
             case Outline():
                 return self._outline(item)
             case Polygon():
-                return MAKE.polygon(self._spots(item.spots), **_look(item.pen))
+                return MAKE.polygon(self._spots(item.spots), **look(item.pen))
             case Circle():
-                return MAKE.circle(self._spot(item.centre), rounded(item.radius, FINE), **_look(item.pen))
+                return MAKE.circle(self._spot(item.centre), rounded(item.radius, FINE), **look(item.pen))
             case Arc():
                 return self._arc(item)
             case Arrow():
@@ -127,17 +127,17 @@ class _SheetWriter:
     def _outline(self, item: Outline) -> Element:
         (left, bottom), (right, top) = self._spots((item.spots[0], item.spots[2]))
         named = {"class_": "panel", "data_plan": item.plan} if item.plan else {"class_": "frame"}
-        return MAKE.rect((left, top), (rounded(right - left), rounded(bottom - top)), **named, **_look(item.pen))
+        return MAKE.rect((left, top), (rounded(right - left), rounded(bottom - top)), **named, **look(item.pen))
 
     def _line(self, spots: Iterable[Spot], pen: Pen) -> Element:
-        return MAKE.polyline(self._spots(spots), **_look(pen) | {"fill": "none"})
+        return MAKE.polyline(self._spots(spots), **look(pen) | {"fill": "none"})
 
     def _arc(self, arc: Arc) -> Element:
         (x, y), (u, v), r = self._spot(arc.at(arc.start)), self._spot(arc.at(arc.end)), rounded(arc.radius, FINE)
         large = int(arc.end - arc.start > 180)
         if math.isclose(arc.end - arc.start, 180):  # SVG: what is too small for its chord has that for a diameter
             r = rounded(math.dist((x, y), (u, v)) / 2 - 0.1**FINE, FINE)
-        return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **_look(arc.pen) | {"fill": "none"})
+        return MAKE.path(f"M {x} {y} A {r} {r} 0 {large} 0 {u} {v}", **look(arc.pen) | {"fill": "none"})
 
     def _photograph(self, item: Photograph) -> Element:
         size = rounded(item.rect.width), rounded(item.rect.height)
@@ -178,7 +178,8 @@ class _SheetWriter:
         return [self._spot(spot) for spot in spots]
 
 
-def _look(pen: Pen) -> dict[str, Any]:
+def look(pen: Pen) -> dict[str, Any]:
+    """The attributes of what a pen draws."""
     look: dict[str, Any] = {"fill": pen.fill}
     if pen.width:
         look |= {"stroke": pen.colour, "stroke_width": rounded(pen.width)}

@@ -13,7 +13,7 @@ from functools import cached_property
 
 import numpy as np
 
-from graphplan.sheet.lettering.label_candidates import FINE, Array, Wish, candidates
+from graphplan.sheet.lettering.label_candidates import FINE, Array, Candidates, Wish, candidates
 from graphplan.sheet.lettering.lettering import SMALL_SHEET, LetterSizes
 from graphplan.sheet.lettering.obstacles import Lines, Marks, Surfaces
 from graphplan.sheet.lettering.prices import CLASH, Prices, overlap
@@ -47,9 +47,14 @@ class Lettering:
             return 0
         return int((self.prices.found.led[self.choice] | (self.prices.faults(self.choice) > POOR)).sum())
 
-    @cached_property
+    @property
     def items(self) -> list[Item]:
-        """The letters in their last places, after second thoughts about those that cannot be read."""
+        """The letters in their last places."""
+        return [item for wish, place in self.places for item in wish.items(place)]
+
+    @cached_property
+    def places(self) -> list[tuple[Wish, Candidates]]:
+        """The last place of each letter, after second thoughts about those that cannot be read."""
         if self.prices is None or self.choice is None or self.rect is None:
             return []
         prices, choice = self.prices, self.choice
@@ -57,8 +62,7 @@ class Lettering:
             more = candidates([self.wishes[letter] for letter in faulty], self.rect, FINE, WAYS).of(faulty)
             prices, moved = prices.extended(more)
             choice = Resettling(prices, moved[choice]).settled()
-        places = zip(self.wishes, choice, strict=True)
-        return [item for wish, place in places for item in wish.items(prices.found[place])]
+        return [(wish, prices.found[place]) for wish, place in zip(self.wishes, choice, strict=True)]
 
 
 def lettering(wishes: Sequence[Wish], items: Sequence[Item], marks: Sequence[Spot], rect: Rect,

@@ -54,14 +54,20 @@ class Picture:
 
 def pictured(plate: Plate) -> Picture:
     """The same, and how well the letters stand."""
-    items, wishes = [*plate.items(), *plate.mechanism], list(Letters(plate).wishes())
+    items, wishes = [*plate.items(), *plate.mechanism], wishes_on(plate)
     marks = [drawn.at for drawn in plate.steps if plate.shown(drawn)]
     if plate.panel == MECHANISM:
-        mechanism = plate.drawn_mechanism
-        wishes = [*of_mechanism(mechanism), *wishes, *_path_letters(plate)]
-        marks += list(mechanism.shown.values())
+        marks += list(plate.drawn_mechanism.shown.values())
     rect = plate.view.rect
     return Picture(plate, items, lettering([*inside(wishes, rect)], items, marks, rect, plate.plates.letters))
+
+
+def wishes_on(plate: Plate) -> list[Wish]:
+    """The letters of a plan, on its panel or beyond."""
+    wishes = list(Letters(plate).wishes())
+    if plate.panel != MECHANISM:
+        return wishes
+    return [*of_mechanism(plate.drawn_mechanism), *wishes, *_path_letters(plate)]
 
 
 def inside(wishes: Iterable[Wish], rect: Rect) -> Iterator[Wish]:
@@ -132,7 +138,7 @@ class Letters:
         """The marks that need a letter or number, by where they lie."""
         places: dict[Spot, list[DrawnStep]] = {}
         for mark in self.plate.steps:
-            if mark.number and self.plate.shown(mark) and self._spoken(mark):
+            if mark.number and self.plate.shown(mark) and self.spoken(mark):
                 key = next((other for other in places if math.dist(other, mark.at) < NEAR), mark.at)
                 places.setdefault(key, []).append(mark)
         return places
@@ -140,7 +146,7 @@ class Letters:
     def _at_joint(self, spot: Spot) -> bool:
         return any(math.dist(point.at, spot) < 1.0 for point in self.plate.plates.pose.values())
 
-    def _spoken(self, drawn: DrawnStep) -> bool:
+    def spoken(self, drawn: DrawnStep) -> bool:
         """Whether a mark has a letter, or is spoken of by its number in a later step, or bears it in any case."""
         return bool(drawn.name) or self.plate.numbers(drawn) or drawn.index in self._read
 
@@ -157,7 +163,7 @@ class Letters:
         if line.name:
             yield Wish(name_runs(line.name), spots, 0.5, step=line.index, label=line.name, free=True,
                        raised=self._raised(line))
-        elif self._spoken(line):
+        elif self.spoken(line):
             number = _numbers(line)
             yield Wish(sentence_runs(number), spots, 0.5, True, pens.FAINT, line.index, f"line {number}", free=True)
         for arrow, mark in self.plate.breaks(stretch):

@@ -15,7 +15,41 @@ from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit
 from graphplan.sheet.plates.view import View
 
+RAIL = LONG + 3.0  # mm that a rail goes on to both sides of the middle of its block
 DOWN, LEFT, RIGHT, UP = (0.0, -1.0), (-1.0, 0.0), (1.0, 0.0), (0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Figure:
+    """What moves as one: it rides on a `link`, turns with the guide of a `slide`, or stands upright.
+
+    Each of its spots goes with that of the points `at` which is nearest to it.
+    """
+
+    items: tuple[Item, ...]
+    at: tuple[str, ...]
+    link: str = ""
+    slide: Slide | None = None
+
+
+@dataclass(frozen=True)
+class Guide:
+    """The fixed guide of a block that stands at the point `seat`, or its ground: hatched on one side."""
+
+    slide: Slide
+    seat: str
+    side: float
+    items: tuple[Item, ...]
+
+
+@dataclass(frozen=True)
+class Rail:
+    """The part of a moving link that guides the block at the point `seat`, tied to the link's point `end`."""
+
+    slide: Slide
+    seat: str
+    end: str
+    items: tuple[Item, ...]
 
 
 @dataclass(frozen=True)
@@ -51,22 +85,34 @@ class DrawnMechanism:
 
     def items(self) -> Iterator[Item]:
         """Everything, from the ground up."""
+        for part in self.parts():
+            yield from part.items
+        yield from self._pairs()
+
+    def parts(self) -> Iterator[Figure | Guide | Rail]:
+        """Everything but the turning pairs, each with what it moves with."""
         for name in self._pivots:
-            yield from symbols.pivot(self.spots[name], self._ground(name))
+            yield Figure(tuple(symbols.pivot(self.spots[name], self._ground(name))), (name,))
         for slide in self._slides:
-            yield from self._guide(slide)
+            if FRAME in (slide.along, slide.link):
+                yield self._guide(slide)
         for link in self._moving:
             yield from self._link(link)
         for slide in self._slides:
-            yield symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
+            block = symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
+            yield Figure((block,), (self._seat(slide),), slide=slide)
         for drive in self.scene.drives:
             if not drive.slides and drive.rate and drive.link in self._moving:
-                yield from self.driven(drive)
-        yield from self._pairs()
+                yield Figure(tuple(self.driven(drive)), self.scene.links[drive.link], drive.link)
+
+    @property
+    def pairs(self) -> list[str]:
+        """The points with a circle: joints and driven points."""
+        return [name for name in (*self.scene.joints, *self.scene.motions) if name in self.shown]
 
     def _pairs(self) -> Iterator[Item]:
         """A circle for each joint and each driven point; a dot for a point that only traces."""
-        pairs = [self.shown[name] for name in (*self.scene.joints, *self.scene.motions) if name in self.shown]
+        pairs = [self.shown[name] for name in self.pairs]
         for spot in places([*pairs, *self.shown.values()]):
             yield symbols.revolute(spot) if spot in pairs else symbols.tracer(spot)
 
@@ -106,11 +152,11 @@ class DrawnMechanism:
 
         return min(enumerate((DOWN, LEFT, RIGHT, UP)), key=cost)[1]
 
-    def _guide(self, slide: Slide) -> Iterator[Item]:
+    def _guide(self, slide: Slide) -> Guide:
         """The fixed guide of a slide on the frame, or the ground of a fixed block; hatched away from the mechanism."""
         at, along = self.seat(slide), self.along(slide)
-        if FRAME in (slide.along, slide.link):
-            yield from symbols.guideway(at, along, self._outer(slide, at, along))
+        side = self._outer(slide, at, along)
+        return Guide(slide, self._seat(slide), side, tuple(symbols.guideway(at, along, side)))
 
     def _outer(self, slide: Slide, at: Spot, along: Vector) -> float:
         """The side of a guide that the mechanism leaves free."""
@@ -127,13 +173,17 @@ class DrawnMechanism:
         return unit((0.0, 0.0), (x, y))
 
     def seat(self, slide: Slide) -> Spot:
-        """Where the block is: at the pair's point, or where the guiding link is itself the block."""
+        """Where the block is."""
+        return self.spots[self._seat(slide)]
+
+    def _seat(self, slide: Slide) -> str:
+        """The point where the block is: the pair's, or where the guiding link is itself the block."""
         at = self.spots[slide.at]
         guide = self._distinct(slide.along) if slide.along != FRAME else []
         rod = len(self._distinct(slide.link)) > 1 or slide.link == FRAME
         if rod and len(guide) == 1 and abs(turn(at, off(at, self.along(slide), 1.0), guide[0])) < NEAR:
-            return guide[0]
-        return at
+            return self.scene.links[slide.along][0]
+        return slide.at
 
     def _distinct(self, link: str) -> list[Spot]:
         """The places of a link's points, coincident ones once."""
@@ -144,37 +194,37 @@ class DrawnMechanism:
         spots = self._distinct(link)
         return sum(x for x, _ in spots) / len(spots), sum(y for _, y in spots) / len(spots)
 
-    def _link(self, link: str) -> Iterator[Item]:
-        spots = self._distinct(link)
+    def _link(self, link: str) -> Iterator[Figure | Rail]:
+        spots, names = self._distinct(link), self.scene.links[link]
         for slide in self.scene.slides:
             seated = self.seat(slide) == self.spots[slide.at]
             guides = slide.along == link and (len(spots) > 1 or seated)
             if guides or (slide.link == link and not seated):
-                yield from self._rail(slide, spots)
+                yield from self._rail(slide, names)
         if len(spots) < 2:
             return
         if not symbols.straight(spots):
-            yield from symbols.plate(spots)
+            yield Figure(tuple(symbols.plate(spots)), names, link)
             return
         along = unit(spots[0], max(spots, key=lambda s: (math.dist(s, spots[0]), s)))
         spots.sort(key=lambda s: s[0] * along[0] + s[1] * along[1])
-        yield from symbols.bar(spots)
-        for inner in filter(self._joined, spots[1:-1]):
-            yield symbols.elbow(inner, along, self._free_side(inner, along))
+        inner = filter(self._joined, spots[1:-1])
+        elbows = (symbols.elbow(spot, along, self._free_side(spot, along)) for spot in inner)
+        yield Figure((*symbols.bar(spots), *elbows), names, link)
 
-    def _rail(self, slide: Slide, spots: list[Spot]) -> Iterator[Item]:
+    def _rail(self, slide: Slide, names: tuple[str, ...]) -> Iterator[Rail]:
         """The part of a moving link that guides: through the block and a little beyond, tied to the link's points."""
         seat, along = self.seat(slide), self.along(slide)
-        reach = [off(seat, along, -LONG - 3.0), off(seat, along, LONG + 3.0)]
-        if not spots:
+        reach = [off(seat, along, -RAIL), off(seat, along, RAIL)]
+        if not names:
             return
-        nearest = min(spots, key=lambda s: (math.dist(s, seat), s))
+        end = min(names, key=lambda name: (math.dist(self.spots[name], seat), self.spots[name]))
+        nearest = self.spots[end]
         t = (nearest[0] - seat[0]) * along[0] + (nearest[1] - seat[1]) * along[1]
         foot = off(seat, along, t)
         line = sorted([*reach, foot], key=lambda s: s[0] * along[0] + s[1] * along[1])
-        yield from symbols.bar((line[0], line[-1]))
-        if math.dist(foot, nearest) > NEAR:
-            yield from symbols.bar((foot, nearest))
+        tie = symbols.bar((foot, nearest)) if math.dist(foot, nearest) > NEAR else ()
+        yield Rail(slide, self._seat(slide), end, (*symbols.bar((line[0], line[-1])), *tie))
 
     def _free_side(self, inner: Spot, along: Vector) -> float:
         """The side of a bar that the other links at an inner joint leave free."""

@@ -137,6 +137,11 @@ class Stroke:
         return self.vector.label if self.vector else ""
 
     @property
+    def name(self) -> str:
+        """What it says of a vector that is asked for, such as `velocity A`."""
+        return f"{self.kind} {self.vector.point}" if self.vector else ""
+
+    @property
     def length(self) -> float:
         return math.dist(*self.ends)
 
@@ -150,8 +155,7 @@ class Stroke:
         """The stroke as it lies."""
         if not self.head:
             return Polyline(self.pen, self.layer, self.of.index, self.ends)
-        label = f"{self.kind} {self.vector.point}" if self.vector else ""
-        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, label)
+        return Arrow(self.pen, self.layer, self.of.index, *self.ends, self.head, self.name)
 
 
 @dataclass(frozen=True)

@@ -95,10 +95,10 @@ class Excerpt(Plate):
         return drawn.number > 0 and (drawn.index in self.own or not drawn.name)
 
     @cached_property
-    def _asked(self) -> list[Stroke]:
+    def asked(self) -> list[Stroke]:
         """The vectors whose ends are both shown."""
         shown = {drawn.index for drawn in self.steps}
-        return [one for one in super()._asked if {one.start.index, one.end.index} <= shown]
+        return [one for one in super().asked if {one.start.index, one.end.index} <= shown]
 
     def inked(self, item: Item) -> Item:
         """An item in ink where it is new, else in grey: the mechanism paler, letters in one that can be read."""

@@ -152,7 +152,7 @@ class Plans:
 
     def extent(self, panel: str) -> Extent:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
-        ends = [self.spot(i) for i in self._ends(panel)]
+        ends = [self.spot(i) for i in self.ends(panel)]
         marks = [self.spot(i) for i in self.points(panel)]
         core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
@@ -171,7 +171,7 @@ class Plans:
         given = sheet.k_s or sheet.k_v or sheet.k_a or sheet.k_F
         return box if given or larger.width + larger.height > A_BIT * (box.width + box.height) else larger
 
-    def _ends(self, panel: str) -> Iterator[int]:
+    def ends(self, panel: str) -> Iterator[int]:
         """The marks between which vectors are drawn: those asked for, those given; of forces all that have letters."""
         drawn, forces = self.drawing.drawn, self.kinds(panel) & FORCES
         for vector in self.vectors(panel):

@@ -169,9 +169,13 @@ class Plate:
 
     def dot(self, drawn: DrawnStep) -> Pen | None:
         """What dots a mark that a step makes, but for corners of force polygons and where forces end."""
-        if not (drawn.number and self.shown(drawn)) or corner(drawn.step):
+        return self.dotting(drawn) if self.shown(drawn) else None
+
+    def dotting(self, drawn: DrawnStep) -> Pen | None:
+        """What dots it where it lies on the panel."""
+        if not drawn.number or drawn.kind != POINT or corner(drawn.step):
             return None
-        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self._asked):
+        if any(stroke.end is drawn and stroke.kind in pens.FORCES for stroke in self.asked):
             return None
         return pens.ORIGIN if drawn.free else pens.DOT
 
@@ -188,14 +192,17 @@ class Plate:
     @cached_property
     def vectors(self) -> list[Stroke]:
         """The vectors that are asked for and long enough to be drawn."""
-        least = dict.fromkeys(pens.FORCES, HIDDEN if self.panel == MECHANISM else SHORT)
-        return [stroke for stroke in self._asked if stroke.length >= least.get(stroke.kind, SHORT)]
+        return [stroke for stroke in self.asked if stroke.length >= self.shortest(stroke.kind)]
+
+    def shortest(self, kind: str) -> float:
+        """The mm below which a vector of a kind is not drawn."""
+        return HIDDEN if kind in pens.FORCES and self.panel == MECHANISM else SHORT
 
     @property
     def hidden(self) -> Iterator[DrawnStep]:
         """What the sheet does not show: where forces end that are too short to be drawn, points beyond the panel, and
         lines and arcs of which nothing is needed but their way."""
-        yield from (force.end for force in self._asked if force.kind in pens.FORCES and force not in self.vectors)
+        yield from (force.end for force in self.asked if force.kind in pens.FORCES and force not in self.vectors)
         for drawn in self.steps:
             seen = {POINT: self.shown, CIRCLE: self.arcs, LINE: self._ruled}.get(drawn.kind)
             if seen and not seen(drawn):
@@ -206,7 +213,7 @@ class Plate:
         return any(stroke.length > NOTHING for stroke in self.strokes(line))
 
     @cached_property
-    def _asked(self) -> list[Stroke]:
+    def asked(self) -> list[Stroke]:
         """All vectors that are asked for on this plan; each is there when both its ends are."""
         found = []
         for vector in self.plans.vectors(self.panel):
@@ -230,18 +237,26 @@ class Plate:
 
     def _laid_off(self, drawn: DrawnStep, root: DrawnStep) -> Iterator[Stroke]:
         """A vector that is given has a head; one brought from another plan is a firm stroke; all else is thin."""
-        stroke, step = Stroke(drawn, root, drawn), drawn.step
-        if self.plans.drawing.drawn.given_vector(step) and stroke.length > SHORT:
-            kind = "velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"
-            yield replace(stroke, pen=pens.GIVEN[kind], head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
-            return
-        brought = step.op.movement is not Movement.MEASURED and drawn.args[0].panel != self.panel
-        if inside := self._inside(replace(stroke, pen=pens.NORMAL if brought else pens.THIN)):
+        stroke, given = Stroke(drawn, root, drawn), self.given_pen(drawn)
+        if given and stroke.length > SHORT:
+            yield replace(stroke, pen=given, head=min(GIVEN_HEAD, 0.6 * stroke.length), layer="vectors")
+        elif inside := self._inside(replace(stroke, pen=self.laid_pen(drawn))):
             yield from self._bare(inside)
+
+    def given_pen(self, drawn: DrawnStep) -> Pen | None:
+        """The pen of a vector that is given."""
+        if not self.plans.drawing.drawn.given_vector(drawn.step):
+            return None
+        return pens.GIVEN["velocity" if self.panel in (MECHANISM, VELOCITY_PLAN) else "acceleration"]
+
+    def laid_pen(self, drawn: DrawnStep) -> Pen:
+        """The pen of a stroke along which a point is laid off."""
+        brought = drawn.step.op.movement is not Movement.MEASURED and drawn.args[0].panel != self.panel
+        return pens.NORMAL if brought else pens.THIN
 
     def _vector_between(self, one: Spot, other: Spot) -> bool:
         """Whether a vector takes the place of a stroke."""
-        ends = [(stroke.start.at, stroke.end.at) for stroke in self._asked]
+        ends = [(stroke.start.at, stroke.end.at) for stroke in self.asked]
         return any(sorted(map(math.dist, (one, other), pair))[-1] < 0.05
                    for start, end in ends for pair in ((start, end), (end, start)))  # fmt: skip
 
@@ -260,13 +275,17 @@ class Plate:
         first, last = marks[0], marks[-1]
         long = math.dist(first.at, last.at)
         close = long < CLOSE
-        beyond, pen = ALONE if close else LOCUS_BEYOND if line.name else BEYOND, pens.THIN
-        if self.directs(line):
-            beyond = 0.0
-        elif line.name or line.step.op.movement in (Movement.RULED, Movement.GUIDED):
-            pen = pens.LOCUS if line.name else pens.PRODUCED
-        unit = 1.0 if close else long
+        beyond, pen = self.line_pen(line)
+        beyond, unit = (ALONE if beyond else 0.0, 1.0) if close else (beyond, long)
         return self._inside(Stroke(line, first, last, -beyond / unit, (long + beyond) / unit, pen, close))
+
+    def line_pen(self, line: DrawnStep) -> tuple[float, Pen]:
+        """How far a line goes on beyond its outermost marks, in mm, and its pen."""
+        if self.directs(line):
+            return 0.0, pens.THIN
+        if line.name:
+            return LOCUS_BEYOND, pens.LOCUS
+        return BEYOND, pens.PRODUCED if line.step.op.movement in (Movement.RULED, Movement.GUIDED) else pens.THIN
 
     def directs(self, line: DrawnStep) -> bool:
         """Whether a line only serves as a direction: from one mark to another."""

@@ -1,0 +1,260 @@
+"""What the live page needs to know to draw a construction on its sheet anew, in any pose.
+
+All of it is told by marks: lines by the marks on them, vectors by their ends, symbols by the points and links that they
+go with, letters by what they stand at. Where these lie, JavaScript works out as `sheet/plates` does (plates.js,
+mechanism.js, letters.js), with the same measures, which are told as well; it writes what changed (picture.js).
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Sequence
+from functools import cached_property
+from importlib.resources import files
+from typing import Any
+
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT
+from graphplan.mechanism.model import Slide
+from graphplan.methods.panels import MECHANISM
+from graphplan.output.svg import look
+from graphplan.phrases import said
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.divisions import MARGIN
+from graphplan.sheet.lettering import label_candidates, letters, obstacles, prices
+from graphplan.sheet.lettering.label_candidates import Wish
+from graphplan.sheet.lettering.lettering import (
+    ADVANCE,
+    CAPS,
+    DEPTH,
+    DROP,
+    LetterSizes,
+    Runs,
+    lowered,
+    name_runs,
+    sentence_runs,
+    width,
+)
+from graphplan.sheet.lettering.letters import Letters, wishes_on
+from graphplan.sheet.plates import display, drawn_mechanism, pens, symbols
+from graphplan.sheet.plates import plate as strokes
+from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Spot
+from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
+from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import corner
+from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.words.protocol import Protocol
+
+Data = dict[str, Any]  # of JSON
+SCRIPTS = "plates.js", "mechanism.js", "letters.js", "picture.js"
+MEASURES: dict[Any, tuple[str, ...]] = {  # of what is drawn: mm, degrees, prices
+    strokes: ("ALONE", "CLOSE", "NOTHING", "SHORT", "STRIKE", "FLATTEST", "WIDEST", "GIVEN_HEAD", "BREAK_HEAD",
+              "BREAK"),
+    symbols: ("RADIUS", "HIGH", "GUIDE", "HATCH", "PITCH", "NEAR"), drawn_mechanism: ("RAIL",),
+    display: ("SLIM", "BARB", "WALL"), pens: ("PAPER", "OPEN", "WHITE"),
+    letters: ("ALONG", "MIDDLE", "NEAR_HEAD"),
+    label_candidates: ("LED", "LEADER", "BALLOON", "AIR", "TASTE", "EDGE"),
+    obstacles: ("FAULT", "MISTAKEN", "TOUCH", "BESIDE", "STRANGER", "THICK"), prices: ("CLASH",),
+}  # fmt: skip
+TOGETHER = letters.NEAR  # mm: marks that lie so near to each other have their letters together
+PENS = {  # by what they draw
+    "arc": pens.ARC, "pair": pens.PAIR, "tracer": pens.DOT, "break": pens.THIN.filled(pens.GREY),
+    "leader": pens.LEADER, "balloon": pens.BALLOON, "letters": pens.LETTERS, "faint": pens.FAINT,
+    "ground": pens.GROUND, "hatch": pens.HATCH, "produced": pens.PRODUCED, "bar": pens.BAR, "hollow": pens.HOLLOW,
+    "path": pens.PATH,
+}  # fmt: skip
+
+
+def scripts() -> str:
+    """The JavaScript that draws: it gives the class `Picture`."""
+    texts = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
+    return f'"use strict";\nconst Picture = (() => {{\n{chr(10).join(texts)}\nreturn Picture;\n}})();\n'
+
+
+def picture(composition: Composition) -> Data:
+    """One construction on its sheet, as data for JSON; y runs up, and places are in lists that the data have."""
+    return _Teller(composition).told()
+
+
+class _Teller:
+    """Tells what is drawn; pens, points and texts by their places in lists."""
+
+    def __init__(self, composition: Composition):
+        self.composition, self.plates = composition, composition.plates
+        self.pens: dict[Pen, int] = {}
+        self.scene, self.program = self.plates.scene, composition.plans.drawing.drawn
+        self.points = list(self.scene.points)
+        self.panels = list(self.plates.plans.panels)
+        self.mechanism = self.plates[MECHANISM].drawn_mechanism
+        self.titles = list(Protocol(composition.plans, composition.scales).sentences)
+
+    def told(self) -> Data:
+        """Everything, but what does not move."""
+        arrangement, plans = self.composition.arrangement, self.plates.plans
+        found = {
+            "width": arrangement.width, "height": arrangement.height, "measures": _measures(self.plates.letters),
+            "panels": [self._panel(one) for one in self.plates],
+            "points": [[name, *plans.place(name)] for name in self.points],
+            "slides": [self._slide(slide) for slide in self.scene.slides],
+            "links": [list(map(self.points.index, self.scene.links[link])) for link in self.scene.moving],
+            "steps": [self._step(drawn) for drawn in self.plates.steps],
+            "vectors": [self._vector(plate, stroke) for plate in self.plates for stroke in plate.asked],
+            "parts": list(map(self._part, self.mechanism.parts())),
+            "pairs": list(map(self.points.index, self.mechanism.pairs)),
+            "joints": [self._lettering(sentence_runs(name, (name,))) for name in self.points],
+            "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
+            "places": dict(self._places()), "uses": {name: self.pen(pen) for name, pen in PENS.items()},
+        }  # fmt: skip
+        return found | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
+                                 for pen in self.pens]}  # fmt: skip
+
+    def pen(self, pen: Pen) -> int:
+        """The place of a pen."""
+        return self.pens.setdefault(pen, len(self.pens))
+
+    # ---- steps -----------------------------------------------------------------------------------------------------
+
+    def _panel(self, plate: Plate) -> Data:
+        """A plan's window, the marks that should be in it, and how far these are off its sides, at most a margin."""
+        rect, view, plans = plate.view.rect, plate.view, plate.plans
+        core = plans.extent(plate.panel).core
+        (left, low), (right, high) = view((core.left, core.bottom)), view((core.right, core.top))
+        off = left - rect.left, low - rect.bottom, rect.right - right, rect.top - high
+        return {"name": plate.panel, "rect": (rect.left, rect.bottom, rect.right, rect.top), "scale": view.scale,
+                "origin": view.origin, "core": list(plans.ends(plate.panel)) or plans.points(plate.panel),
+                "free": [max(0.0, min(MARGIN, side)) for side in off]}
+
+    def _slide(self, slide: Slide) -> Data:
+        """A sliding pair: its guide's direction, or the points that give it."""
+        through = slide.through and list(map(self.points.index, slide.through))
+        return {"name": slide.name, "through": through, "direction": tuple(map(float, slide.direction))}
+
+    def _step(self, drawn: DrawnStep) -> Data:
+        """What is drawn of a step, told by marks."""
+        plate = self.plates[drawn.panel]
+        found: Data = {"number": drawn.number, "kind": drawn.kind, "panel": self.panels.index(drawn.panel),
+                       "spoken": Letters(plate).spoken(drawn),
+                       "title": self.titles[drawn.index]}
+        if drawn.name:
+            found |= {"name": drawn.name, "letter": self._lettering(name_runs(drawn.name), corner(drawn.step))}
+        if drawn.kind in (LINE, CIRCLE):
+            found["marks"] = [mark.index for mark in plate.marks(drawn)]
+        if drawn.kind == LINE:
+            beyond, pen = plate.line_pen(drawn)
+            found |= {"beyond": beyond, "pen": self.pen(pen)}
+        if drawn.kind == CIRCLE and (end := self.plates.plans.diameter(drawn.step)) is not None \
+                and self.plates.steps[end].panel == drawn.panel:
+            found["diameter"] = end
+        if drawn.index in self._carried:
+            name = self.program.text(drawn.index)
+            runs = sentence_runs(self.plates.plans.tongue(said("to {0}", name)), (name,))
+            found |= {"text": name, "to": self._lettering(runs, size=self.plates.letters.text)}
+        if drawn.kind == POINT and (dot := plate.dotting(drawn)):
+            found["dot"] = [self.pen(dot), plate.size(drawn)]
+        if drawn.kind == POINT and drawn.root:
+            given = plate.given_pen(drawn)
+            found |= {"root": drawn.root.index, "pen": self.pen(plate.laid_pen(drawn)),
+                      "given": None if given is None else self.pen(given)}
+        return found
+
+    @cached_property
+    def _carried(self) -> set[int]:
+        """The marks on lines: to these lines go where they break off."""
+        lines = ((one, line) for one in self.plates for line in one.steps if line.kind == LINE)
+        return {mark.index for one, line in lines for mark in one.marks(line)}
+
+    def _vector(self, plate: Plate, stroke: Stroke) -> Data:
+        """A vector that is asked for."""
+        return {"of": stroke.of.index, "panel": self.panels.index(plate.panel), "start": stroke.start.index,
+                "end": stroke.end.index, "pen": self.pen(stroke.pen), "head": pens.HEADS[stroke.kind],
+                "least": plate.shortest(stroke.kind), "force": stroke.kind in pens.FORCES,
+                "label": stroke.name, "letter": stroke.letter,
+                "runs": self._lettering(name_runs(stroke.letter))}  # fmt: skip
+
+    # ---- the mechanism ---------------------------------------------------------------------------------------------
+
+    def _part(self, part: Figure | Guide | Rail) -> Data:
+        """A part of the mechanism's picture, and what it moves with."""
+        if isinstance(part, Figure):
+            return {"frame": self._frame(part), "items": [self._item(item, part) for item in part.items]}
+        slide, seat = self.scene.slides.index(part.slide), self.points.index(part.seat)
+        if isinstance(part, Guide):
+            return {"ground": slide, "block": seat, "side": part.side}
+        return {"rail": slide, "block": seat, "end": self.points.index(part.end)}
+
+    def _frame(self, part: Figure) -> Data | None:
+        """What a figure turns with: two points of a link, a slide's guide, or nothing."""
+        if part.slide:
+            return {"slide": self.scene.slides.index(part.slide)}
+        return self._turning(part.link) if part.link else None
+
+    def _turning(self, link: str) -> Data | None:
+        """The two points of a link that are farthest apart."""
+        names, spots = self.scene.links[link], self.mechanism.spots
+        pairs = [(p, q) for i, p in enumerate(names) for q in names[i + 1 :]]
+        found = max(pairs, key=lambda pair: math.dist(spots[pair[0]], spots[pair[1]]), default=None)
+        apart = found and math.dist(spots[found[0]], spots[found[1]]) > symbols.NEAR
+        return {"points": list(map(self.points.index, found))} if found and apart else None
+
+    def _item(self, item: Item, part: Figure) -> Data:
+        """A stroke, figure or arc of a symbol."""
+        found = {"layer": item.layer, "pen": self.pen(item.pen)}
+        if isinstance(item, Arc):
+            return found | {"spots": [self._off(item.centre, part.at)], "arc": [item.radius, item.start, item.end]}
+        assert isinstance(item, Polyline | Polygon)
+        return found | {"spots": [self._off(spot, part.at) for spot in item.spots], "closed": isinstance(item, Polygon)}
+
+    def _off(self, spot: Spot, at: Sequence[str]) -> tuple[int, float, float]:
+        """A spot by the nearest of some points, and how far off it is."""
+        point = min(at, key=lambda name: math.dist(self.mechanism.spots[name], spot))
+        x, y = self.mechanism.spots[point]
+        return self.points.index(point), _fine(spot[0] - x), _fine(spot[1] - y)
+
+    # ---- letters ---------------------------------------------------------------------------------------------------
+
+    def _lettering(self, runs: Runs, bold: bool = False, size: float | None = None) -> Data:
+        """A letter as runs, with its length in mm and how far it reaches below the line."""
+        high = size or self.plates.letters.mark
+        return {"runs": runs, "wide": _fine(width(runs, high, bold)), "bold": bold,
+                "depth": DROP + 0.15 if any(run.level < 0 for run in runs) else DEPTH}
+
+    def _link_number(self, wish: Wish) -> Data:
+        """The number of a link, and where it may stand."""
+        link = wish.label.removeprefix("link ")
+        spots = [self._off(spot, self.scene.links[link]) for spot in wish.spots]
+        return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.size), "clear": wish.clear,
+                "free": wish.free, "frame": self._turning(link), "spots": spots}
+
+    def _places(self) -> Iterator[tuple[str, tuple[int, float, float, bool]]]:
+        """Where each letter stands on the sheet: at which of its spots, how far off, and whether a leader ties it.
+        """
+        for plate in self.plates:
+            every = {_key(wish): wish.spots for wish in wishes_on(plate)}
+            for wish, place in self.composition.pictures[plate.panel].letters.places:
+                x, y = map(float, place.spots)
+                left, low = map(float, place.boxes[:2])
+                spots = every[_key(wish)]
+                at = min(range(len(spots)), key=lambda i: math.dist(spots[i], (x, y)))
+                yield f"{plate.panel}|{_key(wish)}", (at, _fine(left - x), _fine(low - y), bool(place.led))
+
+
+def _key(wish: Wish) -> str:
+    """What a letter is known by on its plan."""
+    return f"{'' if wish.step is None else wish.step}|{wish.label}"
+
+
+def _measures(sizes: LetterSizes) -> Data:
+    """The measures by name, and those of letters."""
+    found = {name: getattr(module, name) for module, names in MEASURES.items() for name in names}
+    return found | {"TOGETHER": TOGETHER, "MARGIN": MARGIN, "CAPS": CAPS, "DEPTH": DEPTH, "DROP": DROP,
+                    "LETTER": sizes.mark, "TEXT": sizes.text, "ADVANCE": {char: ADVANCE[char] for char in "0, ≡"},
+                    "LOWERED": {size: lowered(size) for size in vars(sizes).values()}}
+
+
+def _fine(length: float) -> float:
+    return round(length, 5) + 0.0
+
+
+def _attributes(pen: Pen) -> dict[str, str]:
+    """How a pen looks, as attributes of SVG."""
+    return {name.replace("_", "-"): str(value) for name, value in look(pen).items()}

@@ -1,0 +1,210 @@
+"""The picture of the live page, drawn by JavaScript: in the given pose the sheet's own, in others as Python draws them.
+
+GRAPHPLAN_PICTURES is how many of the packaged scenes are drawn, from the first on; without it a few are.
+"""
+
+from __future__ import annotations
+
+import cmath
+import json
+import os
+import shutil
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cached_property
+from itertools import islice
+from typing import Any
+
+import pytest
+
+import graphplan as gp
+from graphplan.cycle import follow
+from graphplan.errors import GraphplanError
+from graphplan.mechanism.scene import packaged
+from graphplan.methods.construction import Construction
+from graphplan.output.live.picture import picture, scripts
+from graphplan.output.svg import inked, svg
+from graphplan.sheet.cycle_frames import posed
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.plates.display import Circle, Item, Rect
+from graphplan.sheet.plates.drawn_step import LAYER
+from graphplan.sheet.plates.plans import Plans
+from graphplan.sheet.plates.plate import Plates
+
+CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
+SAMPLE = "slider-crank", "shaper", "jaanimets-10", "double-butterfly"
+SCENES = packaged()[: int(os.environ["GRAPHPLAN_PICTURES"])] if "GRAPHPLAN_PICTURES" in os.environ else SAMPLE
+POSES = 12  # of a turn
+NEAR = 0.0101  # mm: both pictures are rounded to hundredths
+LOOK = ("fill", "stroke", "stroke-width", "stroke-dasharray", "data-vector", "font-size", "font-weight",
+        "text-anchor")  # fmt: skip
+STILL = "layer-paper", "layer-border", "layer-text"
+NUMBERS = {"circle": ("cx", "cy", "r"), "polyline": ("points",), "polygon": ("points",), "path": ("d",),
+           "g": ("data-from", "data-to"), "text": ("x", "y")}  # fmt: skip
+READ = """svg => [...svg.querySelectorAll('g.step, g[class^="layer-"]')].map(group => [
+  group.dataset.step ?? group.getAttribute('class'),
+  [...group.querySelectorAll('polyline, polygon, path, circle, text, g.vector')]
+    .filter(node => !node.closest('[display=none]')).map(node => [node.localName,
+      Object.fromEntries([...node.attributes].map(one => [one.name, one.value])),
+      node.localName === 'text' ? node.innerHTML.replace(/ xmlns="[^"]*"/g, '') : '',
+      node.closest('.vector') !== null && node.localName !== 'g', node.parentNode !== group])])"""
+
+Stroke = tuple[str, str, tuple[float, ...]]  # what it is, how it looks, where it lies
+Strokes = dict[str, list[Stroke]]
+
+
+class Stage:
+    """A scene's sheet in a browser, drawn anew."""
+
+    def __init__(self, name: str, browser: Any):
+        self.drawing = gp.construct(gp.load(name))
+        self.composition = compose(self.drawing, protocol="none")
+        self.sheet = layout(self.drawing, composition=self.composition)
+        self.page, self.complaints = browser.new_page(viewport={"width": 1400, "height": 1000}), list[str]()
+        self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
+        self.page.on("console", lambda message: self.complaints.append(message.text))
+        text = svg(self.sheet)
+        data = json.dumps({"programs": [picture(self.composition)]})
+        self.page.set_content(f"<!DOCTYPE html><body>{text[text.index('<svg'):]}<script>{scripts()}</script><script>"
+                              f"const svg = document.querySelector('svg'), data = {data};</script></body>")
+        self.own = self.read()
+        self.page.evaluate("window.drawn = new Picture(svg, data)")
+
+    def read(self) -> list[Any]:
+        """Every group of the picture with what can be seen in it."""
+        found: list[Any] = self.page.evaluate(f"({READ})(svg)")
+        return found
+
+    def draw(self, drawing: Construction, points: Mapping[str, complex], guides: Mapping[str, complex]) -> list[Any]:
+        """The picture in a pose, read."""
+        values = [[float(part) for part in value] for value in drawing.values]
+        told = ({name: [z.real, z.imag] for name, z in places.items()} for places in (points, guides))
+        self.page.evaluate("pose => drawn.draw(0, ...pose)", [values, *told])
+        return self.read()
+
+    def given(self) -> list[Any]:
+        """The picture in the given pose."""
+        points = {name: complex(*map(float, place)) for name, place in self.drawing.scene.points.items()}
+        return self.draw(self.drawing, points, {})
+
+    @cached_property
+    def poses(self) -> list[tuple[Construction, dict[str, complex], dict[str, complex]]]:
+        """Poses of the turn that are drawn by the same steps."""
+        try:
+            turn = follow(self.drawing.scene, POSES)
+        except GraphplanError:
+            return []
+        found = []
+        for k in range(1, len(turn.travel)):
+            points, guides = ({name: complex(z[k]) for name, z in told.items()} for told in (turn.points, turn.guides))
+            if all(map(cmath.isfinite, points.values())) and (drawing := posed(self.drawing, points, guides)):
+                found.append((drawing, points, guides))
+        return found
+
+    def expected(self, drawing: Construction) -> Strokes:
+        """What Python draws of the steps in a pose in the windows that the picture has."""
+        origins = self.page.evaluate("drawn.windows.map(view => view.origin)")
+        scales = self.page.evaluate("drawn.windows.map(view => view.scale)")
+        views = {name: replace(view, origin=tuple(origin), scale=scale) for (name, view), origin, scale
+                 in zip(self.composition.views.items(), origins, scales, strict=True)}  # fmt: skip
+        found: dict[str, list[Item]] = {}
+        for plate in Plates(Plans(drawing), views):
+            for drawn in plate.steps:
+                items: list[Item] = [stroke.item for stroke in plate.strokes(drawn)]
+                items += [arc.item for arc in plate.arcs(drawn)]
+                if pen := plate.dot(drawn):
+                    items.append(Circle(pen, LAYER, drawn.index, drawn.at, plate.size(drawn)))
+                found.setdefault(str(drawn.number), []).extend(items)
+            for vector in plate.vectors:
+                found.setdefault(str(vector.of.number), []).append(vector.item)
+        return {key: [_stroke(node.tag, node.attrib, "") for node in inked(self.sheet, 0, items).get_xml()
+                      if node.tag in NUMBERS] for key, items in found.items()}  # fmt: skip
+
+
+def _stroke(tag: str, attributes: Mapping[str, str], text: str) -> Stroke:
+    """One element; which half of a circle is the larger is nothing to tell."""
+    parts = " ".join(attributes.get(name, "") for name in NUMBERS[tag])
+    numbers = [float(part) for part in parts.replace(",", " ").replace("M", "").replace("A", "").split()]
+    look = " ".join(attributes.get(name, "") for name in LOOK)
+    return tag, look + text, tuple(numbers[:4] + numbers[7:] if tag == "path" else numbers)
+
+
+def strokes(groups: Sequence[Any], whole: bool) -> Strokes:
+    """Everything that is seen, or the strokes, arcs, dots and vectors of steps alone."""
+    return {key: [_stroke(tag, attributes, text) for tag, attributes, text, of_vector, nested in nodes
+                  if whole or not (of_vector or nested or tag == "text")]
+            for key, nodes in groups if whole or not key.startswith("layer-")}  # fmt: skip
+
+
+def different(one: Strokes, other: Strokes) -> list[tuple[str, str, Stroke]]:
+    """What one has and the other has not."""
+    found = []
+    for key in sorted({*one, *other}):
+        left = list(other.get(key, ()))
+        for stroke in one.get(key, ()):
+            twin = next((one for one in left if _alike(stroke, one)), None)
+            if twin is None:
+                found.append((key, "lacks", stroke))
+            else:
+                left.remove(twin)
+        found += [(key, "has", stroke) for stroke in left]
+    return found
+
+
+def _alike(one: Stroke, other: Stroke) -> bool:
+    return one[:2] == other[:2] and len(one[2]) == len(other[2]) and \
+        all(abs(p - q) <= NEAR for p, q in zip(one[2], other[2], strict=True))
+
+
+def whole(groups: Strokes, panels: Sequence[Rect], height: float) -> Strokes:
+    """What no panel cuts off: the one picture cuts strokes, the other shows a part of them."""
+
+    def kept(key: str, stroke: Stroke) -> bool:
+        tag, _, numbers = stroke
+        if tag not in ("polyline", "polygon", "path") or (not key.startswith("layer-") and len(numbers) == 4):
+            return True
+        ends = (*numbers[:2], *numbers[4:]) if tag == "path" else numbers
+        spots = [(x, height - y) for x, y in zip(ends[::2], ends[1::2], strict=True)]
+        return any(all(panel.holds(spot, -0.02) for spot in spots) for panel in panels)
+
+    return {key: [stroke for stroke in strokes if kept(key, stroke)] for key, strokes in groups.items()}
+
+
+@pytest.fixture(scope="module")
+def browser() -> Iterator[Any]:
+    """A browser without a window."""
+    api = pytest.importorskip("playwright.sync_api")
+    if CHROMIUM is None:
+        pytest.skip("no Chromium is installed")
+    with api.sync_playwright() as play:
+        running = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+        yield running
+        running.close()
+
+
+@pytest.fixture(scope="module", params=SCENES)
+def stage(request: pytest.FixtureRequest, browser: Any) -> Iterator[Stage]:
+    """A scene on its sheet; its page may say nothing."""
+    found = Stage(request.param, browser)
+    yield found
+    found.page.close()
+    assert found.complaints == []
+
+
+def test_in_the_given_pose_it_is_the_sheet(stage: Stage) -> None:
+    """The strokes, arcs, dots, vectors, symbols and letters of the sheet stand where they stood, also after a turn."""
+    panels = [view.rect for view in stage.composition.views.values()]
+    own = whole(strokes([group for group in stage.own if group[0] not in STILL], True), panels, stage.sheet.height)
+    for pose in (None, *islice(stage.poses, 1)):
+        if pose:
+            stage.draw(*pose)
+        drawn = [group for group in stage.given() if group[0] not in STILL]
+        assert different(own, whole(strokes(drawn, True), panels, stage.sheet.height)) == []
+
+
+def test_in_any_pose_its_strokes_are_those_that_python_draws(stage: Stage) -> None:
+    """Strokes, arcs, dots and vectors of the steps lie as far apart as rounding makes them."""
+    for pose in stage.poses:
+        drawn = strokes(stage.draw(*pose), False)
+        assert different(stage.expected(pose[0]), drawn) == []

@@ -134,6 +134,8 @@ class Motion {
 
   drawn() {
     const points = this.points(), guides = this.guides(), programs = this.data.programs;
+    const torn = this.data.shared.find(([one, other]) => this.torn(points[one], points[other]));
+    if (torn) return { program: this._program, values: null, why: torn[2], results: null };
     const found = programs.map(() => null);
     const tried = (k) => (found[k] ??= this.tried(k, points, guides));
     const serves = (k) => tried(k).apart <= this.data.same * (k < this._program ? 1 / 64 : 1);
@@ -143,6 +145,11 @@ class Motion {
     if (program >= 0) this._program = program;
     const drawn = { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "" };
     return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
+  }
+
+  /** Whether two places are two. */
+  torn([x, y], [u, v]) {
+    return Math.hypot(x - u, y - v) > ROUNDED * (this.still ? 0 : this.data.linkage.reach);
   }
 
   /** Results with how they were found, and by how much the linkage's own opinion differs. */
@@ -231,7 +238,7 @@ class Motion {
 
   /** Moves a pin of the frame towards a place as far as the linkage follows, the drives standing still. */
   shift(name, goal) {
-    const { shared, linkage: data } = this.data, serves = (pin) => shared[pin] ?? pin;
+    const data = this.data.linkage, shared = Object.fromEntries(this.data.shared), serves = (pin) => shared[pin] ?? pin;
     if (data.locked) {
       this.said = data.locked;
       return;
@@ -275,15 +282,16 @@ class Motion {
   toml() {
     const { points, guides } = this.scene(), scene = structuredClone(this.data.scene);
     delete scene.vary;
-    scene.points = points;
-    for (const slide of scene.slides ?? []) slide.direction = guides[`${slide.link} along ${slide.along}`] ?? slide.direction;
+    scene.points = Object.fromEntries(this.data.placed.map((name) => [name, points[name]]));
+    for (const slide of [scene.slides ?? []].flat()) slide.direction = guides[`${slide.link} along ${slide.along}`] ?? slide.direction;
     this.data.lines.forEach((line, k) => {
-      if (line) scene.balance[k].direction = line;
+      if (line) [scene.balance].flat()[k].direction = line;
     });
     return written(scene);
   }
 }
 
+const ROUNDED = 1e-9;  // of the reach: points that lie no further apart lie in one place
 const ROUNDS = 100, STIFF = 1e12;  // of a pull: how many steps at most, and how stiff it becomes before it gives up
 
 /** The turns of the drives that take a point nearer by so much, none longer than the longest: damped least squares. */

@@ -54,13 +54,22 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
     data = {
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
         "guides": {slide.name: [*map(float, slide.direction)] for slide in scene.slides},
-        "under": under(scene), "shared": drawings[0].shared, "scene": _plain(tomllib.loads(scene.text)),
+        "under": under(scene), "shared": [[point, at, str(said(
+            "points {0} and {1} coincide in the scene and lie apart here: one mark cannot serve both", point, at))]
+            for point, at in drawings[0].shared.items()],
+        "scene": _plain(tomllib.loads(scene.text)), "placed": [*_placed(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
     }  # fmt: skip
     tapes = {"steps": steps, "drawn": [program.drawn for program in programs],
              "rules": [program.rules for program in programs]}
     return data, "{" + ",\n".join(f"{name}: [{', '.join(texts)}]" for name, texts in tapes.items()) + "}"
+
+
+def _placed(scene: Scene) -> Iterator[str]:
+    """The points that a scene must have whose points are given by coordinates: others only served to place them."""
+    through = {name for slide in scene.slides for name in slide.through or ()}
+    return (name for name, links in scene.links_of.items() if links or name in through)
 
 
 SCRIPTS = "linkage.js", "opinion.js", "motion.js"

@@ -1,0 +1,257 @@
+"""The linkage of the live page beside Python's: the same poses, limits and results, on its branch wherever it is dragged.
+
+In each scene LIVE_POSES poses are compared and LIVE_DRAGS drags are made, of which LIVE_SOLVED are solved anew; of
+LIVE_LINKAGES random linkages, too.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Iterator
+from functools import cache
+from importlib.util import module_from_spec, spec_from_file_location
+from itertools import combinations
+from pathlib import Path
+from random import Random
+from typing import Any, NamedTuple
+
+import numpy as np
+import pytest
+
+import graphplan as gp
+from graphplan.check.cycle import cycle
+from graphplan.check.json_results import data as printed
+from graphplan.check.trusted import report
+from graphplan.cycle.turn import RangeOfMotion
+from graphplan.errors import GraphplanError
+from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.scene import packaged, parse
+from graphplan.methods.construction import Construction
+from graphplan.output.live.motion import motion, script
+
+RANDOM = Path(__file__).parents[2] / "random" / "linkages.py"
+POSES, DRAGS, SOLVED, LINKAGES = (int(os.environ.get(f"LIVE_{name}", usual)) for name, usual in (
+    ("POSES", "20"), ("DRAGS", "10"), ("SOLVED", "1"), ("LINKAGES", "10")))
+NINE = 1e-9
+FAIR = 1e-3  # of the smallest determinant: nearer to a limit everybody loses digits
+KINDS = {"points": ("velocity", "acceleration"), "links": ("omega", "alpha"),
+         "slides": ("slide velocity", "slide acceleration")}
+NODE = """
+const found = {};
+for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
+  const motion = new Motion(data, tape), seen = () => ({
+    travel: motion.travel, points: motion.points(), guides: motion.guides(), results: motion.results(),
+    drawn: motion.values() !== null, said: motion.said,
+    determinants: Array.from(motion.knot.determinants, (value, k) => value / motion.start.determinants[k]) });
+  const poses = travels.map((travel) => ((motion.travel = travel), seen()));
+  motion.limited = null;
+  found[name] = { poses, limits: motion.limits() };
+  motion.reset();
+  found[name].drags = drags.map(([point, x, y]) => {
+    motion.drag(point, x, y);
+    const there = { ...seen(), toml: motion.toml() }, { knot, path } = motion;
+    if (there.said || data.linkage.drives.length > 1) return there;
+    const beside = [0, -0.1, 0.1].map((turn) => {
+      motion.travel = there.travel + turn;
+      const [u, v] = motion.points()[point];
+      return Math.hypot(x - u, y - v);
+    });
+    motion.set(path, { knot });
+    return { ...there, beside };
+  });
+}
+process.stdout.write(JSON.stringify(found));
+"""
+
+
+class Case(NamedTuple):
+    """A scene, where it is taken, its limits by Python, and what the page says: of poses, limits and drags."""
+
+    drawing: Construction
+    travels: list[float]
+    drags: list[tuple[str, float, float]]
+    limits: list[float | None]
+    unit: float
+    found: dict[str, Any]
+
+    @property
+    def scene(self) -> gp.Scene:
+        return self.drawing.scene
+
+
+def moved(drawing: Construction) -> tuple[Case, str] | None:
+    """What is to be done with a scene, and the page's data; None where it cannot be followed."""
+    scene, random = drawing.scene, Random(drawing.scene.name)
+    data, tape = motion([drawing])
+    if "still" in data["linkage"]:
+        return None
+    unit = data["linkage"]["unit"]
+    limits = [limit and limit["travel"] / unit for limit in data["linkage"]["limits"]]
+    low, high = (end / unit if limit is None else limit * (1 - 1e-4)
+                 for limit, end in zip(limits, data["linkage"]["span"], strict=True))
+    travels = [random.uniform(low, high) for _ in range(POSES)]
+    drags, far = [], 0.15 * scene.extent
+    for name in random.choices([name for name in scene.points if scene.links_of[name]], k=DRAGS):
+        x, y = map(float, scene.points[name])
+        drags.append((name, x + random.uniform(-far, far), y + random.uniform(-far, far)))
+    case = Case(drawing, travels, drags, limits, unit, {})
+    return case, f"{{data: {json.dumps(data)}, tape: {tape}, travels: {travels}, drags: {json.dumps(drags)}}}"
+
+
+@cache
+def random_linkages() -> Any:
+    """The module that makes them."""
+    spec = spec_from_file_location("random_linkages", RANDOM)
+    assert spec is not None and spec.loader is not None
+    sys.modules[spec.name] = module = module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+def constructions() -> Iterator[Construction]:
+    """Those of all packaged scenes, and of random linkages that can be drawn in the given pose."""
+    for name in packaged():
+        yield gp.construct(gp.load(name), checked=False)
+    for seed in range(LINKAGES):
+        try:
+            drawing = gp.construct(parse(random_linkages().linkage(seed).text(), f"random {seed}"), checked=False)
+            drawing.values  # noqa: B018
+        except GraphplanError:
+            continue
+        yield drawing
+
+
+@cache
+def cases() -> dict[str, Case]:
+    """All scenes that can be followed, taken round by one process of node."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("node is not installed")
+    made = [one for drawing in constructions() if (one := moved(drawing)) is not None]
+    texts = ",\n".join(f"{json.dumps(case.scene.name)}: {text}" for case, text in made)
+    done = subprocess.run([node, "-"], input=f"{script()}\nconst cases = {{{texts}}};\n{NODE}", capture_output=True,
+                          text=True, timeout=600, check=False)
+    assert done.returncode == 0, done.stderr
+    found = json.loads(done.stdout)
+    return {case.scene.name: case._replace(found=found[case.scene.name]) for case, _ in made}
+
+
+def apart(ours: Any, theirs: Any) -> float:
+    """The difference of numbers or vectors."""
+    return math.dist(np.atleast_1d(ours), np.atleast_1d(theirs))
+
+
+def test_poses() -> None:
+    """In poses taken in any order points and results are Python's, to nine digits."""
+    for name, case in cases().items():
+        ends = min(0.0, *case.travels) * case.unit, max(0.0, *case.travels) * case.unit
+        turn = RangeOfMotion(case.scene, *ends, False).turn(np.array(case.travels) * case.unit)
+        together = {point: turn.points[at] for point, at in case.drawing.shared.items()}
+        if any(np.abs(z - turn.points[point]).max() > NINE for point, z in together.items()):
+            assert not any(pose["results"] for pose in case.found["poses"]), name  # one mark cannot serve both
+            continue
+        poses = case.drawing.evaluate(turn.points | together, turn.guides)
+        for k, pose in enumerate(case.found["poses"]):
+            assert pose["said"] == "", (name, case.travels[k])
+            for point, z in turn.points.items():
+                gap = abs(complex(*pose["points"][point]) - z[k])
+                assert gap <= NINE * case.scene.extent, (name, case.travels[k], point, gap)
+            for part, kinds in KINDS.items():
+                for kind in kinds if k not in poses.faults else ():
+                    key, named = kind.split()[-1], {of: z[k] for of, z in poses.named(kind).items()}
+                    size = max(least(case.scene)[key], *map(abs, named.values()), 0.0)
+                    for of, true in named.items():
+                        value = pose["results"][part][of][key]
+                        gap = abs((complex(*value) if isinstance(value, list) else value) - true)
+                        assert gap <= NINE * size, (name, case.travels[k], kind, of)
+
+
+def least(scene: gp.Scene) -> dict[str, float]:
+    """What drives as fast as these give at least to something: beside less, rounding is no difference."""
+    long = {True: scene.extent, False: 1.0}
+    pace = max(max(abs(float(drive.rate)), math.sqrt(abs(float(drive.change)))) / long[drive.slides]
+               for drive in scene.drives)
+    return {"velocity": pace * scene.extent, "acceleration": pace * pace * scene.extent, "omega": pace,
+            "alpha": pace * pace}
+
+
+def test_limits() -> None:
+    """The page finds the limits that `cycle` finds, each within what a limit is known to."""
+    for name, case in cases().items():
+        for ours, theirs in zip(case.found["limits"], case.limits, strict=True):
+            assert (ours is None) == (theirs is None), name
+            near = 1e-7 if name in packaged() else 1e-5  # by chance a limit is one in several ways, and told worse
+            assert ours is None or abs(ours - theirs) <= near * max(1.0, abs(theirs)), (name, ours, theirs)
+
+
+def test_drags() -> None:
+    """However it is dragged, links keep their lengths and the linkage its branch."""
+    for name, case in cases().items():
+        given = {point: complex(*map(float, at)) for point, at in case.scene.points.items()}
+        for drag, pose in zip(case.drags, case.found["drags"], strict=True):
+            assert min(pose["determinants"], default=1.0) > 0, (name, drag)
+            at = {point: complex(*place) for point, place in pose["points"].items()}
+            for link, points in case.scene.links.items():
+                for one, two in combinations([point for point in points if not moves_on_guide(case, link, point)], 2):
+                    gap = abs(abs(at[one] - at[two]) - abs(given[one] - given[two])) if link != FRAME else 0.0
+                    assert gap <= NINE * case.scene.extent, (name, drag, link, one, two)
+
+
+def test_nearest() -> None:
+    """A point that is dragged is as near as it comes: a little to either side it is no nearer."""
+    for name, case in cases().items():
+        for drag, pose in zip(case.drags, case.found["drags"], strict=True):
+            here, *others = pose.get("beside", (0.0, 0.0))
+            assert here <= min(others) + NINE * case.scene.extent, (name, drag, pose["beside"])
+
+
+def moves_on_guide(case: Case, link: str, point: str) -> bool:
+    """Whether a point of a guide's link only marks the place under the sliding point."""
+    return any(slide.along == link and case.scene.points[slide.at] == case.scene.points[point]
+               for slide in case.scene.slides)
+
+
+def test_dragged_scenes() -> None:
+    """What is copied as a scene gives, solved anew, the results that the page shows."""
+    for name, case in cases().items():
+        fair = [pose for pose in case.found["drags"] if pose["results"] and min(pose["determinants"], default=1) > FAIR
+                and (name in packaged() or max(pose["results"]["check"].values()) < 1e-5)]
+        for pose in fair[-SOLVED:]:
+            truth = printed(report(parse(pose["toml"], name)))
+            size = {key: max(least(case.scene).get(key, 0.0), largest(truth, key)) for key in KEYS}
+            for path, key, ours, theirs in numbers(pose["results"], truth):
+                assert apart(ours, theirs) <= NINE * size[key], (name, path, ours, theirs)
+
+
+KEYS = "velocity", "acceleration", "omega", "alpha", "force", "moment", "acts_at", "efficiency"
+
+
+def numbers(ours: Any, theirs: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, str, Any, Any]]:
+    """The numbers of results beside those of others, by their keys."""
+    parts = theirs.items() if isinstance(theirs, dict) else enumerate(theirs)
+    for key, value in parts:
+        if key in KEYS and not isinstance(value, str | dict):
+            yield (*path, key), str(key), ours[key], value
+        elif isinstance(value, dict | list) and key not in ("check", "bounds", "method", "stands"):
+            yield from numbers(ours[key], value, (*path, key))
+
+
+def largest(truth: Any, key: str) -> float:
+    """The largest number or vector of a key."""
+    return max((math.hypot(*np.atleast_1d(value)) for _, one, value, _ in numbers(truth, truth) if one == key),
+               default=0.0)
+
+
+def test_second_opinion() -> None:
+    """The linkage's own rates and powers agree with the construction, wherever the solver does."""
+    for name, case in cases().items():
+        checks = {pose["travel"]: pose["results"]["check"] for pose in case.found["poses"] if pose["results"]}
+        assert sum("acceleration" in check for check in checks.values()) >= 0.8 * len(checks), name
+        for travel, check in checks.items():
+            if max(check.values()) > 1e-5:  # then the solver says so, too
+                assert max(cycle(case.scene, 1, (travel, travel)).check.values()) > 1e-5, (name, travel, check)

@@ -107,3 +107,10 @@ def direction(of: Slide | Along) -> complex:
     """A direction in the given pose, of length 1."""
     along = number(*of.direction)
     return along / abs(along)
+
+
+def grounded(scene: Scene) -> Scene:
+    """The scene with the points whose motion is given as pins of its frame: how its links lie does not ask for more."""
+    if not scene.motions:
+        return scene
+    return replace(scene, motions={}, links={**scene.links, FRAME: (*scene.links.get(FRAME, ()), *scene.motions)})

@@ -70,7 +70,7 @@ class Linkage {
   /** The knot where the drives are so, their rates being so; or the number of the group that is not to be trusted. */
   closed(drives, rates, predicted, size) {
     const state = Float64Array.from(predicted), rate = new Float64Array(this.unknowns);
-    const lies = new Float64Array(7 * this.data.links), determinants = new Float64Array(this.groups.length);
+    const lies = new Float64Array(7 * this.data.bases.length), determinants = new Float64Array(this.groups.length);
     lies[2] = 1;
     for (const [g, group] of this.groups.entries()) {
       const n = group.unknowns, end = group.first + n;

@@ -8,10 +8,7 @@ class Motion {
     this.fixed = { ...data.points };
     this.said = "";
     this._program = 0;
-    if (data.linkage.still) {
-      this.still = data.linkage.still;
-      return;
-    }
+    this.still = data.linkage.still;
     this.linkage = new Linkage(data.linkage, tape.steps);
     this.opinion = new Opinion(data, this.linkage);
     this.way = data.linkage.drives.map((drive) => drive.pace);
@@ -20,7 +17,6 @@ class Motion {
 
   /** The given pose, with all pins where the scene has them. */
   reset() {
-    if (this.still) return;
     const { bases, drives, limits, span } = this.data.linkage;
     const lies = Float64Array.from(bases.flatMap(([x, y]) => [x, y, 1, 0, 0, 0, 0]));
     this.fixed = { ...this.data.points };
@@ -34,9 +30,9 @@ class Motion {
   /** A new path along the drives' own way from a knot. */
   leave(knot) {
     const { drives, state, lies } = knot, { way, start, span } = this.path;
-    const from = { ...this.linkage.placed(drives, this.way, state, lies), travel: drives[0] };
+    const from = { ...this.linkage.placed(drives, this.way, state, lies), travel: drives[0] ?? 0 };
     this.set(new Path(this.linkage, from, this.way, start, span), { knot: from });
-    this.limited = null;
+    this.limited = this.still ? this.limited : null;
   }
 
   /** Takes a knot of a path as the pose; a knot with a part is at a limit. */
@@ -49,21 +45,17 @@ class Motion {
   }
 
   get travel() {
-    return this.still ? 0 : this.knot.travel / this.data.linkage.unit;
+    return this.knot.travel / this.data.linkage.unit;
   }
 
   set travel(value) {
-    if (this.still) {
-      this.said = this.still;
-      return;
-    }
     const goal = value * this.data.linkage.unit;
-    if (Number.isFinite(goal)) this.set(this.path, this.path.to(goal));
+    if (this.still) this.said = this.still;
+    else if (Number.isFinite(goal)) this.set(this.path, this.path.to(goal));
   }
 
   /** How far the first drive goes back and on, from the given pose; null where nothing stops it within a turn. */
   limits() {
-    if (this.still) return [0, 0];
     this.limited ??= this.searched();
     return this.limited.map((limit) => limit && limit.travel / this.data.linkage.unit);
   }
@@ -80,7 +72,6 @@ class Motion {
   /** Where all points are, {name: [x, y]}. */
   points() {
     const found = { ...this.fixed };
-    if (this.still) return found;
     const lies = this.knot.lies;
     for (const name of Object.keys(this.data.linkage.owned)) found[name] = this.at(name, lies);
     for (const [name, at] of Object.entries(this.data.under)) found[name] = found[at];
@@ -104,11 +95,17 @@ class Motion {
   /** The directions of the guides that ride on links, {slide: [x, y]}. */
   guides() {
     const found = {};
-    for (const [name, link] of Object.entries(this.data.linkage.guided ?? {})) {
+    for (const [name, link] of Object.entries(this.data.linkage.guided)) {
       const [cos, sin] = this.knot.lies.subarray(7 * link + 2, 7 * link + 4), [x, y] = this.data.guides[name];
       found[name] = [cos * x - sin * y, sin * x + cos * y];
     }
     return found;
+  }
+
+  /** How links have turned from the given pose, {link: [cosine, sine]}. */
+  turns() {
+    const { links } = this.data.linkage, { lies } = this.knot;
+    return Object.fromEntries(Object.entries(links).map(([name, k]) => [name, [lies[7 * k + 2], lies[7 * k + 3]]]));
   }
 
   /** The program that is drawn in this pose: the one before as long as it serves, else the first that does. */
@@ -149,7 +146,7 @@ class Motion {
 
   /** Whether two places are two. */
   torn([x, y], [u, v]) {
-    return Math.hypot(x - u, y - v) > ROUNDED * (this.still ? 0 : this.data.linkage.reach);
+    return Math.hypot(x - u, y - v) > ROUNDED * this.data.linkage.reach;
   }
 
   /** Results with how they were found, and by how much the linkage's own opinion differs. */
@@ -180,9 +177,10 @@ class Motion {
   /** Takes a point as near to a place as it comes: a moving one by the drives, a pin of the frame with the frame. */
   drag(name, x, y) {
     const { under, linkage } = this.data;
-    if (this.still) this.said = this.still;
-    else if ((under[name] ?? name) in linkage.owned) this.pull(under[name] ?? name, [x, y]);
-    else this.shift(name, [x, y]);
+    const at = under[name] ?? name;
+    if (!(at in linkage.owned)) this.shift(at, [x, y]);
+    else if (this.still) this.said = this.still;
+    else this.pull(at, [x, y]);
   }
 
   /** Turns the drives until a moving point is as near to a place as it comes, downhill from here (Levenberg). */

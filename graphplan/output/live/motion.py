@@ -20,7 +20,7 @@ from graphplan.cycle import continuation, groups, newton
 from graphplan.cycle.closure import Layout
 from graphplan.cycle.continuation import Limit
 from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Linkage
+from graphplan.cycle.linkage import Linkage, grounded
 from graphplan.cycle.travel import TURN, check_drives, paces, travel_unit
 from graphplan.cycle.turn import RangeOfMotion, stopped, under
 from graphplan.errors import Refused, Undrawable
@@ -104,55 +104,37 @@ RULES = {
 
 def _linkage(scene: Scene) -> tuple[Data, list[str]]:
     """The linkage with its limits, and Newton's step of each structure of groups; where nothing drives it, why."""
-    try:
-        check_drives(scene)
-        ends = _span(scene)
-        path = RangeOfMotion(scene, *ends, False)
-    except Refused as refused:
-        return {"still": str(refused)}, []
-    unit, name = travel_unit(scene)
-    linkage, parts = _parts(scene, tuple(1.0 for _ in scene.drives))
-    _, others = _parts(scene, tuple(float(k + 1) for k in range(len(scene.drives))))
+    found = grounded(scene)
+    linkage, parts = _parts(found, tuple(1.0 for _ in scene.drives))
+    _, others = _parts(found, tuple(float(k + 1) for k in range(len(scene.drives))))
     layouts = list(dict.fromkeys(group.layout for group in parts))
     moving = {link: k for k, link in enumerate(linkage.links)}
     return {
-        "rules": RULES, "unit": unit, "length": name, "reach": linkage.reach, "span": [*ends],
-        "origin": _pair(linkage.origins[FRAME]),
-        "drives": [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
-                    "slide": scene.driven_slide(drive).name if drive.slides else ""}
-                   for drive, pace in zip(scene.drives, paces(scene), strict=True)],
+        "rules": RULES, "reach": linkage.reach, "origin": _pair(linkage.origins[FRAME]), **_followed(scene),
         "groups": [_group(group, other, moving, layouts) for group, other in zip(parts, others, strict=True)],
-        "opinion": _opinion(scene, moving), "links": len(linkage.links),
+        "links": moving, "opinion": _opinion(scene, moving),
         "bases": [_pair(linkage.origins[link] - linkage.origins[FRAME], linkage.reach) for link in linkage.links],
         "owned": dict(_owned(linkage)), "guided": dict(_guided(scene, moving)),
-        "anchors": list(_anchors(linkage, parts)), "limits": [_limit(path.path.lower), _limit(path.path.upper)],
+        "anchors": list(_anchors(linkage, parts)),
         "locked": said("the links move by their special geometry alone") if scene.redundant else "",
     }, [_step(layout) for layout in layouts]  # fmt: skip
 
 
-def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
-    """What the linkage's own rates are told of, and what acts on the links: forces, and moments in force times length.
-    """
-    long, loads = float(metre(scene.units)), scene.loads
-    weigh, resist, couple = float(weight(scene.units)), float(inertia(scene.units)), float(weight(scene.units)) * long
-    pull = [weigh * float(part) for part in loads.gravity] if loads else [0.0, 0.0]
-    return {
-        "points": {name: moving[links[0]] for name, links in scene.links_of.items() if links}, "links": dict(moving),
-        "slides": [{"name": slide.name, "link": moving[slide.link], "along": moving[slide.along], "at": slide.at,
-                    "direction": [*map(float, slide.direction)], "through": slide.through} for slide in scene.slides],
-        "acting": [*({"link": moving[force.on], "at": force.at, "force": [*map(float, force.value)]}
-                     for force in (loads.forces if loads else ())),
-                   *({"link": moving[moment.on], "moment": long * float(moment.value)}
-                     for moment in (loads.moments if loads else ()))],
-        "masses": [{"link": moving[link], "at": mass.centre, "mass": resist * float(mass.mass),
-                    "inertia": couple * float(mass.inertia), "weight": [float(mass.mass) * part for part in pull]}
-                   for link, mass in (loads.masses.items() if loads else ())],
-        "metre": long,
-    }  # fmt: skip
-
-
-def _pair(z: complex, unit: float = 1.0) -> list[float]:
-    return [z.real / unit, z.imag / unit]
+def _followed(scene: Scene) -> Data:
+    """The drives, how far they are followed and the limits there; or why they are not."""
+    try:
+        check_drives(scene)
+        rates, why = paces(scene), ""
+        unit, ends = travel_unit(scene)[0], _span(scene)
+        path = RangeOfMotion(scene, *ends, False).path
+        limits = [_limit(path.lower), _limit(path.upper)]
+    except Refused as refused:
+        rates, why = tuple(0.0 for _ in scene.drives), str(refused)
+        unit, ends, limits = 1.0, (0.0, 0.0), [{"travel": 0.0}, {"travel": 0.0}]
+    drives = [{"slides": drive.slides, "pace": pace, "rate": float(drive.rate), "change": float(drive.change),
+               "slide": scene.driven_slide(drive).name if drive.slides else ""}
+              for drive, pace in zip(scene.drives, rates, strict=True)]
+    return {"still": why, "drives": drives, "unit": unit, "span": [*ends], "limits": limits}
 
 
 def _limit(limit: Limit | None) -> Data | None:
@@ -165,6 +147,31 @@ def _span(scene: Scene) -> tuple[float, float]:
     places = [complex(*map(float, at)) for at in scene.points.values()]
     most = SPAN * max(abs(place - places[0]) for place in places) if scene.drives[0].slides else TURN
     return -most, most
+
+
+def _pair(z: complex, unit: float = 1.0) -> list[float]:
+    return [z.real / unit, z.imag / unit]
+
+
+def _opinion(scene: Scene, moving: Mapping[str, int]) -> Data:
+    """What the linkage's own rates are told of, and what acts on the links: forces, and moments in force times length.
+    """
+    long, loads = float(metre(scene.units)), scene.loads
+    weigh, resist, couple = float(weight(scene.units)), float(inertia(scene.units)), float(weight(scene.units)) * long
+    pull = [weigh * float(part) for part in loads.gravity] if loads else [0.0, 0.0]
+    return {
+        "points": {name: moving[links[0]] for name, links in scene.links_of.items() if links}, 
+        "slides": [{"name": slide.name, "link": moving[slide.link], "along": moving[slide.along], "at": slide.at,
+                    "direction": [*map(float, slide.direction)], "through": slide.through} for slide in scene.slides],
+        "acting": [*({"link": moving[force.on], "at": force.at, "force": [*map(float, force.value)]}
+                     for force in (loads.forces if loads else ())),
+                   *({"link": moving[moment.on], "moment": long * float(moment.value)}
+                     for moment in (loads.moments if loads else ()))],
+        "masses": [{"link": moving[link], "at": mass.centre, "mass": resist * float(mass.mass),
+                    "inertia": couple * float(mass.inertia), "weight": [float(mass.mass) * part for part in pull]}
+                   for link, mass in (loads.masses.items() if loads else ())],
+        "metre": long,
+    }  # fmt: skip
 
 
 def _parts(scene: Scene, rates: tuple[float, ...]) -> tuple[Linkage, list[Group]]:

@@ -4,7 +4,7 @@
     accelerations by their differences, balances by virtual powers.  */
 class Opinion {
   constructor(data, linkage) {
-    Object.assign(this, data.linkage.opinion, { linkage, drives: data.linkage.drives, reach: data.linkage.reach });
+    Object.assign(this, data.linkage.opinion, { linkage, links: data.linkage.links, drives: data.linkage.drives, reach: data.linkage.reach });
     this.origin = data.linkage.origin;
     const speed = (size, drive) => Math.abs(size) / (drive.slides ? this.reach : 1);
     const paces = this.drives.map((drive) => Math.max(speed(drive.rate, drive), Math.sqrt(speed(drive.change, drive))));

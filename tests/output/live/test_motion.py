@@ -1,4 +1,4 @@
-"""The linkage of the live page beside Python's: the same poses, limits and results, on its branch wherever it is dragged.
+"""The live page's linkage beside Python's: the same poses, limits and results, on its branch however it is dragged.
 
 In each scene LIVE_POSES poses are compared and LIVE_DRAGS drags are made, of which LIVE_SOLVED are solved anew; of
 LIVE_LINKAGES random linkages, too.
@@ -49,7 +49,7 @@ for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
     drawn: motion.values() !== null, said: motion.said,
     determinants: Array.from(motion.knot.determinants, (value, k) => value / motion.start.determinants[k]) });
   const poses = travels.map((travel) => ((motion.travel = travel), seen()));
-  motion.limited = null;
+  if (!motion.still) motion.limited = null;
   found[name] = { poses, limits: motion.limits() };
   motion.reset();
   found[name].drags = drags.map(([point, x, y]) => {
@@ -84,17 +84,15 @@ class Case(NamedTuple):
         return self.drawing.scene
 
 
-def moved(drawing: Construction) -> tuple[Case, str] | None:
-    """What is to be done with a scene, and the page's data; None where it cannot be followed."""
+def moved(drawing: Construction) -> tuple[Case, str]:
+    """What is to be done with a scene, and the page's data; where nothing drives it it is dragged alone."""
     scene, random = drawing.scene, Random(drawing.scene.name)
     data, tape = motion([drawing])
-    if "still" in data["linkage"]:
-        return None
     unit = data["linkage"]["unit"]
     limits = [limit and limit["travel"] / unit for limit in data["linkage"]["limits"]]
     low, high = (end / unit if limit is None else limit * (1 - 1e-4)
                  for limit, end in zip(limits, data["linkage"]["span"], strict=True))
-    travels = [random.uniform(low, high) for _ in range(POSES)]
+    travels = [random.uniform(low, high) for _ in range(POSES)] if low < high else []
     drags, far = [], 0.15 * scene.extent
     for name in random.choices([name for name in scene.points if scene.links_of[name]], k=DRAGS):
         x, y = map(float, scene.points[name])
@@ -107,7 +105,8 @@ def moved(drawing: Construction) -> tuple[Case, str] | None:
 def random_linkages() -> Any:
     """The module that makes them."""
     spec = spec_from_file_location("random_linkages", RANDOM)
-    assert spec is not None and spec.loader is not None
+    assert spec is not None
+    assert spec.loader is not None
     sys.modules[spec.name] = module = module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
@@ -132,7 +131,7 @@ def cases() -> dict[str, Case]:
     node = shutil.which("node")
     if node is None:
         pytest.skip("node is not installed")
-    made = [one for drawing in constructions() if (one := moved(drawing)) is not None]
+    made = [*map(moved, constructions())]
     texts = ",\n".join(f"{json.dumps(case.scene.name)}: {text}" for case, text in made)
     done = subprocess.run([node, "-"], input=f"{script()}\nconst cases = {{{texts}}};\n{NODE}", capture_output=True,
                           text=True, timeout=600, check=False)
@@ -149,6 +148,8 @@ def apart(ours: Any, theirs: Any) -> float:
 def test_poses() -> None:
     """In poses taken in any order points and results are Python's, to nine digits."""
     for name, case in cases().items():
+        if not case.travels:
+            continue
         ends = min(0.0, *case.travels) * case.unit, max(0.0, *case.travels) * case.unit
         turn = RangeOfMotion(case.scene, *ends, False).turn(np.array(case.travels) * case.unit)
         together = {point: turn.points[at] for point, at in case.drawing.shared.items()}
@@ -174,8 +175,8 @@ def test_poses() -> None:
 def least(scene: gp.Scene) -> dict[str, float]:
     """What drives as fast as these give at least to something: beside less, rounding is no difference."""
     long = {True: scene.extent, False: 1.0}
-    pace = max(max(abs(float(drive.rate)), math.sqrt(abs(float(drive.change)))) / long[drive.slides]
-               for drive in scene.drives)
+    pace = max((max(abs(float(drive.rate)), math.sqrt(abs(float(drive.change)))) / long[drive.slides]
+                for drive in scene.drives), default=0.0)
     return {"velocity": pace * scene.extent, "acceleration": pace * pace * scene.extent, "omega": pace,
             "alpha": pace * pace}
 
@@ -220,7 +221,7 @@ def test_dragged_scenes() -> None:
     """What is copied as a scene gives, solved anew, the results that the page shows."""
     for name, case in cases().items():
         fair = [pose for pose in case.found["drags"] if pose["results"] and min(pose["determinants"], default=1) > FAIR
-                and (name in packaged() or max(pose["results"]["check"].values()) < 1e-5)]
+                and (name in packaged() or max(pose["results"]["check"].values(), default=0) < 1e-5)]
         for pose in fair[-SOLVED:]:
             truth = printed(report(parse(pose["toml"], name)))
             size = {key: max(least(case.scene).get(key, 0.0), largest(truth, key)) for key in KEYS}

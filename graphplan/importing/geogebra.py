@@ -29,6 +29,7 @@ from graphplan.mechanism.model import FRAME
 AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
 RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
+INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
 FOLLOWED = 200  # objects on which one depends, one after another
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
@@ -72,10 +73,16 @@ class _Drawing:
 
     # ---- what moves ------------------------------------------------------------------------------------------------
 
+    def _command(self, label: str) -> tuple[str, list[str], int]:
+        """The command that makes an object, and its inputs; also where it stands within another one."""
+        found = self.objects.commands.get(label)
+        if found is None and label not in self.objects.elements and (inner := INNER.fullmatch(label.strip())):
+            found = inner[1], _parts(inner[2]), 0
+        return found or ("", [], 0)
+
     def _needs(self, label: str) -> set[str]:
         """The objects that one is made of."""
-        _, inputs, _ = self.objects.commands.get(label, ("", [], 0))
-        texts = [*inputs, self.objects.terms.get(label, "")]
+        texts = [*self._command(label)[1], self.objects.terms.get(label, "")]
         return {name for text in texts for name in re.findall(NAME, text) if name in self.objects.elements} - {label}
 
     def _free(self, label: str) -> bool:
@@ -99,7 +106,7 @@ class _Drawing:
         """Whether a driving number, or a point that runs on something, makes an object move."""
         if label in self.driving or depth > FOLLOWED:
             return label in self.driving
-        command, _, _ = self.objects.commands.get(label, ("", [], 0))
+        command, _, _ = self._command(label)
         return command in ("Point", "PointIn") or any(self._moves_on(name, depth) for name in self._needs(label))
 
     def _moves_on(self, name: str, depth: int) -> bool:
@@ -111,7 +118,7 @@ class _Drawing:
         """The points of each link that is drawn; on graphplan's own files links are on the lowest layer."""
         left = 0
         for label, element in self.objects.elements.items():
-            command, inputs, place = self.objects.commands.get(label, ("", [], 0))
+            command, inputs, place = self._command(label)
             layer = element.find("layer")
             strange = own and (layer is None or layer.get("val") != "0")
             if command not in ("Segment", "Polygon", "PolyLine", "Polyline") or place or not seen(element) or strange:
@@ -128,7 +135,7 @@ class _Drawing:
 
     def _bound(self, label: str) -> None:
         """What holds a point of a link: circles, lines, turns."""
-        command, inputs, _ = self.objects.commands.get(label, ("", [], 0))
+        command, inputs, _ = self._command(label)
         if command == "Intersect":
             self._crossed(label, inputs[:2])
         elif command in ("Point", "PointIn") and inputs:
@@ -196,7 +203,7 @@ class _Drawing:
 
     def _carried(self, label: str) -> None:
         """A point that is seen, and made of points of one link alone, is one of that link."""
-        command, inputs, _ = self.objects.commands.get(label, ("", [], 0))
+        command, inputs, _ = self._command(label)
         on = command in ("Point", "PointIn") and len(inputs) == 1
         of = [*self._ends(inputs[0])] if on else [name for name in inputs if name in self.points]
         if not (seen(self.objects.elements[label]) and (on or command in RIGID) and len(of) > 1):
@@ -211,25 +218,27 @@ class _Drawing:
 
     def _centre(self, circle: str) -> str | None:
         """The centre of a circle whose radius is given, or the distance of points that stand still."""
-        command, inputs, _ = self.objects.commands.get(circle, ("", [], 0))
+        command, inputs, _ = self._command(circle)
         if command != "Circle" or len(inputs) != 2 or inputs[0] not in self.points:
             return None
-        radius = {name for name in re.findall(NAME, inputs[1]) if name in self.objects.elements}
-        return None if any(self.moves(name) for name in radius) else inputs[0]
+        radius = [name for name in re.findall(NAME, inputs[1]) if name in self.objects.elements]
+        bars = [name for name in radius if self._command(name)[0] == "Segment" and inputs[1].strip() == name]
+        return None if not bars and any(self.moves(name) for name in radius) else inputs[0]
 
     def _is_line(self, name: str) -> bool:
         element = self.objects.elements.get(name)
-        return name in AXES or (element is not None and element.get("type") in LINES)
+        drawn = element is not None and element.get("type") in LINES
+        return name in AXES or drawn or (element is None and self._command(name)[0] in ("Line", "Segment", "Ray"))
 
     def _ends(self, line: str) -> tuple[str, ...]:
         """The two points by which a line is drawn, if it is."""
-        command, inputs, _ = self.objects.commands.get(line, ("", [], 0))
+        command, inputs, _ = self._command(line)
         ends = tuple(name for name in inputs if name in self.points)
         return ends if command in ("Line", "Segment", "Ray") and len(ends) == len(inputs) == 2 else ()
 
     def _guided(self, label: str, line: str) -> None:
         """A slide along a line."""
-        value: Any = self.objects.values.get(line)
+        value: Any = self.objects.values.get(line) or self.objects.term(line)
         ends, along = self._ends(line), AXES.get(line, getattr(value, "along", None))
         if along is not None and not isinstance(value, Vector) and not self.moves(line):
             self.sketch.slots.append(Slot(label, FRAME, along / abs(along)))
@@ -262,3 +271,15 @@ class _Drawing:
         """Whether a point that does not move by itself is led by a handle."""
         led = {point for drive in self.sketch.drives if isinstance(drive.link, tuple) for point in drive.link[1:]}
         return label in led or any(name in led or self._hangs(name) for name in self._needs(label))
+
+
+def _parts(inputs: str) -> list[str]:
+    """The inputs of a command that is written out, without those of commands within it taken apart."""
+    found, depth = [""], 0
+    for letter in inputs:
+        depth += (letter in "([") - (letter in ")]")
+        if letter == "," and not depth:
+            found.append("")
+        else:
+            found[-1] += letter
+    return [part.strip() for part in found]

@@ -35,7 +35,7 @@ from graphplan.marking.files.safe import Budget, number
 from graphplan.mechanism.model import FRAME
 
 MOST = 2_000_000  # characters of what an address unpacks to
-JOINTS = 2000
+JOINTS = 600
 ADDRESS = re.compile(r"https?://[^\s?]*\?(\S+)")
 STARTS = re.compile(r"^---\s*\w+\s*---|^joints\b|^mech\s*=|^\s*[\w ]+,[\w ]+,\s*(R|P|RP)\s*,", re.MULTILINE)
 DIGITS = "0123456789ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz_-"

@@ -19,7 +19,6 @@ from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import parse
 
 TRIED = 40  # proposals
-LARGEST = 300  # links
 GUESS = "omega = 1"
 
 
@@ -28,8 +27,6 @@ def proposed(sketch: Sketch, path: str, source: str) -> str:
 
     Fails with `Refused` where nothing moves as the file has it, or it has nothing that could be a linkage.
     """
-    if len(sketch.links) > LARGEST:
-        raise Refused(path, f"it has more than {LARGEST} links", "a file of one linkage alone")
     tidied(sketch)
     if not sketch.links:
         raise Refused(path, f"no links are found in this file of {sketch.program}", "bars between points")

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 from itertools import combinations
 
 from graphplan.mechanism.model import FRAME
@@ -16,6 +17,7 @@ from graphplan.mechanism.model import FRAME
 Way = tuple[str, str] | complex
 """The direction of a guide: from one point to another, or a vector."""
 
+LARGEST, MOST = 300, 1500  # links, and points that they have together
 NEAR = 1e-9  # of the sketch: points that rounding alone keeps apart, and pins that lie on a line
 
 
@@ -75,8 +77,13 @@ class Sketch:
         return key
 
     def link(self, points: Iterable[str], key: str = "", name: str = "") -> str:
-        """Put a link; its key, which is made where none, or one that is there already, is given."""
+        """Put a link; its key, which is made where none, or one that is there already, is given.
+
+        Fails with `ValueError` where there are too many.
+        """
         number = len(self.links)
+        if number == LARGEST or sum(map(len, self.links.values())) > MOST:
+            raise ValueError(f"it has more than {LARGEST} links, or more than {MOST} points of links")
         while not key or key in self.links or key == FRAME:
             key, number = f"link {number}", number + 1
         self.links[key], self.called[key] = [*dict.fromkeys(points)], name
@@ -96,7 +103,7 @@ class Sketch:
         """The bodies that have a point."""
         return [key for key, points in self.bodies.items() if point in points]
 
-    @property
+    @cached_property
     def size(self) -> float:
         """The larger of width and height; 1 of a single point."""
         xs, ys = [at.real for at in self.places.values()], [at.imag for at in self.places.values()]
@@ -206,7 +213,8 @@ def _absorb(sketch: Sketch, link: str, into: str) -> None:
 
 def _slide(sketch: Sketch) -> None:
     """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
-    slots = [slot for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]]
+    slots = [replace(slot, way=_level(sketch.vector(slot.way)) if slot.along == FRAME else slot.way)
+             for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]]
     while slots:
         slot = slots.pop(0)
         holders = [key for key in sketch.holders(slot.at) if key != slot.along]
@@ -225,6 +233,11 @@ def _slide(sketch: Sketch) -> None:
     sketch.slots = []
     for link in [key for key, points in sketch.links.items() if len(points) == 1 and not _slides(sketch, key)]:
         del sketch.links[link], sketch.called[link]  # it only turns about its point
+
+
+def _level(way: complex) -> complex:
+    """A direction, of length 1 where it is level or upright."""
+    return way if way.real and way.imag else way / abs(way)
 
 
 def _slides(sketch: Sketch, link: str) -> bool:

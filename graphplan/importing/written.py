@@ -9,8 +9,8 @@ from decimal import Decimal
 from fractions import Fraction
 from itertools import count
 
-from graphplan.errors import by_name, printable
-from graphplan.importing.sketch import Driven, Sketch
+from graphplan.errors import printable
+from graphplan.importing.sketch import NEAR, Driven, Sketch
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene_text import written
 
@@ -68,13 +68,19 @@ def named_points(sketch: Sketch) -> dict[str, str]:
     points of different links that coincide do (A2, A3)."""
     found: dict[str, str] = {}
     letters = (letter + (str(round) if round else "") for round in count() for letter in ALPHABET)
-    wanted = {key: _name(sketch.names[key]) for key in sketch.places}
+    wanted = {key: _name(sketch.names[key]) or _name_there(sketch, key) for key in sketch.places}
     taken = {name for name in wanted.values() if name}
     for key, name in wanted.items():
         own = name or next(letter for letter in letters if letter not in taken)
         found[key] = _free(own, found.values(), taken)
         taken.add(found[key])
     return found
+
+
+def _name_there(sketch: Sketch, key: str) -> str:
+    """The name of another point in the same place."""
+    return next((_name(sketch.names[other]) for other, at in sketch.places.items()
+                 if sketch.names[other] and abs(at - sketch.places[key]) <= NEAR * sketch.size), "")
 
 
 def _name(written: str) -> str:
@@ -132,8 +138,3 @@ def number(value: float, size: float = 1.0) -> str:
     """A number as one writes it, without the digits that rounding left, which are beyond those of the size."""
     places = DIGITS - Decimal(abs(size) or 1.0).adjusted()
     return written(Fraction(round(Decimal(repr(float(value))), min(places, 60)) + 0))
-
-
-def ordered_names(names: Mapping[str, str]) -> list[str]:
-    """Names in the order in which results stand."""
-    return sorted(names.values(), key=by_name)

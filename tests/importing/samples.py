@@ -84,6 +84,11 @@ TRIANGLE = geogebra(*(point(name, at, fixed=name in "AD") for name, at in
                       {"A": 0j, "B": 35j, "C": 100 + 60j, "D": 110 + 0j, "E": 50 + 90j}.items()),
                     segments("A B", "C D", "B C", "C E", "E B"))
 
+HANDLE = geogebra(
+    point("A", 0), point("D", 6), point("P", 1.5 * B), made("", "B", "Intersect", "Circle[A, 2]", "Ray[A, P]"),
+    point("B", B), made("", "C", "Intersect", "Circle(B, 5)", "Circle(D, 4)", "1"), point("C", C),
+    segments("A B", "B C", "C D"))
+
 LINKAGE = """<linkage2>
  <program zoom="1" units="Millimeters"/>
  <connector anchor="true" input="true" rpm="30" x="0" y="0.000000" id="0"/><connector x="0" y="35" id="1"/>
@@ -173,6 +178,7 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
         [[drive]]
         link = "1"
         omega = 1"""),
+    "handle.ggb": (HANDLE, places(A=0j, B=B, C=C, D=6 + 0j) + FOUR_BAR[FOUR_BAR.index("[links]"):] + "omega = 1"),
     "turned.ggb": (TURNED, places(O=0j, A=PIN, B=complex(END)) + """
         [links]
         1 = "O A"

@@ -42,7 +42,7 @@ FRONT = {"__init__", "__main__", "commands"}
 OUTSIDE = {
     "matplotlib": {"output/pdf_png.py"},
     "PIL": {"output/animation.py"},  # it comes with matplotlib
-    "svgwrite": {"output/svg.py", "output/stepper.py"},
+    "svgwrite": {"output/svg.py"},
     "shapely": {"sheet", "marking"},
     "ezdxf": {"output", "marking"},
     "cv2": {"marking"},

@@ -15,7 +15,7 @@ from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
 SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost",
-               "handout", "variants", "verify", "chart", "gallery", "schema", "completion")
+               "handout", "live", "variants", "verify", "chart", "gallery", "schema", "completion")
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
 SCENELESS = ("new", "list", "import", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
 

@@ -113,21 +113,12 @@ class CycleFrame:
 @dataclass(frozen=True)
 class CycleFrames:
     """The poses of a cycle that are drawn alike, the given one first; `lost` are the stretches of travel, ends
-    included, with those that are not.
-
-    `why` says why there is no cycle, where there is none.
-    """
+    included, with those that are not."""
 
     drawing: Construction
     composition: Composition
     frames: tuple[CycleFrame, ...]
     lost: tuple[tuple[float, float], ...] = ()
-    why: str = ""
-
-
-def standing(drawing: Construction, composition: Composition, why: str = "") -> CycleFrames:
-    """The given pose alone."""
-    return CycleFrames(drawing, composition, (_frame(0.0, composition),), why=why)
 
 
 def turning(drawing: Construction, composition: Composition, travel: Sequence[float],

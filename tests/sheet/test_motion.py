@@ -22,7 +22,6 @@ from graphplan.output import back_end
 from graphplan.sheet.handout import task
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.layout.layout import layout
-from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Polyline, Text
 from graphplan.sheet.plates.traced_motion import LAYER, once, outline
 
@@ -124,10 +123,3 @@ def test_what_does_not_move_is_refused(arguments: tuple[str, str], line: str,
     """One line on standard error, and exit status 2."""
     assert run("draw", "four-bar", *arguments) == 2
     assert line in capsys.readouterr().err
-
-
-def test_positions_of_a_stepper_are_no_faint_ones(tmp_path: Path) -> None:
-    """What `handout --positions` asks for is how many poses a page for a browser goes through."""
-    page = tmp_path / "steps.html"
-    assert run("handout", "four-bar", "--positions", "2", "-o", str(page)) == 0
-    assert pens.POSITION.colour not in page.read_text()

@@ -1,7 +1,7 @@
 """The display list: what lies on the sheet, in millimetres, x to the right and y up from its lower left corner.
 
 Plain frozen data. A back end draws these eight things and needs to know nothing of mechanics; `step` is the drawing
-step that an item belongs to, so that a stepper can show or light up one movement at a time.
+step that an item belongs to, so that a page can show or light up one movement at a time.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
 """The protocol of a construction: its stages, in each the entries that a textbook has, in these the single movements.
 
-The one model of what is told of the drawing: text, sheet, handout, strip, stepper and data read it. Values in drawing
+The one model of what is told of the drawing: text, sheet, handout, strip, live page and data read it. Values in drawing
 order, in English that knows its words in other languages:
 
     protocol = Protocol(plans, scales)      # lengths are those of a sheet at these scales

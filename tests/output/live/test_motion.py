@@ -28,7 +28,7 @@ from graphplan.check.cycle import cycle
 from graphplan.check.json_results import data as printed
 from graphplan.check.trusted import report
 from graphplan.cycle.turn import RangeOfMotion
-from graphplan.errors import GraphplanError, Refused
+from graphplan.errors import GraphplanError
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import packaged, parse
 from graphplan.methods.construction import Construction
@@ -156,11 +156,7 @@ def test_poses() -> None:
         if any(np.abs(z - turn.points[point]).max() > NINE for point, z in together.items()):
             assert not any(pose["results"] for pose in case.found["poses"]), name  # one mark cannot serve both
             continue
-        try:
-            poses = case.drawing.evaluate(turn.points | together, turn.guides)
-        except Refused:  # two guides are one line in the given pose alone
-            assert not any(pose["results"] for pose in case.found["poses"]), name
-            continue
+        poses = case.drawing.evaluate(turn.points | together, turn.guides)
         for k, pose in enumerate(case.found["poses"]):
             assert pose["said"] == "", (name, case.travels[k])
             for point, z in turn.points.items():
@@ -256,8 +252,7 @@ def test_second_opinion() -> None:
     """The linkage's own rates and powers agree with the construction, wherever the solver does."""
     for name, case in cases().items():
         checks = {pose["travel"]: pose["results"]["check"] for pose in case.found["poses"] if pose["results"]}
-        told = sum("acceleration" in check for check in checks.values())
-        assert told >= 0.8 * len(checks) or name not in packaged(), name  # chance links hardly move, all near a limit
+        assert sum("acceleration" in check for check in checks.values()) >= 0.8 * len(checks), name
         for travel, check in checks.items():
             if max(check.values()) > 1e-5:  # then the solver says so, too
                 assert max(cycle(case.scene, 1, (travel, travel)).check.values()) > 1e-5, (name, travel, check)

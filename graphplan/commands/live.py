@@ -1,0 +1,116 @@
+"""Write a live page: the construction in a browser, from one file, without a network; it moves, and all follows.
+
+Drag the drive or a point, type an angle, or let it run: the linkage follows on its branch, the construction is drawn
+anew, and the numbers in its sentences and tables are those of the pose. Where nothing can be moved the page
+goes through the steps alone.
+
+examples:
+  graphplan live four-bar -o four-bar.html
+  graphplan live alt-eight-link --choices plans,methods,languages -o page.html
+  graphplan live scene.toml --plan polar --choices none --language de -o page.html
+"""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterator
+from contextlib import suppress
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, given, presented, reported
+from graphplan.commands.output import kind, write
+from graphplan.errors import ConstructionError, Refused
+from graphplan.methods.styles import METHODS
+from graphplan.words import LANGUAGES
+
+if TYPE_CHECKING:
+    from graphplan.methods.construction import Construction
+    from graphplan.output.live.page import Variant
+
+ENDINGS = (".html",)
+CHOICES = "plans", "methods", "languages"
+USUAL = "plans,languages"
+PLANS = "polar", "orthogonal"
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    command.add_argument("-o", "--output", metavar="PAGE.html", required=True, help="the page to write")
+    add_sheet(command, positions=False)
+    add_choices(command, strict=True)
+    add_preference(command)
+    add_offer(command)
+
+
+def add_offer(command: argparse.ArgumentParser) -> None:
+    """The option that says what may be chosen on the page."""
+    command.add_argument("--choices", type=_choices, default=_choices(USUAL), metavar="WHAT",
+                         help=f"what may be chosen on the page: {', '.join(CHOICES)}, some languages such as de,lv, "
+                         f"or none (default {USUAL})")
+
+
+def _choices(text: str) -> frozenset[str]:
+    wanted = [] if text == "none" else text.split(",")
+    if unknown := [choice for choice in wanted if choice not in (*CHOICES, *LANGUAGES)]:
+        raise Refused("--choices", f"{unknown[0]} cannot be chosen",
+                      f"some of {', '.join((*CHOICES, *LANGUAGES))}, or none")
+    return frozenset(wanted) | (frozenset(LANGUAGES) if "languages" in wanted else frozenset())
+
+
+def run(options: argparse.Namespace) -> int:
+    kind(options.output, ENDINGS, "live page")
+    write(page(options), options.output)
+    return 0
+
+
+def page(options: argparse.Namespace, *, steps_first: bool = False, shared: str = "") -> str:
+    """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
+    from graphplan.output.live.page import live
+
+    scene, own = given(options), presented(options).sheet.language or "en"
+    others = [code for code in LANGUAGES if code != own and code in options.choices]
+    return live([*_variants(options)], [own, *others], scene.title, steps_first=steps_first, shared=shared)
+
+
+def _variants(options: argparse.Namespace) -> Iterator[Variant]:
+    """The ways to draw the scene that may be chosen: first as the options have it, then by other plans and methods,
+    those that can be drawn, each once."""
+    from graphplan.output.live.page import Variant, on_one_sheet
+    from graphplan.sheet.layout.composition import compose
+
+    known: list[list[str]] = []
+    for plan, method in _ways(options):
+        first = not known
+        try:
+            drawing = _drawn(options, plan, method)
+        except (Refused, ConstructionError):
+            if first:
+                raise
+            continue
+        if (steps := drawing.sentences()) in known:
+            continue
+        known.append(steps)
+        with suppress(*(() if first else (Refused,))):
+            composition = compose(drawing, protocol="none")
+            yield Variant(PLANS[drawing.turned], method, on_one_sheet(composition, _others(drawing)))
+
+
+def _others(drawing: Construction) -> list[Construction]:
+    """The constructions that serve where this one cannot be drawn."""
+    from graphplan.accuracy.reach import constructions
+
+    return [other for other in constructions(drawing) if other is not drawing]
+
+
+def _ways(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
+    """Plan and method by their options: as they are given, and what else is wanted."""
+    plan, method = options.plan, options.method
+    forces = ",".join(part for part in plan.split(",") if part not in PLANS)
+    plans = [plan, *(",".join(filter(None, (one, forces))) for one in PLANS)] if "plans" in options.choices else [plan]
+    methods = [method, *METHODS] if "methods" in options.choices else [method]
+    yield from dict.fromkeys((plan, method) for plan in plans for method in methods)
+
+
+def _drawn(options: argparse.Namespace, plan: str, method: str) -> Construction:
+    """The construction by a plan and a method, compared with the solver."""
+    how = argparse.Namespace(**{**vars(options), "plan": plan, "method": method})
+    return reported(how, presented(how)).drawing

@@ -1,0 +1,61 @@
+// ---- which construction and language is shown; what is taken away; and what scripts may do with the page
+
+class Choosing {
+  constructor(page) {
+    this.page = page;
+    const {variants, languages} = page.data;
+    by("language").append(...Object.entries(languages).map(([code, name]) => new Option(name, code)));
+    for (const id of ["variant", "language"]) by(id).addEventListener("change", () => this.choose());
+    for (const [id, few] of [["variant", variants.length < 2], ["language", Object.keys(languages).length < 2]])
+      by(id).hidden = document.querySelector(`label[for=${id}]`).hidden = few;
+    by("print").addEventListener("click", () => print());
+    by("copy").addEventListener("click", () => this.copy());
+    by("close").addEventListener("click", () => by("scenes").close());
+  }
+
+  choose() { return this.page.choose(Number(by("variant").value), by("language").value); }
+
+  spell() {
+    const {page} = this, {variants} = page.data;
+    by("variant").replaceChildren(...variants.map(({plan, method}, i) =>
+      new Option([page.say(plan), method && page.say(method)].filter(Boolean).join(", "), i)));
+    by("variant").value = page.variants.indexOf(page.variant);
+    by("language").value = page.language;
+  }
+
+  async copy() {
+    const {page} = this, text = page.motion.toml();
+    by("remark").textContent = "";
+    try {
+      await navigator.clipboard.writeText(text);
+      by("remark").textContent = page.say("copied");
+    } catch {  // a file of the disk, or a browser that asks first
+      by("toml").value = text;
+      by("scenes").showModal();
+      by("toml").select();
+    }
+  }
+}
+
+const page = new Page();
+
+window.graphplan = {
+  ready: page.choose(0, page.language).catch(error => {
+    by("said").textContent = page.say("old");
+    throw error;
+  }),
+  get travel() { return page.motion.travel; },
+  set travel(value) { page.moving.go(Number(value)); },
+  limits: () => page.motion.limits(),
+  points: () => page.motion.points(),
+  results: () => page.motion.results(),
+  screen(name) {
+    const at = new DOMPoint(...page.picture.place(name)).matrixTransform(page.svg.getScreenCTM());
+    return [at.x, at.y];
+  },
+  drag(name, x, y) { page.moving.drag(name, x, y); },
+  get steps() { return page.count; },
+  get step() { return page.place; },
+  set step(value) { page.stepping.go(Number(value)); },
+  get said() { return page.said ?? ""; },
+};

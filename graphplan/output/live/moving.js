@@ -1,0 +1,210 @@
+// ---- moving the mechanism: by its points, by the slider, by a number, by itself
+
+const PACE = 60, TICK = 500, GRIP = 14;  // degrees a second; ms between poses where motion is to be spared; pixels
+
+class Moving {
+  constructor(page) {
+    Object.assign(this, {page, running: 0, way: 1, held: null, busy: false, grips: new Map()});
+    addEventListener("resize", () => this.measure());
+    by("run").addEventListener("click", () => (this.running ? this.rest() : this.run()));
+    by("home").addEventListener("click", () => this.home());
+    by("drive").addEventListener("input", event => this.go(this.wound(Number(event.target.value)), true));
+    by("drive").addEventListener("change", () => this.settle());
+    by("travel").addEventListener("change", event => this.typed(event.target.value));
+    by("travel").addEventListener("keydown", event => {
+      if (event.key === "Enter") this.typed(event.target.value);
+      const way = {ArrowUp: 1, ArrowDown: -1}[event.key];
+      if (way) { event.preventDefault(); this.go(page.motion.travel + way * this.little); }
+    });
+    document.addEventListener("keydown", event => {
+      if (event.altKey || event.ctrlKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName)) return;
+      const act = {r: () => (this.running ? this.rest() : this.run()), R: () => this.run(), 0: () => this.home(),
+        ",": () => this.go(page.motion.travel - this.little), ".": () => this.go(page.motion.travel + this.little)};
+      if (!act[event.key]) return;
+      event.preventDefault();
+      act[event.key]();
+    });
+  }
+
+  get still() { return this.page.motion.still; }
+  get slides() { return Boolean(this.page.motion.data.linkage.drives[0]?.slides); }
+  get unit() { return this.slides ? ` ${this.page.data.unit}` : "°"; }
+  get little() { return this.slides ? (this.ends[1] - this.ends[0]) / 200 : 1; }
+
+  // from where to where the slider goes: to the limits, else once around
+  get ends() {
+    const {linkage} = this.page.motion.data, [from, to] = this.page.motion.limits();
+    if (from === null && to === null && !this.slides) return [0, 360];
+    return [from ?? linkage.span[0] / linkage.unit, to ?? linkage.span[1] / linkage.unit];
+  }
+
+  // the travel of the slider's place, of all that are the same pose the nearest
+  wound(value) {
+    const [from, to] = this.page.motion.limits(), {travel} = this.page.motion;
+    return from === null && to === null && !this.slides ? value + 360 * Math.round((travel - value) / 360) : value;
+  }
+
+  // ---- the page is told in another language, or drawn in another pose
+
+  spell() {
+    const {page, still} = this, {svg} = page;
+    svg.append(this.layer = made("g", {id: "handles"}));
+    const {under, shared} = page.motion.data, names = Object.keys(page.motion.points());
+    this.points = names.filter(name => !(name in under) && !(name in shared));
+    this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
+    for (const id of ["run", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
+    by("unit").textContent = this.unit.trim();
+    const word = this.slides ? "travel" : "turn";
+    document.querySelector("label[for=drive]").textContent = page.say(word);
+    by("travel").setAttribute("aria-label", page.say(word));
+    by("run").textContent = page.say(this.running ? "stop" : "run");
+  }
+
+  grip(name) {
+    const {page} = this, grip = made("circle", {class: "handle", tabindex: 0, role: "button",
+      "aria-label": page.say("handle", name), "data-point": name});
+    this.layer.append(grip);
+    grip.addEventListener("pointerdown", event => {
+      if (event.button) return;
+      event.preventDefault();
+      this.rest();
+      grip.setPointerCapture(event.pointerId);
+      grip.focus({preventScroll: true});
+      const [x, y] = page.picture.back(this.spot(event)), [p, q] = page.motion.points()[name];
+      this.held = {name, id: event.pointerId, off: [p - x, q - y]};
+      grip.classList.add("held");
+    });
+    grip.addEventListener("pointermove", event => {
+      if (this.held?.id !== event.pointerId) return;
+      this.aim = this.spot(event);
+      this.pulling ??= requestAnimationFrame(() => this.pull());
+    });
+    for (const end of ["pointerup", "pointercancel"]) grip.addEventListener(end, event => {
+      if (this.held?.id !== event.pointerId) return;
+      cancelAnimationFrame(this.pulling);
+      if (this.aim) this.pull();
+      grip.classList.remove("held");
+      this.held = null;
+      this.settle();
+    });
+    grip.addEventListener("keydown", event => {
+      const way = {ArrowLeft: [-1, 0], ArrowRight: [1, 0], ArrowUp: [0, 1], ArrowDown: [0, -1]}[event.key];
+      if (!way || event.altKey || event.ctrlKey || event.metaKey) return;
+      event.preventDefault();
+      const step = page.motion.data.linkage.reach * (event.shiftKey ? 0.002 : 0.01), [x, y] = page.motion.points()[name];
+      this.drag(name, x + way[0] * step, y + way[1] * step);
+    });
+    return grip;
+  }
+
+  // a pointer's place on the picture, in its mm
+  spot(event) {
+    const at = new DOMPoint(event.clientX, event.clientY).matrixTransform(this.page.svg.getScreenCTM().inverse());
+    return [at.x, at.y];
+  }
+
+  pull() {
+    const {name, off} = this.held, [x, y] = this.page.picture.back(this.aim);
+    this.pulling = this.aim = undefined;
+    this.busy = true;
+    this.drag(name, x + off[0], y + off[1]);
+    this.busy = false;
+  }
+
+  draw() {
+    const {page} = this, {travel} = page.motion, [from, to] = this.ends, drive = by("drive");
+    const round = to - from === 360 && !this.slides && page.motion.limits()[0] === null;
+    Object.assign(drive, {min: from, max: to, value: round ? travel - 360 * Math.floor(travel / 360) : travel});
+    drive.setAttribute("aria-valuetext", this.told(travel));
+    if (document.activeElement !== by("travel") || !this.typing) by("travel").value = page.number(travel + 0, 5);
+    by("range").textContent = this.still ? "" : round ? page.say("round") : page.say("limits", this.told(from), this.told(to));
+    this.handles();
+  }
+
+  told(travel) { return `${this.page.number(travel)}${this.unit}`; }
+
+  // grips lie on their points
+  handles() {
+    for (const [name, grip] of this.grips) {
+      const [x, y] = this.page.picture.place(name);
+      if (![x, y].every(Number.isFinite)) continue;
+      grip.setAttribute("cx", x);
+      grip.setAttribute("cy", y);
+    }
+  }
+
+  // they are as large as a finger on any screen
+  measure() {
+    const scale = this.page.svg.getScreenCTM()?.a || 1;
+    for (const grip of this.grips.values()) grip.setAttribute("r", GRIP / scale);
+  }
+
+  // ---- by hand
+
+  go(travel, busy = false) {
+    this.busy = busy;
+    this.page.motion.travel = travel;
+    this.page.draw();
+    this.busy = false;
+  }
+
+  drag(name, x, y) {
+    this.page.motion.drag(name, x, y);
+    this.page.draw();
+  }
+
+  home() {
+    this.rest();
+    this.page.motion.reset();
+    this.page.tracing.forget();
+    this.page.draw();
+  }
+
+  // a hand has let go: all words follow
+  settle() {
+    this.page.tracing.forget();
+    this.page.draw();
+  }
+
+  typed(text) {
+    const signs = this.page.data.signs[this.page.language], decimal = signs["."] ?? ".";
+    const value = Number(text.replaceAll("−", "-").replace("°", "").replace(decimal, ".").trim());
+    if (text.trim() && Number.isFinite(value)) this.go(value); else this.page.draw();
+  }
+
+  // ---- by itself
+
+  run() {
+    if (this.still || this.running) return;
+    if (this.page.motion.stop) this.way = this.nearer(1) ? -1 : 1;
+    by("run").textContent = this.page.say("stop");
+    by("run").setAttribute("aria-pressed", "true");
+    const pace = this.slides ? (this.ends[1] - this.ends[0]) / 4 : PACE, {motion} = this.page;
+    let before = performance.now();
+    const tick = now => {
+      const time = Math.min(calm.matches ? TICK : 100, Math.max(0, now - before)) / 1000;
+      before = now;
+      this.go(motion.travel + this.way * pace * time, true);
+      if (motion.stop || motion.said) { this.way = -this.way; this.rest(); } else this.running = next();
+    };
+    const next = () => (calm.matches ? setTimeout(() => tick(performance.now()), TICK) : requestAnimationFrame(tick));
+    this.running = next();
+  }
+
+  // whether it stands at the limit that lies this way
+  nearer(way) {
+    const [from, to] = this.page.motion.limits(), {travel} = this.page.motion;
+    const near = Math.abs(travel - (to ?? Infinity)) <= Math.abs(travel - (from ?? -Infinity));
+    return way > 0 ? near : !near;
+  }
+
+  rest() {
+    if (!this.running) return;
+    cancelAnimationFrame(this.running);
+    clearTimeout(this.running);
+    this.running = 0;
+    by("run").textContent = this.page.say("run");
+    by("run").removeAttribute("aria-pressed");
+    this.page.draw();
+  }
+}

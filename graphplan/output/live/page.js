@@ -1,0 +1,157 @@
+// ---- the page: what is shown of which construction, in which pose, in which language
+
+const by = id => document.getElementById(id);
+const calm = matchMedia("(prefers-reduced-motion: reduce)"), small = matchMedia("(max-width: 700px)");
+
+const made = (name, look) => {
+  const element = document.createElementNS("http://www.w3.org/2000/svg", name);
+  for (const [key, value] of Object.entries(look)) element.setAttribute(key, value);
+  return element;
+};
+
+async function unpack(number) {
+  const bytes = Uint8Array.from(atob(by(`pack-${number}`).textContent), char => char.charCodeAt(0));
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("gzip"));
+  return JSON.parse(await new Response(stream).text());
+}
+
+// the value of an expression that stands in the page itself, packed
+const evaluated = expression => new Function(`"use strict"; return (${expression});`)();
+
+// one value made another: `change` is that other in a list, or the changes of its parts by key or place
+function changed(value, change) {
+  if (Array.isArray(change)) return change[0];
+  const made = Array.isArray(value) ? [...value] : {...value};
+  for (const [key, part] of Object.entries(change)) made[key] = changed(made[key], part);
+  return made;
+}
+
+// one way to draw the scene, unpacked: what moves and draws it, and what is told of it by language
+class Variant {
+  constructor(pack) {
+    Object.assign(this, {motion: pack.motion, programs: pack.programs, pack, spoken: {[pack.language]: pack.own}});
+    this.tape = evaluated(`(${pack.tape})`);
+    this.outputs = pack.texts.map(text => evaluated(`(${text})`));
+  }
+
+  told(language) {
+    return this.spoken[language] ??= changed(this.pack.own, this.pack.others[language]);
+  }
+}
+
+class Page {
+  constructor() {
+    this.data = JSON.parse(by("data").textContent);
+    this.variants = [];
+    this.svg = by("picture");
+    this.language = document.documentElement.lang;
+    this.place = this.zoomed = this.hurried = 0;
+    this.complaint = "";
+    this.parts = [new Stepping(this), new Moving(this), new Tracing(this), new Choosing(this)];
+    [this.stepping, this.moving, this.tracing, this.choosing] = this.parts;
+  }
+
+  get words() { return this.data.words[this.language]; }
+
+  // what is given as %, or %1 and %2, is put into words
+  say(word, ...put) {
+    return this.words[word].replace(/%(\d?)/g, (_, place) => put[place ? place - 1 : 0]);
+  }
+
+  // a number as it is told, in the language's own signs
+  number(value, count = 4) {
+    return Numbers.written(value, count).replace(/[.,]/g, sign => this.data.signs[this.language][sign] ?? sign);
+  }
+
+  // ---- what is chosen
+
+  async choose(number, language) {
+    this.variants[number] ??= new Variant(await unpack(number));
+    const variant = this.variants[number], other = variant !== this.variant;
+    if (other && this.motion) this.motion.draws(variant.motion.programs, variant.tape);
+    this.motion ??= new Motion(variant.motion, variant.tape);
+    if (other) this.place = this.variant ? Math.min(this.place, this.last(variant)) : this.data.stepsFirst ? 0 : Infinity;
+    Object.assign(this, {variant, language, told: variant.told(language), program: -1});
+    this.templates = this.told.programs.map(({templates}) => Object.entries(templates)
+      .map(([part, text]) => [part, new Template(text, this.data.signs[language])]));
+    this.spell();
+    this.draw();
+  }
+
+  last(variant) { return variant.programs[0].steps.length - variant.programs[0].givens; }
+
+  // the page's own words, and the sheet's
+  spell() {
+    document.documentElement.lang = this.language;
+    document.title = document.querySelector("h1").textContent = this.told.title;
+    for (const node of document.querySelectorAll("[data-word]")) node.textContent = this.say(node.dataset.word);
+    for (const node of document.querySelectorAll("[data-label]")) {
+      node.setAttribute("aria-label", this.say(node.dataset.label));
+      if (node.title) node.title = this.say(node.dataset.label);
+    }
+    const sheet = new DOMParser().parseFromString(this.told.svg, "image/svg+xml").documentElement;
+    this.svg.replaceChildren(...sheet.childNodes);
+    this.svg.setAttribute("aria-label", this.told.title);
+    this.whole = sheet.getAttribute("viewBox").split(/[\s,]+/).map(Number);
+    this.picture = new Picture(this.svg, {programs: this.told.pictures});
+    for (const part of this.parts) part.spell?.();
+  }
+
+  // ---- the pose
+
+  get drawn() { return this.variant.programs[this.program]; }
+  get count() { return this.drawn.steps.length - this.drawn.givens; }
+
+  // everything as the pose has it, at once; words that a hand does not wait for follow when it rests
+  draw() {
+    const {motion} = this, values = motion.values(), program = motion.program;
+    this.picture.draw(program, values, motion.points(), motion.guides());
+    this.svg.classList.toggle("undrawn", !values);
+    if (program !== this.program) this.take(program);
+    this.values = values;
+    this.stepping.show();
+    this.write(this.moving.busy);
+    this.warn();
+    for (const part of [this.moving, this.tracing]) part.draw();
+  }
+
+  // another construction is drawn
+  take(program) {
+    this.program = program;
+    const told = this.told.programs[program];
+    for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
+    this.live = this.templates[program].map(([part, text]) => [document.querySelector(`[data-told="${part}"]`), text]);
+    this.place = Math.min(this.place, this.count);
+    this.stepping.take();
+    this.tracing.take();
+  }
+
+  // numbers into the words; while a hand moves the mechanism only now and then
+  write(hurried) {
+    clearTimeout(this.waiting);
+    const now = performance.now();
+    if (hurried && now - this.hurried < 120) {
+      this.waiting = setTimeout(() => this.write(false), 150);
+      return;
+    }
+    this.hurried = now;
+    const numbers = this.values && this.variant.outputs[this.program](this.values, Numbers);
+    for (const [node, text] of this.live) {
+      const told = numbers ? text.fill(numbers) : "–";
+      if (node.innerHTML !== told) node.innerHTML = told;
+    }
+    this.stepping.tell();
+  }
+
+  // what stops the mechanism, or the construction
+  warn() {
+    const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
+    const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
+    this.said = said || (!this.values ? this.say("undrawn", this.translated(motion.pose.why ?? "")) : "")
+      || (!results ? this.say("singular") : off ? this.say("differs") : "");
+    if (by("said").textContent !== this.said) by("said").textContent = this.said;
+    by("results").classList.toggle("unknown", !results);
+  }
+
+  translated(text) { return this.told.said?.[text] ?? text; }
+}

@@ -1,0 +1,244 @@
+"""The live page: a construction that moves in a browser, as one file that needs no network.
+
+The page is a template (live.html) with the sheet of the given pose in it as SVG, its protocol and its results in words:
+that is all it is without a script. With one it is moved (motion.js), drawn anew (picture.js) and told anew (texts.js);
+what these need is in it for each way to draw the scene that may be chosen, packed with gzip.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import json
+import re
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from html import escape
+from importlib.resources import files
+from typing import Any
+
+from graphplan.methods import kinds
+from graphplan.methods.construction import Construction
+from graphplan.output.live import motion as motions
+from graphplan.output.live import picture as pictures
+from graphplan.output.live.texts import Texts
+from graphplan.output.live.words import WORDS
+from graphplan.output.svg import svg
+from graphplan.phrases import Said
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.plates.display import Rect, Sheet
+from graphplan.sheet.plates.plans import Plans, around
+from graphplan.words.tongue import Tongue, tongue
+
+PACKING = 9  # how hard gzip tries
+STILL = "paper", "border", "ruling", "text"  # layers that no pose moves
+SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "choosing.js"
+POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
+SHARED = " 'self' file:"  # where a script that pages share may come from
+LANGUAGES = {"en": "English", "de": "Deutsch", "lv": "latviešu", "et": "eesti", "ru": "русский", "uk": "українська"}
+
+Data = dict[str, Any]  # of JSON
+
+
+@dataclass(frozen=True)
+class Variant:
+    """One way to draw a scene: its plan and method, and on one sheet the constructions that serve its poses, the given
+    pose's first."""
+
+    plan: str
+    method: str
+    compositions: tuple[Composition, ...]
+
+    @property
+    def drawing(self) -> Construction:
+        return self.compositions[0].plans.drawing
+
+
+@dataclass(frozen=True)
+class LivePage:
+    """A live page of the ways to draw one scene, in some languages, of each the page's own first; `title` is the
+    scene's own, `steps_first` opens it at the first step and not with all drawn."""
+
+    variants: Sequence[Variant]
+    languages: Sequence[str]
+    title: str
+    steps_first: bool = False
+
+    @property
+    def _own(self) -> Composition:
+        return self.variants[0].compositions[0]
+
+    def html(self, shared: str = "") -> str:
+        """The page; its script stands in it, or, `shared` with other pages, in a file of that name beside it."""
+        template = files(__package__).joinpath("live.html").read_text("utf-8")
+        say = tongue(self.languages[0])
+        own = self._spoken(0, say)
+        sheet = _sheet(self._in(self._own, say))
+        parts = {
+            **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
+            "language": say.code, "title": escape(say.title(self.title)),
+            "source": escape(self._own.plans.drawing.scene.source), "policy": POLICY + (SHARED if shared else ""),
+            "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _inline(sheet),
+            **{name: own["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
+            "data": embedded(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
+            "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{packed(pack)}</script>'
+                               for number, pack in enumerate(self._packs())),
+            "scene": embedded(sheet.scene),
+            "script": f'<script src="{escape(shared)}"></script>' if shared else f"<script>\n{script()}</script>",
+        }  # fmt: skip
+        return re.sub(r"\{\{([\w:]+)\}\}", lambda place: parts[place[1]], template)
+
+    def _data(self) -> Data:
+        """What the page knows before anything is unpacked."""
+        own = self.variants[0]
+        return {
+            "variants": [{"plan": one.plan, "method": one.method} for one in self.variants],
+            "languages": {code: LANGUAGES[code] for code in self.languages},
+            "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
+            "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
+            "unit": own.drawing.scene.units.length, "curves": list(own.drawing.scene.sheet.curves),
+            "stepsFirst": self.steps_first,
+        }  # fmt: skip
+
+    def _packs(self) -> list[Data]:
+        """All that belongs to each variant."""
+        return [self._pack(number) for number in range(len(self.variants))]
+
+    def _pack(self, number: int) -> Data:
+        """What moves, draws and tells a variant; in other languages than the first only what is another there."""
+        variant = self.variants[number]
+        data, tape = self._motions[number]
+        own, *others = [self._spoken(number, tongue(code)) for code in self.languages]
+        return {
+            "motion": data, "tape": tape, "texts": [texts.javascript() for texts in self._texts[number]],
+            "programs": [_program(composition) for composition in variant.compositions],
+            "language": self.languages[0], "own": own,
+            "others": {code: difference(own, other) for code, other in zip(self.languages[1:], others, strict=True)},
+        }  # fmt: skip
+
+    @cached_property
+    def _motions(self) -> list[tuple[Data, str]]:
+        """What moves each variant: data and tapes."""
+        return [motions.motion([one.plans.drawing for one in variant.compositions]) for variant in self.variants]
+
+    @cached_property
+    def _texts(self) -> list[list[Texts]]:
+        """The texts of each construction of each variant, in whatever language they are told."""
+        return [[Texts(one.plans, one.scales) for one in variant.compositions] for variant in self.variants]
+
+    @cached_property
+    def _told(self) -> dict[tuple[int, str], Data]:
+        return {}
+
+    def _spoken(self, number: int, say: Tongue) -> Data:
+        """What of a variant is said in a language, told once."""
+        if (number, say.code) not in self._told:
+            compositions = [self._in(one, say) for one in self.variants[number].compositions]
+            still = _sheet(compositions[0])
+            still = replace(still, items=tuple(item for item in still.items if item.layer in STILL))
+            self._told[number, say.code] = {
+                "title": say.title(self.title), "svg": _inline(still),
+                "pictures": [pictures.picture(one) for one in compositions],
+                "programs": [texts.told(say) for texts in self._texts[number]],
+                "said": {text: say(text) for text in sayings(self._motions[number][0])},
+            }  # fmt: skip
+        return self._told[number, say.code]
+
+    def _in(self, composition: Composition, say: Tongue) -> Composition:
+        """A composition that speaks a language; its drawing is the same."""
+        if say.code == composition.plans.tongue.code:
+            return composition
+        drawing = object.__new__(Construction)
+        scene = composition.plans.drawing.scene
+        drawing.__dict__.update(composition.plans.drawing.__dict__, scene=replace(scene, title=say.title(self.title)))
+        return replace(composition, plans=Plans(drawing, say))
+
+
+def live(variants: Sequence[Variant], languages: Sequence[str], title: str, *, steps_first: bool = False,
+         shared: str = "") -> str:
+    """The live page of these ways to draw one scene; with a name of a `shared` script it leaves that out."""
+    return LivePage(variants, languages, title, steps_first).html(shared)
+
+
+def script() -> str:
+    """The JavaScript of all live pages."""
+    own = (files(__package__).joinpath(name).read_text("utf-8") for name in SCRIPTS)
+    return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *own, "})();", ""])
+
+
+def _sheet(composition: Composition) -> Sheet:
+    return layout(composition.plans.drawing, composition=composition)
+
+
+def _inline(sheet: Sheet) -> str:
+    """A sheet as SVG for the page, which has the scene elsewhere."""
+    text = svg(replace(sheet, scene=""), id="picture", role="img", aria_label=sheet.title)
+    return text[text.index("<svg") :].strip()
+
+
+def _program(composition: Composition) -> Data:
+    """What the page needs to know of a construction's steps, and of its windows, with y down as in SVG."""
+    plans, high = composition.plans, composition.arrangement.height
+    drawing, panels, rects = plans.drawing, list(plans.panels), composition.arrangement.panels
+    return {
+        "givens": drawing.drawn.givens,
+        "steps": [{"reads": list(step.args), "span": list(step.args) if step.op.spans else [],
+                   "plan": panels.index(plans.plan_of_step[step.index]),
+                   "number": max(0, drawing.drawn.number(step.index))} for step in drawing.drawn.steps],
+        "panels": [_box(rects[panel], high) for panel in panels],
+        "plans": _box(around([spot for rect in rects.values() for spot in rect.corners]), high),
+        "vectors": [{"name": vector.label, "panel": panels.index(plans.plan_of_step[vector.end]), "end": vector.end,
+                     "start": vector.start} for vector in drawing.arrows
+                    if vector.kind in (kinds.VELOCITY, kinds.ACCELERATION)],
+        "turned": drawing.turned,
+    }  # fmt: skip
+
+
+def _box(rect: Rect, high: float) -> list[float]:
+    """A rectangle as left, top, width and height."""
+    return [round(n, 2) for n in (rect.left, high - rect.top, rect.width, rect.height)]
+
+
+def on_one_sheet(first: Composition, others: Sequence[Construction]) -> tuple[Composition, ...]:
+    """A composition, and in its windows, at its scales, other constructions of the scene; those of other plans are
+    left out."""
+    found = [first]
+    for drawing in others:
+        plans = Plans(drawing, first.plans.tongue)
+        if plans.panels == first.plans.panels:
+            found.append(replace(first, plans=plans))
+    return tuple(found)
+
+
+def sayings(data: Any) -> Iterator[Said]:
+    """What is said in nested data."""
+    if isinstance(data, Said):
+        yield data
+    elif isinstance(data, Mapping | list | tuple):
+        for part in data.values() if isinstance(data, Mapping) else data:
+            yield from sayings(part)
+
+
+# ---- data in a page --------------------------------------------------------------------------------------------------
+
+
+def embedded(text: str) -> str:
+    """Text that cannot end the script it stands in: `</` and `<!--` have a backslash after their first sign."""
+    return re.sub(r"<(?=/|!--)", r"<\\", text)
+
+
+def packed(data: Data) -> str:
+    """Data as a page has them: JSON, by gzip, in letters of base 64."""
+    text = json.dumps(data, ensure_ascii=False, separators=(",", ":"))
+    return base64.b64encode(gzip.compress(text.encode(), PACKING, mtime=0)).decode("ascii")
+
+
+def difference(one: Any, other: Any) -> Any:
+    """What makes one value another: a list of that other alone, or, by key or place, the differences of its parts."""
+    if isinstance(one, Mapping) and isinstance(other, Mapping) and one.keys() == other.keys():
+        return {key: difference(one[key], other[key]) for key in one if one[key] != other[key]}
+    if isinstance(one, list | tuple) and isinstance(other, list | tuple) and len(one) == len(other):
+        return {str(i): difference(a, b) for i, (a, b) in enumerate(zip(one, other, strict=True)) if a != b}
+    return [other]

@@ -1,0 +1,187 @@
+// ---- through the steps: what is there, what the step reads and what it makes, in words and in the list
+
+const RHYTHM = 1600, GLIDE = 300;
+const STEP_KEYS = {ArrowLeft: "previous", ArrowUp: "previous", ArrowRight: "next", ArrowDown: "next", Home: "first",
+  End: "last", PageUp: "back", PageDown: "on", " ": "play"};
+
+class Stepping {
+  constructor(page) {
+    this.page = page;
+    this.playing = this.gliding = 0;
+    page.zoomed = small.matches;
+    this.acts = {first: () => this.go(0), previous: () => this.go(page.place - 1), next: () => this.go(page.place + 1),
+      last: () => this.go(page.count), back: () => this.stage(-1), on: () => this.stage(1), play: () => this.play(),
+      zoom: () => { page.zoomed = !page.zoomed; this.show(); }};
+    for (const [id, act] of Object.entries(this.acts)) by(id)?.addEventListener("click", act);
+    by("place").addEventListener("input", event => this.go(Number(event.target.value)));
+    addEventListener("beforeprint", () => { cancelAnimationFrame(this.gliding); this.frame(page.whole); });
+    addEventListener("afterprint", () => this.show());
+    document.addEventListener("keydown", event => {
+      const act = STEP_KEYS[event.key], on = event.target;
+      if (!act || event.altKey || event.ctrlKey || event.metaKey || /^(INPUT|SELECT|TEXTAREA|SUMMARY)$/.test(on.tagName)
+        || (on.tagName === "BUTTON" && event.key === " ") || event.defaultPrevented) return;
+      event.preventDefault();
+      this.acts[act]();
+    });
+  }
+
+  // the picture and the list are others
+  spell() {
+    this.halos = this.page.svg.insertBefore(made("g", {id: "halos"}), this.page.picture.place_);
+    this.zooming = null;
+    by("play").textContent = this.page.say(this.playing ? "pause" : "play");
+  }
+
+  take() {
+    this.buttons = [...document.querySelectorAll("button[data-place]")];
+    this.wholes = [...document.querySelectorAll(".whole")];
+    this.buttons.forEach((button, i) => button.addEventListener("click", () => this.go(i + 1)));
+    for (const whole of this.wholes) {
+      whole.addEventListener("click", () => this.go(Number(whole.dataset.until)));
+      whole.tabIndex = -1;
+    }
+    by("place").max = this.page.count;
+    this.shown = null;
+  }
+
+  // the step that is made, and its index
+  get step() { return this.page.drawn.steps[this.index] ?? null; }
+  get index() { return this.page.place ? this.page.place - 1 + this.page.drawn.givens : -1; }
+
+  show() {
+    const {page, step} = this, {place, count, program} = page, shown = `${program} ${place}`;
+    if (this.shown !== shown) {
+      const read = new Set((step?.reads ?? []).map(one => page.drawn.steps[one].number));
+      for (const group of page.svg.querySelectorAll("g.step")) {
+        const own = Number(group.dataset.step);
+        group.classList.toggle("later", own > place);
+        group.classList.toggle("made", own > 0 && own === place && place < count);
+        group.classList.toggle("read", own > 0 && read.has(own) && place < count);
+      }
+      by("results").classList.toggle("later", place < count);
+      this.tell();
+    }
+    this.shown = shown;
+    this.look();
+    this.halos.replaceChildren();
+    if (!step || place === count || !page.values) return;
+    for (const one of new Set(step.reads)) this.halo(one, "read");
+    this.halo(this.index, "made");
+  }
+
+  halo(index, role) {
+    const {page} = this, step = page.drawn.steps[index], {sheet} = page.picture;
+    const group = step.number ? page.svg.querySelector(`g.step[data-step="${step.number}"]`) : null;
+    const ring = made("g", {class: `halo ${role}`, "clip-path": `url(#${sheet.clip}-${step.plan})`});
+    const strokes = [...group?.querySelectorAll("polyline, path, circle, polygon") ?? []]
+      .filter(stroke => !stroke.closest("[display=none]"));
+    ring.append(...strokes.map(stroke => stroke.cloneNode(true)));
+    const spot = this.spot(index), wide = (page.zoomed ? page.drawn.panels[step.plan] : page.drawn.plans)[2];
+    const radius = (role === "made" ? 11 : 9) * wide / page.svg.clientWidth;
+    if (spot) ring.append(made("circle", {class: "ring", cx: spot[0], cy: spot[1], r: radius}));
+    const ends = step.span.map(end => this.spot(end)).filter(Boolean);
+    if (ends.length === 2 && !strokes.length)
+      ring.append(made("line", {x1: ends[0][0], y1: ends[0][1], x2: ends[1][0], y2: ends[1][1]}));
+    this.halos.append(ring);
+  }
+
+  // where a point of a step lies on the picture
+  spot(index) {
+    const {sheet} = this.page.picture, at = sheet.steps[index].kind === "point" ? sheet.plates.at[index] : null;
+    return at && at.every(Number.isFinite) ? [at[0], sheet.height - at[1]] : null;
+  }
+
+  // ---- the words
+
+  tell() {
+    const {page, step, buttons} = this, {place, count, words} = page;
+    const set = (id, told) => { if (by(id).innerHTML !== told) by(id).innerHTML = told; };
+    const button = buttons[place - 1];
+    set("sentence", step ? `${words.step} ${place}/${count}. ${button.lastElementChild.innerHTML}` : words.begin);
+    const whole = button && this.wholes.find(one => one.parentElement.contains(button));
+    set("whole", whole?.innerHTML.replace(/ data-told="\d+"/g, "") ?? "");
+    const stage = button?.closest(".stage");
+    set("stage", stage ? [...stage.children].filter(one => one.tagName !== "OL").map(one => one.outerHTML).join("") : "");
+    const names = page.told.programs[page.program].names;
+    for (const [id, marks] of [["reads", step ? [...new Set(step.reads)] : []], ["makes", step ? [this.index] : []]]) {
+      by(id).hidden = !marks.length;
+      by(id).lastElementChild.innerHTML = marks.map(mark => names[mark]).join(", ");
+    }
+    buttons.forEach((one, i) => {
+      one.tabIndex = i === Math.max(0, place - 1) ? 0 : -1;  // Tab goes past the others, arrows go through them
+      if (one === button) one.setAttribute("aria-current", "step"); else one.removeAttribute("aria-current");
+    });
+    for (const one of this.wholes) one.classList.toggle("partly", one === whole);
+    if (button && this.reached !== place && this.reached !== undefined) this.reveal(button);
+    this.reached = place;
+    by("place").value = place;
+    by("place").setAttribute("aria-valuetext", `${place}/${count}`);
+    by("at").textContent = `${place}/${count}`;
+    by("first").disabled = by("previous").disabled = place === 0;
+    by("last").disabled = by("next").disabled = place === count;
+  }
+
+  reveal(button) {
+    const list = button.closest("nav"), box = list.getBoundingClientRect(), own = button.getBoundingClientRect();
+    if (own.top < box.top || own.bottom > box.bottom)
+      list.scrollTop += own.top - box.top - (box.height - own.height) / 2;
+  }
+
+  // ---- the window
+
+  look() {
+    const {page, step} = this, target = page.zoomed ? page.drawn.panels[step ? step.plan : 0] : page.drawn.plans;
+    by("zoom").setAttribute("aria-pressed", Boolean(page.zoomed));
+    if (target === this.zooming) return;
+    const from = this.zooming;
+    this.zooming = target;
+    if (from) this.glide(target); else this.frame(target);
+  }
+
+  glide(target) {
+    const start = this.page.svg.getAttribute("viewBox").split(" ").map(Number), began = performance.now();
+    cancelAnimationFrame(this.gliding);
+    if (calm.matches) return this.frame(target);
+    const tick = now => {
+      const t = Math.min(1, (now - began) / GLIDE), ease = t * t * (3 - 2 * t);
+      this.frame(t < 1 ? start.map((value, i) => value + (target[i] - value) * ease) : target);
+      if (t < 1) this.gliding = requestAnimationFrame(tick);
+    };
+    this.gliding = requestAnimationFrame(tick);
+  }
+
+  frame(box) {
+    this.page.svg.setAttribute("viewBox", box.join(" "));
+    this.page.moving.measure();
+  }
+
+  // ---- the controls
+
+  go(to) {
+    const {page} = this;
+    page.place = Math.max(0, Math.min(page.count, Math.round(to)));
+    if (page.place === page.count) this.rest();
+    this.show();
+  }
+
+  play() {
+    if (this.playing) return this.rest();
+    if (this.page.place === this.page.count) this.go(0);
+    this.playing = setInterval(() => this.go(this.page.place + 1), RHYTHM);
+    by("play").textContent = this.page.say("pause");
+  }
+
+  rest() {
+    clearInterval(this.playing);
+    this.playing = 0;
+    by("play").textContent = this.page.say("play");
+  }
+
+  // the first step of the next stage, or of the one before
+  stage(way) {
+    const {place, count} = this.page, of = at => this.buttons[at - 1]?.closest(".stage") ?? null;
+    let to = Math.max(0, Math.min(count, place + way));
+    while (to > 0 && to < count && (of(to) === of(place) || of(to - 1) === of(to))) to += way;
+    this.go(to);
+  }
+}

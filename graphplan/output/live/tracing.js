@@ -1,0 +1,95 @@
+// ---- paths of points over the motion, and of the ends of vectors, which from one pole are hodographs
+
+const COLOURS = ["#c2410c", "#0b63b0", "#15803d", "#7e22ce", "#a16207", "#be185d", "#0f766e", "#4d4d4d"];
+const POSES = 180, TOGETHER = 12;  // of a path, and how many of them between two frames
+
+class Tracing {
+  constructor(page) {
+    Object.assign(this, {page, chosen: new Set(page.data.curves.map(name => `path ${name}`)), found: null});
+  }
+
+  // what may be traced: the points that move, and the vectors that are drawn
+  take() {
+    const {page} = this, {linkage} = page.motion.data, box = by("paths");
+    box.replaceChildren();
+    by("curves").hidden = Boolean(page.motion.still);
+    if (page.motion.still) return;
+    const paths = Object.keys(linkage.owned).filter(name => !(name in page.motion.data.shared));
+    this.all = [...paths.map(name => ({key: `path ${name}`, words: page.say("path", name), point: name, panel: 0})),
+      ...page.drawn.vectors.filter(({name}) => name).map(({name, end, start, panel}) => ({key: name, end, start, panel,
+        words: page.say(page.drawn.turned ? "ends" : "hodograph", this.lettered(name))}))];
+    this.all.forEach((one, i) => {
+      const label = document.createElement("label"), input = document.createElement("input"), line = document.createElement("i");
+      one.colour = COLOURS[i % COLOURS.length];
+      Object.assign(input, {type: "checkbox", checked: this.chosen.has(one.key)});
+      input.addEventListener("change", () => {
+        if (input.checked) this.chosen.add(one.key); else this.chosen.delete(one.key);
+        this.draw();
+      });
+      line.style.borderColor = one.colour;
+      label.append(input, line, one.words);
+      box.append(label);
+    });
+    this.forget();
+  }
+
+  lettered(name) {
+    const [kind, of] = name.split(" ");
+    return `${kind === "velocity" ? "v" : "a"} ${of}`;
+  }
+
+  spell() {
+    this.layer = this.page.svg.insertBefore(made("g", {id: "traces"}), this.page.picture.place_);
+    this.drawn = null;
+  }
+
+  // a pin has moved: all paths are others
+  forget() {
+    const pins = JSON.stringify([this.page.motion.fixed, this.page.program]);
+    if (pins === this.pins && this.found) return;
+    clearTimeout(this.walking);
+    Object.assign(this, {pins, found: null, drawn: null});
+  }
+
+  // walks once around, or from limit to limit, a little at a time
+  walk() {
+    const {page} = this, {motion} = page, [from, to] = page.moving.ends, other = motion.copy();
+    const found = this.found = [];
+    const some = () => {
+      if (found !== this.found) return;
+      for (let i = 0; i < TOGETHER && found.length <= POSES; i++) {
+        other.travel = from + (to - from) * found.length / POSES;
+        const values = other.program === page.program ? other.values() : null;
+        found.push({points: other.points(), values});
+      }
+      this.drawn = null;
+      if (found.length <= POSES) this.walking = setTimeout(some);
+      this.draw();
+    };
+    some();
+  }
+
+  draw() {
+    if (!this.all || !this.chosen.size && !this.layer.hasChildNodes()) return;
+    this.forget();
+    if (this.chosen.size && !this.found) return this.walk();
+    const windows = this.page.picture.windows, key = JSON.stringify([[...this.chosen], windows.map(one => one.origin)]);
+    if (this.drawn === key) return;
+    this.drawn = key;
+    this.layer.replaceChildren(...this.all.filter(one => this.chosen.has(one.key)).map(one => this.path(one, windows[one.panel])));
+  }
+
+  path({point, end, panel, colour}, view) {
+    const {sheet} = this.page.picture;
+    let told = "", pen = "M";
+    for (const {points, values} of this.found) {
+      const place = point ? points[point] : values?.[end];
+      if (!place || !place.every(Number.isFinite)) { pen = "M"; continue; }
+      const [x, y] = view.at(place);
+      told += `${pen}${x.toFixed(2)} ${(sheet.height - y).toFixed(2)}`;
+      pen = "L";
+    }
+    return made("path", {d: told || "M0 0", stroke: colour, "clip-path": `url(#${sheet.clip}-${panel})`,
+      "data-trace": point ?? end});
+  }
+}

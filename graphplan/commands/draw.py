@@ -1,8 +1,9 @@
 """Draw the construction sheet, as SVG, PDF, PNG or DXF.
 
-The suffix of the output says which. A PDF has the sheet in true size, a DXF has each drawing step as a group; for DXF
-install graphplan[dxf]. The plans come first; words for which there is no room beside them stand on pages of their own:
-further pages of a PDF, else files such as SHEET-protocol.svg. Standard output has the first page alone.
+The suffix of the output says which. A PDF has the sheet in true size; a DXF has the mechanism 1:1 with its dimensions,
+the sheet on layouts, and each drawing step on a layer; for DXF install graphplan[dxf]. The plans come first; words for
+which there is no room beside them stand on pages of their own: further pages of a PDF, layouts of a DXF, else files
+such as SHEET-protocol.svg. Standard output has the first page alone.
 
 examples:
   graphplan draw alt-eight-link -o sheet.svg
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     from graphplan.sheet.plates.display import Sheet
 
 ENDINGS = (".svg", ".pdf", ".png", ".dxf")
+WHOLE = {"pdf", "dxf"}  # formats that have all pages in one file
 DOTS = 150  # per inch
 PROTOCOL, STAGES = "-protocol", "-stages"  # what the names of pages of words, and of stages, add to that of the sheet
 STAGED = "stages"
@@ -69,13 +71,13 @@ def run(options: argparse.Namespace) -> int:
     more: list[Sheet] = []
     if options.strip:
         sheets = strip(composition, cut=options.strip)
-    elif _staged(options) and (name == "pdf" or len(names) > 1):
+    elif _staged(options) and (name in WHOLE or len(names) > 1):
         sheets, more = by_stages(composition)
     else:
         sheets = [_shown(sheet, found.drawing.drawn, options) for sheet in pages(composition)]
     write_out, look = back_end(name), {"dpi": options.dpi or DOTS} if name == "png" else {}
-    if name == "pdf":
-        write(write_out(sheets + more), options.output)
+    if name in WHOLE:
+        write(write_out(sheets + more, *([composition.plates] if name == "dxf" else [])), options.output)
     else:
         names = paged(options.output, len(sheets), "" if options.strip else PROTOCOL)
         names += paged(options.output, 1 + len(more), STAGES)[1:]

@@ -47,7 +47,7 @@ def options(command: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace) -> int:
     name = format_of(options.output, options.format)
     more, write_out = _more(name, options.library), back_end(name)
-    write(write_out(READ[FORMATS[name].reads](on_paper(options)), **more), options.output)
+    write(write_out(*READ[FORMATS[name].reads](on_paper(options)), **more), options.output)
     return 0
 
 
@@ -95,10 +95,11 @@ def _sheets(on_sheet: Drafted) -> Any:
     return pages(on_sheet.composition)
 
 
-READ: dict[str, Callable[[Drafted], Any]] = {  # what back ends read
-    "plates": lambda on_sheet: on_sheet.composition.plates,
-    "construction": lambda on_sheet: on_sheet.drawing,
-    "sheet": _sheet,
-    "sheets": _sheets,
-    "steps": lambda on_sheet: as_json(data(on_sheet)),
+READ: dict[str, Callable[[Drafted], tuple[Any, ...]]] = {  # what back ends read
+    "plates": lambda on_sheet: (on_sheet.composition.plates,),
+    "construction": lambda on_sheet: (on_sheet.drawing,),
+    "sheet": lambda on_sheet: (_sheet(on_sheet),),
+    "sheets": lambda on_sheet: (_sheets(on_sheet),),
+    "sheets on plates": lambda on_sheet: (_sheets(on_sheet), on_sheet.composition.plates),
+    "steps": lambda on_sheet: (as_json(data(on_sheet)),),
 }

@@ -36,7 +36,7 @@ FORMATS = {
     "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
     "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),
     "png": Format(".png", "the sheet as a picture", "pdf_png", "png", "sheet"),
-    "dxf": Format(".dxf", "the sheet for CAD programs", "dxf", "dxf", "sheet", "dxf"),
+    "dxf": Format(".dxf", "the mechanism 1:1 and the sheet, for CAD", "dxf", "dxf", "sheets on plates", "dxf"),
 }
 
 

@@ -39,7 +39,7 @@ def test_every_format(name: str, scene: str, tmp_path: Path) -> None:
         pytest.importorskip("ezdxf")
     path = tmp_path / f"a{FORMATS[name].suffix}"
     assert main(["export", scene, "-o", str(path), "--format", name]) == 0
-    written, again = path.read_bytes(), back_end(name)(READ[FORMATS[name].reads](on_sheet(scene)))
+    written, again = path.read_bytes(), back_end(name)(*READ[FORMATS[name].reads](on_sheet(scene)))
     assert written == (again.encode() if isinstance(again, str) else again)
     assert len(written) > 1000
     assert written.startswith(BEGINS.get(name, b""))

@@ -17,7 +17,7 @@ from graphplan.output.dxf import dxf
 from graphplan.output.exports.geogebra import geogebra
 from graphplan.output.svg import svg
 from graphplan.sheet.layout.composition import compose
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.layout import pages
 
 SCENES = sorted(path.stem for path in (Path(gp.__file__).parent / "scenes").glob("*.toml"))
 
@@ -27,9 +27,10 @@ def test_own_sheets_are_faultless(name: str, tmp_path: Path) -> None:
     """No mark of a packaged scene's sheet is wrong or missing, in any format, and all points are earned."""
     composition = compose(gp.construct(gp.load(name)))
     drawing, arrangement = composition.plans.drawing, composition.arrangement
-    sheet = layout(drawing, composition=composition)
+    sheet, *more = pages(composition)
     frames = {panel: PlanFrame(complex(*view.origin), view.scale) for panel, view in composition.views.items()}
-    files = {"svg": svg(sheet).encode(), "dxf": dxf(sheet), "ggb": geogebra(composition.plates)}
+    files = {"svg": svg(sheet).encode(), "dxf": dxf([sheet, *more], composition.plates),
+             "ggb": geogebra(composition.plates)}
     for kind, data in files.items():
         path = tmp_path / f"sheet.{kind}"
         path.write_bytes(data)

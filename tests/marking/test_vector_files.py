@@ -260,7 +260,8 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
     """Everything drawn on a sheet is found in its DXF to 0.001 mm, in its SVG to the hundredths it is written in, and
     letters name their points, also where leaders take them past others."""
     composition, sheet, named = own(scene)
-    for name, data, far in (("own.dxf", dxf(sheet), 1e-3), ("own.svg", svg(sheet).encode(), 5.1e-3)):
+    files = ("own.dxf", dxf([sheet], composition.plates), 1e-3), ("own.svg", svg(sheet).encode(), 5.1e-3)
+    for name, data, far in files:
         found = submission(tmp_path, name, data, {"N-plan": PlanFrame(0j, 1 + 0j)})
         rims = [Trace(POINT, (spot,)) for trace in found.traces if trace.kind == CIRCLE for spot in trace.spots]
         for trace in shown(sheet):
@@ -277,8 +278,8 @@ def test_own_sheets_are_read_back(tmp_path: Path, scene: str) -> None:
 @pytest.mark.parametrize("kind", ["dxf", "svg"])
 def test_own_sheets_of_other_paper(tmp_path: Path, kind: str) -> None:
     """Plans lie where their frames say on a sheet of the size that is asked for, and anywhere on another."""
-    sheet, path, frames = own("four-bar")[1], tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
-    path.write_bytes({"dxf": dxf, "svg": lambda sheet: svg(sheet).encode()}[kind](sheet))
+    (composition, sheet, _), path, frames = own("four-bar"), tmp_path / f"own.{kind}", {"N-plan": PlanFrame(0j, 1 + 0j)}
+    path.write_bytes(dxf([sheet], composition.plates) if kind == "dxf" else svg(sheet).encode())
     assert read(path, (), frames, size=(sheet.width, sheet.height)).frames == frames
     assert read(path, (), frames, size=(sheet.height, sheet.width)).frames == {}
 

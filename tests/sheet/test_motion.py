@@ -106,7 +106,8 @@ def test_the_judge_does_not_see_the_motion(ending: str, package: str, tmp_path: 
     pytest.importorskip(package)
     composition, found = composed("four-bar", ("M", "B"), 6), []
     for one in (composition, replace(composition, plans=replace(composition.plans, motion=None))):
-        text = back_end(ending)(layout(one.plans.drawing, composition=one))
+        sheet = layout(one.plans.drawing, composition=one)
+        text = back_end(ending)(*([sheet] if ending == "svg" else [[sheet], one.plates]))
         file = tmp_path / f"sheet.{ending}"
         file.write_bytes(text if isinstance(text, bytes) else text.encode())
         found.append(len(read(file, [], {}).traces))

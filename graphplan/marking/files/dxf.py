@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 import ezdxf
 from ezdxf.filemanagement import dxf_stream_info
 from ezdxf.recover import read
+from ezdxf.tools.text import plain_mtext
 from ezdxf.units import MM, conversion_factor
 
 from graphplan.errors import Refused
@@ -26,8 +27,11 @@ T = TypeVar("T")
 
 LARGEST = 8 * MB
 LINES, ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
+BESIDE = 15.0  # mm: so far right of the first page are further ones of words
+RAISED, HANGING = re.compile(r"\\S([^;^]+)\^ ?;"), re.compile(r"\\S\^ ?([^;^]+);")  # in texts of several levels
 DEEPEST = 8  # blocks within each other
 OWN = "GRAPHPLAN"  # whose extended data our own sheets have
+FULL_SIZE, SHEET = "MECHANISM 1-1", "SHEET "  # how layers of our own begin: of what is beside the sheet, and of its own
 BASE_LINES = {"LEFT": 0.0, "CENTER": 0.5, "RIGHT": 1.0, "MIDDLE": 0.5}
 STEPS = 48  # spots of an ellipse
 
@@ -86,9 +90,11 @@ class _DxfReader:
         self.path, self.own = path, OWN in document.appids
         self.millimetres, self.short = (STATED, SHORT) if document.units else (0.0, 0.0)
         self.mm = conversion_factor(document.units, MM) if document.units else 1.0
-        corners = (document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX"))
-        (left, bottom), (right, top) = (self._spot(corner) for corner in corners)
+        self.origin = (0.0, 0.0)  # in units of the drawing: the lower left corner of a sheet of graphplan's own
+        corners = [document.header.get(key, (0.0, 0.0)) for key in ("$LIMMIN", "$LIMMAX")]
+        (left, bottom), (right, top) = map(self._spot, corners)
         self.size = right - left, top - bottom  # of the sheet in mm, which stays when something is drawn beyond it
+        self.origin = corners[0][:2] if self.own else self.origin
         self.traces: list[Trace] = []
         self.leaders: list[Trace] = []  # of a sheet of graphplan's own
         self.tips: list[Spot] = []
@@ -102,7 +108,7 @@ class _DxfReader:
         for entity in entities:
             self.budget.spend()
             layer = entity.dxf.get("layer", "0")
-            if layer in self.hidden or entity.dxf.get("invisible", 0):
+            if layer in self.hidden or layer.startswith(FULL_SIZE) or entity.dxf.get("invisible", 0):
                 continue
             if entity.dxftype() == "INSERT":
                 self._block(entity, depth)
@@ -111,12 +117,17 @@ class _DxfReader:
             elif entity.dxftype() == "SOLID":  # the last two of its corners come the other way round
                 first, second, *last = map(self._spot, entity.vertices())
                 self.tips += tips([first, second, *reversed(last)])
-            elif not (self.own and layer.partition("-")[0] in NO_DRAWING):
+            elif not (self.own and (known := self._known(entity, layer)) in NO_DRAWING):
                 found = list(self._traces(entity))
                 self.budget.spend(len(found))
                 self.traces += found
-            elif layer == "letters" and entity.dxftype() == "LINE":
+            elif known == "letters" and entity.dxftype() == "LINE":
                 self.leaders += self._traces(entity)
+
+    def _known(self, entity: Any, layer: str) -> str:
+        """The layer of graphplan's own sheet: what of a step is no drawing bears it, all else is on it."""
+        told = entity.get_xdata(OWN)[0].value if entity.has_xdata(OWN) else ""
+        return told if told in NO_DRAWING else layer.removeprefix(SHEET).partition("-")[0]
 
     def _block(self, insert: Any, depth: int) -> None:
         """A block where it is put, each of its copies."""
@@ -136,7 +147,7 @@ class _DxfReader:
                 yield from pieces([self._spot(entity.dxf.start), self._spot(entity.dxf.end)], self.short)
             case "XLINE" | "RAY":
                 start, along = entity.dxf.start, entity.dxf.unit_vector
-                self.lines.append((complex(start.x, start.y) * self.mm, complex(along.x, along.y)))
+                self.lines.append((complex(*self._spot(start)), complex(along.x, along.y)))
             case "CIRCLE":
                 yield full(self._spot(entity.ocs().to_wcs(entity.dxf.center)), entity.dxf.radius * self.mm)
             case "ARC":
@@ -205,18 +216,19 @@ class _DxfReader:
 
     def _lettered(self, entity: Any) -> None:
         """Letters, by the place and the height that they have on paper."""
-        text = entity.plain_text().strip()
         if entity.dxftype() == "MTEXT":
+            text = plain_mtext(HANGING.sub(r"_\1", RAISED.sub(r"\1", entity.text))).strip()
             high, (row, column) = entity.dxf.char_height * self.mm, divmod(entity.dxf.attachment_point - 1, 3)
             (x, y), lower, part = self._spot(entity.dxf.insert), 1 - row / 2, column / 2
         else:
+            text = entity.plain_text().strip()
             high, (align, first, second) = entity.dxf.height * self.mm, entity.get_placement()
             part = next((part for name, part in BASE_LINES.items() if align.name.endswith(name)), 0.0)
             x, y = self._spot(second if part and second is not None else first)
             lower = 1.0 if "TOP" in align.name else 0.5 if "MIDDLE" in align.name else 0.0
-        if high > 0 and "\n" not in text:
+        if high > 0 and "\n" not in text and not (self.own and x > self.size[0] + BESIDE):
             place = x, y - lower * high
             self.words.append(lettering(text.replace("^ ", "_").replace("^", ""), place, high / CAPS, part))
 
     def _spot(self, vector: Any) -> Spot:
-        return vector[0] * self.mm, vector[1] * self.mm
+        return (vector[0] - self.origin[0]) * self.mm, (vector[1] - self.origin[1]) * self.mm

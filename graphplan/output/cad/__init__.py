@@ -1,0 +1,1 @@
+"""Drawings for CAD programs: layers, entities, and the mechanism in its own size."""

@@ -1,0 +1,120 @@
+"""The layers of a CAD drawing: the sheet's own, and one a drawing step, in order by the stages of the construction.
+
+A layer has the colour, weight and line type of the pen that draws most of it; what another pen draws says so itself.
+"""
+
+from __future__ import annotations
+
+from collections import Counter, defaultdict
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import Any
+
+from ezdxf.lldxf.const import VALID_DXF_LINEWEIGHTS
+
+from graphplan.sheet.plates.display import Item
+from graphplan.sheet.plates.pens import INK, Pen
+from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.words.protocol import Protocol
+
+NAME = "GRAPHPLAN"  # whose extended data these are
+SHEET, FULL_SIZE, GIVEN, VIEWPORTS = "SHEET", "MECHANISM 1-1", "STAGE 00", "VIEWPORTS"
+LONGEST = 120  # letters of a stage's title in the name of a layer
+FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\";?*|=`', "-") | {":": " -"})  # in names
+FOREGROUND = 7  # the colour that is black on white and white on black
+LINE_TYPES = {  # by how many dashes and gaps they have: names by which programs know their own
+    2: ("DASHED", "DASHED2", "HIDDEN", "HIDDEN2"), 4: ("DASHDOT", "DASHDOT2"), 6: ("DIVIDE", "DIVIDE2"),
+}  # fmt: skip
+
+
+@dataclass
+class Layers:
+    """Which layer an item lies on, and how it looks there; what is drawn is told first."""
+
+    plates: Plates
+    counted: dict[str, Counter[Pen]] = field(default_factory=lambda: defaultdict(Counter))
+
+    def count(self, items: Iterable[Item]) -> None:
+        """Tell what will be drawn."""
+        for item in items:
+            self.counted[self.of(item)][item.pen] += 1
+
+    def of(self, item: Item) -> str:
+        """The layer of an item."""
+        if item.step is None:
+            return item.layer if item.layer.startswith(FULL_SIZE) else f"{SHEET} {item.layer}"
+        return self._steps[item.step]
+
+    @cached_property
+    def _steps(self) -> list[str]:
+        """The layers of the steps."""
+        drawn, tongue = self.plates.plans.drawing.drawn, self.plates.plans.tongue
+        stages, of = Protocol(self.plates.plans).stages
+        found = []
+        for index in range(len(drawn)):
+            place = of.get(index)
+            if index < drawn.givens:
+                found.append(f"{GIVEN} given")
+            else:
+                title = "" if place is None else f" {tongue(stages[place].title)[:LONGEST].translate(FORBIDDEN)}"
+                stage = len(stages) if place is None else place
+                found.append(f"STAGE {stage + 1:02}{title} - STEP {drawn.number(index):03}")
+        return found
+
+    @cached_property
+    def pens(self) -> dict[str, Pen]:
+        """The layers in the order of their names, each with the pen that draws most of it."""
+        return {name: self.counted[name].most_common(1)[0][0] for name in sorted(self.counted)}
+
+    @cached_property
+    def sentences(self) -> Mapping[str, str]:
+        """What is said of the layers of steps."""
+        drawn, told = self.plates.plans.drawing.drawn, self.plates.plans.sentences
+        return {self._steps[index]: told[index] for index in range(drawn.givens, len(drawn))}
+
+    @cached_property
+    def line_types(self) -> dict[tuple[float, ...], str]:
+        """The names of line types by their dashes, mm; the longest of each kind has the plain name."""
+        found: dict[tuple[float, ...], str] = {(): "Continuous"}
+        dashes = {pen.dash for pens in self.counted.values() for pen in pens if pen.dash}
+        names = {count: iter(known) for count, known in LINE_TYPES.items()}
+        for dash in sorted(dashes, key=lambda dash: (-sum(dash), dash)):
+            found[dash] = next(names.get(len(dash), iter(())), "-".join(["DASH", *(f"{part:g}" for part in dash)]))
+        return found
+
+    def look(self, item: Item) -> dict[str, Any]:
+        """The layer of an item, and what its pen has other than the layer."""
+        name = self.of(item)
+        pen, usual = item.pen, self.pens[name]
+        look: dict[str, Any] = {"layer": name}
+        if pen.colour != usual.colour:
+            look |= colour(pen.colour)
+        if pen.width != usual.width:
+            look["lineweight"] = weight(pen.width)
+        if pen.dash != usual.dash:
+            look["linetype"] = self.line_types[pen.dash]
+        return look
+
+    def enter(self, document: Any) -> None:
+        """The layers and line types, entered into a document."""
+        for dash, name in self.line_types.items():
+            if dash:
+                parts = [-part if i % 2 else part for i, part in enumerate(dash)]
+                document.linetypes.add(name, [sum(dash), *parts], description=f"{dash} mm")
+        for name, pen in self.pens.items():
+            layer = document.layers.add(name, **colour(pen.colour), lineweight=weight(pen.width),
+                                        linetype=self.line_types[pen.dash])
+            if name in self.sentences:
+                layer.description = self.sentences[name]
+        document.layers.add(VIEWPORTS, plot=False)
+
+
+def colour(colour: str) -> dict[str, int]:
+    """A colour as attributes; black ink is whatever stands out from the background."""
+    return {"color": FOREGROUND} if colour == INK else {"color": FOREGROUND, "true_color": int(colour[1:], 16)}
+
+
+def weight(width: float) -> int:
+    """The line weight next to a width in mm, in hundredths of a mm."""
+    return int(min(VALID_DXF_LINEWEIGHTS, key=lambda weight: abs(weight - 100 * width)))

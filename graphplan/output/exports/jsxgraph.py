@@ -33,9 +33,11 @@ from graphplan.phrases import arranged, said, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polygon, Spot
+from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.symbols import NEAR
 
 LIBRARY = "jsxgraphcore.js"  # what the page looks for beside itself
 TITLES = {
@@ -178,7 +180,7 @@ class _JsxGraphWriter(Elements):
             yield f"joint({_json(name)}, {at[0]!r}, {at[1]!r}, {_json(look)})"
         for part in mechanism.parts():
             for item in part.items:
-                yield self._shape(item, part.point, part.link)
+                yield self._shape(item, *_carried(part))
         for plate in self.plates:
             for letter in self.letters(plate):
                 if letter.text.step is None and not letter.text.label.startswith(PATH):
@@ -282,23 +284,20 @@ class _JsxGraphWriter(Elements):
                f"{_json(stroke.pen.colour)})"
         return self._seen(stroke.of, made, ", true")
 
-    def _shape(self, item: Item, point: str, link: str) -> str:
+    def _shape(self, item: Item, points: Sequence[str], link: str) -> str:
         """A shape of the mechanism: on its joints, or where it rides."""
         closed, layer = isinstance(item, Polygon), LINKS + (item.layer in FRONT) - (item.layer in BACK[:2])
         filled: Look = {"fillColor": item.pen.fill, "fillOpacity": 1} if closed and item.pen.fill != "none" else {}
-        spots = [self._rides(spot, point, link) for spot in corners(item)]
+        spots = [self._rides(spot, points, link) for spot in corners(item)]
         return f"shape({_json([*spots, spots[0]] if closed else spots)}, {_json(_look(item.pen, layer) | filled)})"
 
-    def _rides(self, spot: Spot, point: str, link: str) -> list[Any]:
-        """A spot by the joint that it is, else by a point, the link with which it turns and how far it is off."""
-        if spot in self.joints:
-            return [self.joints[spot].name]
-        if not point:
-            return [round(part, 3) for part in spot]
-        carrying = self.plates.scene.links.get(link, ())
-        point = min(carrying, key=lambda name: math.dist(self.plates.pose[name].at, spot)) if carrying else point
-        x, y = self.plates.pose[point].at
-        return [point, self.links.get(link, 0), round(spot[0] - x, 4), round(spot[1] - y, 4)]
+    def _rides(self, spot: Spot, points: Sequence[str], link: str) -> list[Any]:
+        """A spot by the nearest of some points, the link with which it turns and how far it is off."""
+        places = {name: self.plates.pose[name].at for name in points}
+        point = min(points, key=lambda name: math.dist(places[name], spot))
+        x, y = places[point]
+        off = [] if math.dist((x, y), spot) < NEAR else [round(spot[0] - x, 4), round(spot[1] - y, 4)]
+        return [point, self.links.get(link, 0), *off] if off else [point]
 
     def _letter(self, letter: Letter) -> str:
         """Lettering beside its mark, or on its link; with a ring and the stroke that ties it to where it belongs."""
@@ -338,6 +337,13 @@ class _JsxGraphWriter(Elements):
         look: Look = {"anchorX": "left", "anchorY": "top", "cssStyle": "font-weight: bold"}
         made = f"letter({at}, {_json(escape(plate.caption))}, {SIZE}, {_json(look)}, false)"
         return f"shown({self.panels.index(plate.panel)}, {made})"
+
+
+def _carried(part: Figure | Guide | Rail) -> tuple[Sequence[str], str]:
+    """The points with which a part of the mechanism goes, and the link with which it turns, if any."""
+    if isinstance(part, Figure):
+        return part.at, part.slide.along if part.slide else part.link
+    return ((part.seat, part.end) if isinstance(part, Rail) else (part.seat,)), part.slide.along
 
 
 def _create(element: str, parents: Sequence[str], look: Look) -> str:

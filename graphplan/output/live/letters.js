@@ -2,29 +2,39 @@
 // places around what they name. A letter leaves its place only for one that is clearly better, so that none flickers.
 
 const RINGS = [[0.7, 0], [1.6, 0.8], [2.8, 2], [4.5, 4], [7, 7], [10, 11]], WAYS = 16;  // gaps in mm, their prices
-const TROUBLE = 6, BETTER = 4, ROOMY = 0.4, ROUNDS = 3;  // prices; mm free around a place to which a letter goes back
+const DIRECTIONS = Array.from({length: WAYS}, (_, way) =>
+  [Math.cos(2 * Math.PI * way / WAYS), Math.sin(2 * Math.PI * way / WAYS)]);
+const TROUBLE = 6, BETTER = 4;  // prices: of what a letter may cover before it looks elsewhere, and what that must save
+const ROOMY = 0.4;  // mm free around the sheet's place before a letter goes back there
+const WORDS = 11;  // of a line among obstacles
+const ROUNDS = 3, SPOTS = 4;  // so often letters look around at rest, and at so many of their spots
+const AT_ONCE = 2, WAIT = 20;  // so many letters look in a pose of a motion; one that found nothing lets so many go by
 
 const overlap = (a, b, air) => Math.min(a[2], b[2]) - Math.max(a[0], b[0]) + air > 0
   && Math.min(a[3], b[3]) - Math.max(a[1], b[1]) + air > 0;
 const gap = ([left, low, right, high], [x, y]) =>
   Math.hypot(Math.max(left - x, x - right, 0), Math.max(low - y, y - high, 0));
 const grown = ([left, low, right, high], air) => [left - air, low - air, right + air, high + air];
-const bounds = (spots, air) => [Math.min(...spots.map(spot => spot[0])) - air, Math.min(...spots.map(spot => spot[1])) - air,
-  Math.max(...spots.map(spot => spot[0])) + air, Math.max(...spots.map(spot => spot[1])) + air];
+const bounds = (spots, air) => {
+  const xs = spots.map(spot => spot[0]), ys = spots.map(spot => spot[1]);
+  return [Math.min(...xs) - air, Math.min(...ys) - air, Math.max(...xs) + air, Math.max(...ys) + air];
+};
 
 // ---- what needs a letter
 
 class Wishes {
   constructor(data, plates) {
     Object.assign(this, {data, plates, rules: data.measures});
-    this.stepsOn = data.panels.map((_, panel) => data.steps.map((_, i) => i).filter(i => data.steps[i].panel === panel));
+    const all = data.steps.map((_, i) => i);
+    this.stepsOn = data.panels.map((_, panel) => all.filter(i => data.steps[i].panel === panel));
   }
 
   of(panel, breaks) {
     const found = panel === MECHANISM ? [...this.joints(), ...this.numbers()] : [];
     found.push(...this.marks(panel), ...this.lines(panel, breaks), ...this.vectors(panel));
     const rect = this.plates.views[panel].rect;
-    return found.filter(wish => wish.spots.some(spot => finite(spot) && holds(rect, spot))).map(wish => this.sized(wish));
+    const shown = found.filter(wish => wish.spots.some(spot => finite(spot) && holds(rect, spot)));
+    return shown.map(wish => this.sized(wish));
   }
 
   sized(wish) {
@@ -42,7 +52,8 @@ class Wishes {
         if (last && last[1] === level) last[0] += text; else runs.push([text, level]);
       }
     }
-    const more = [...between].reduce((sum, char) => sum + ADVANCE[char], 0) * size, bold = letters.every(one => one.bold);
+    const more = [...between].reduce((sum, char) => sum + ADVANCE[char], 0) * size;
+    const bold = letters.every(one => one.bold);
     return {runs, bold, depth: Math.max(...letters.map(one => one.depth)),
             wide: letters.reduce((sum, one) => sum + one.wide, more * (letters.length - 1) * (bold ? 1.25 : 1))};
   }
@@ -119,13 +130,14 @@ class Wishes {
       if (span) span.vectors.push(vector); else spans.push({ends: vector.ends, vectors: [vector]});
     }
     for (const {ends, vectors} of spans) {
-      const first = vectors[0], name = steps[first.end].name, answered = spans.some(one => same(one.ends, [ends[1], ends[0]]));
+      const first = vectors[0], name = steps[first.end].name;
+      const answered = spans.some(one => same(one.ends, [ends[1], ends[0]]));
       const told = vectors.filter(({letter}, i) => letter && letter !== name
         && vectors.findIndex(other => other.letter === letter) === i);
       if (told.length)
-        found.push({...this.joined(told.map(one => one.runs), ", ", rules.LETTER), pen: first.pen, clear: 0.7, free: true,
-                    spots: (answered ? rules.NEAR_HEAD : rules.MIDDLE).map(t => between(...ends, t)), step: first.of,
-                    label: told.map(one => one.letter).join(" ")});
+        found.push({...this.joined(told.map(one => one.runs), ", ", rules.LETTER), pen: first.pen, clear: 0.7,
+                    spots: (answered ? rules.NEAR_HEAD : rules.MIDDLE).map(t => between(...ends, t)),
+                    step: first.of, label: told.map(one => one.letter).join(" "), free: true});
     }
     return found;
   }
@@ -146,20 +158,25 @@ class Obstacles {
         this.line(onArc(item, item.start + i * step), onArc(item, item.start + (i + 1) * step), price, 0);
     } else if (item.tag === "arrow") {
       this.line(item.start, item.end, price, 0);
-      const way = unit(item.start, item.end), half = item.head / 6;
-      this.boxes.push([...bounds([item.end, off(item.end, way, -item.head, half), off(item.end, way, -item.head, -half)], 0), 4]);
+      const way = unit(item.start, item.end), half = item.head / 6, back = side => off(item.end, way, -item.head, side);
+      this.boxes.push([...bounds([item.end, back(half), back(-half)], 0), 4]);
     } else if (item.tag === "circle") this.boxes.push([...bounds([item.at], item.r + 0.2), 5]);
     else if (item.layer !== "plates") this.boxes.push([...bounds(item.spots, 0), 3]);
   }
 
-  line(p, q, price, half) {
-    if (finite(p) && finite(q)) this.lines.push([p, q, price, half, bounds([p, q], half), distance(p, q)]);
+  line([x, y], [u, v], price, half) {
+    if (!Number.isFinite(x + y + u + v)) return;
+    this.lines.push(Math.min(x, u) - half, Math.min(y, v) - half, Math.max(x, u) + half, Math.max(y, v) + half,
+                    x, y, u, v, price, half, Math.hypot(u - x, v - y));  // its bounds first: most lines are far away
   }
 
   // the same, as far as they meet a box
   near(box) {
-    const found = new Obstacles({measures: this.rules, pens: this.pens});
-    found.lines = this.lines.filter(line => overlap(line[4], box, 0));
+    const found = new Obstacles({measures: this.rules, pens: this.pens}), {lines} = this;
+    const [left, low, right, high] = box;
+    for (let i = 0; i < lines.length; i += WORDS)
+      if (lines[i] < right && lines[i + 1] < high && lines[i + 2] > left && lines[i + 3] > low)
+        for (let word = i; word < i + WORDS; word++) found.lines.push(lines[word]);
     found.boxes = this.boxes.filter(other => overlap(other, box, 0));
     found.marks = this.marks.filter(mark => holds(box, mark));
     return found;
@@ -167,29 +184,40 @@ class Obstacles {
 
   // what it costs to cover them with a box that stands for a spot
   price(box, spot, led, air = this.rules.AIR) {
-    const {FAULT, TOUCH, BESIDE, MISTAKEN, STRANGER} = this.rules, cell = grown(box, air);
-    let cost = 0, through = false, hidden = false, mistaken = false;
-    for (const [p, q, rate, half, bound, long] of this.lines) {
-      if (!overlap(bound, cell, 0)) continue;
-      const part = segment(half ? grown(cell, half) : cell, p, q);
-      if (!part) continue;
-      cost += rate * ((part[1] - part[0]) * long + TOUCH);
-      through ||= segment(half ? grown(box, half) : air > this.rules.AIR ? cell : box, p, q) !== null;
-    }
-    for (const other of this.boxes)
-      if (overlap(other, cell, 0)) {
-        const wide = Math.min(other[2], cell[2]) - Math.max(other[0], cell[0]);
-        cost += other[4] * (wide * (Math.min(other[3], cell[3]) - Math.max(other[1], cell[1])) + TOUCH);
-        hidden ||= overlap(other, box, 0);
+    const {FAULT, AIR} = this.rules, cell = grown(box, air);
+    const through = air > AIR ? cell : box, [left, low, right, high] = cell, {lines} = this;
+    let cost = 0, faults = 0;
+    for (let i = 0; i < lines.length; i += WORDS)
+      if (lines[i] < right && lines[i + 1] < high && lines[i + 2] > left && lines[i + 3] > low) {
+        const p = [lines[i + 4], lines[i + 5]], q = [lines[i + 6], lines[i + 7]], half = lines[i + 9];
+        const part = segment(half ? grown(cell, half) : cell, p, q);
+        if (!part) continue;
+        cost += lines[i + 8] * ((part[1] - part[0]) * lines[i + 10] + this.rules.TOUCH);
+        if (!(faults & 1) && segment(half ? grown(through, half) : through, p, q)) faults |= 1;
       }
-    const near = led ? 0 : gap(box, spot) + BESIDE;
+    for (const other of this.boxes)
+      if (other[0] < right && other[1] < high && other[2] > left && other[3] > low) {
+        const wide = Math.min(other[2], right) - Math.max(other[0], left);
+        cost += other[4] * (wide * (Math.min(other[3], high) - Math.max(other[1], low)) + this.rules.TOUCH);
+        if (overlap(other, box, 0)) faults |= 2;
+      }
+    const [more, mistaken] = this.mistaken(box, spot, led);
+    return cost + more + FAULT * ((faults & 1) + (faults >> 1) + mistaken);
+  }
+
+  // what it costs to stand nearer to other marks than to the own one, and whether it is much nearer
+  mistaken(box, spot, led) {
+    const {BESIDE, MISTAKEN, STRANGER} = this.rules, near = led ? 0 : gap(box, spot) + BESIDE;
+    const around = grown(box, near);
+    let cost = 0, mistaken = false;
     for (const mark of this.marks) {
+      if (!holds(around, mark)) continue;
       const far = gap(box, mark);
       if (far >= near || distance(mark, spot) <= BESIDE) continue;
       cost += STRANGER;
       mistaken ||= far < near - BESIDE - MISTAKEN;
     }
-    return cost + FAULT * (through + hidden + mistaken);
+    return [cost, mistaken];
   }
 }
 
@@ -197,31 +225,38 @@ class Obstacles {
 
 class Letters {
   constructor(data) {
-    Object.assign(this, {data, rules: data.measures, standing: new Map(), usual: new Map()});
+    Object.assign(this, {data, rules: data.measures, standing: new Map(), usual: new Map(), waits: new Map()});
   }
 
-  // the place of every letter of a panel: at which of its spots, how far off, and its box
-  placed(panel, wishes, obstacles, home) {
-    const {name, rect} = this.data.panels[panel], sheet = key => this.data.places[`${name}|${key}`];
+  // the place of every letter of a panel: at which of its spots, how far off, and its box; at home those of the sheet.
+  // In motion few letters look for better places at a time, and those that found none wait; at rest all do.
+  placed(panel, wishes, obstacles, {home, rest}) {
+    const {name, rect} = this.data.panels[panel];
     const letters = wishes.map(wish => {
-      const id = `${name}|${wish.key}`, place = home ? sheet(wish.key) : this.standing.get(id) ?? sheet(wish.key);
-      return this.stood({wish, id, sheet: sheet(wish.key)}, place ?? null, rect);
+      const id = `${name}|${wish.key}`, sheet = this.data.places[id] ?? null;
+      return this.stood({wish, id, sheet}, home ? sheet : this.standing.get(id) ?? sheet, rect);
     });
     for (const letter of letters) if (!letter.box) this.moved(letter, letters, obstacles, rect);
-    if (home) for (const letter of letters) this.usual.set(letter.id, obstacles.price(letter.box, letter.spot, letter.place[3]));
-    else for (let round = 0; round < ROUNDS; round++)
-      if (!letters.filter(letter => this.improved(letter, letters, obstacles, rect)).length) break;
+    if (home) for (const letter of letters) this.usual.set(letter.id, this.covered(letter, obstacles));
+    else for (let round = 0; round < (rest ? ROUNDS : 1); round++)
+      if (!this.improved(letters, obstacles, rect, rest)) break;
     for (const letter of letters) this.standing.set(letter.id, letter.place);
     return letters;
   }
 
-  // a letter at a place; nowhere, where its spot is not on the panel or the place is not
+  // a letter at a place; nowhere, where its spot or the place is not on the panel
   stood(letter, place, rect) {
-    const spot = place && letter.wish.spots[place[0]], [wide, high] = letter.wish.box;
-    const box = spot && [spot[0] + place[1], spot[1] + place[2], spot[0] + place[1] + wide, spot[1] + place[2] + high];
-    const there = box && holds(rect, spot) && holds(grown(rect, 0.01), box) && holds(grown(rect, 0.01), [box[2], box[3]]);
-    return Object.assign(letter, there ? {place, spot, box} : {place: null, spot: null, box: null});
+    const spot = place && letter.wish.spots[place[0]], box = spot && this.boxed(letter.wish, spot, place, rect);
+    return Object.assign(letter, box && holds(rect, spot) ? {place, spot, box} : {place: null, spot: null, box: null});
   }
+
+  boxed({box: [wide, high]}, [x, y], [, dx, dy], rect) {
+    const left = x + dx, low = y + dy, right = left + wide, top = low + high;
+    return left >= rect[0] - 0.01 && low >= rect[1] - 0.01 && right <= rect[2] + 0.01 && top <= rect[3] + 0.01
+      ? [left, low, right, top] : null;
+  }
+
+  covered({box, spot, place}, obstacles) { return obstacles.price(box, spot, place[3]); }
 
   clash(letter, box, letters, air = 0) {
     let cost = 0;
@@ -232,55 +267,82 @@ class Letters {
     return cost;
   }
 
-  improved(letter, letters, obstacles, rect) {
-    const own = letter.sheet, usual = this.usual.get(letter.id) ?? 0;
-    if (own && letter.place !== own) {
-      const there = this.stood({wish: letter.wish}, own, rect);
-      if (there.box && obstacles.price(there.box, there.spot, own[3], this.rules.AIR + ROOMY) <= usual + TROUBLE / 2
-          && !this.clash(letter, there.box, letters, ROOMY)) {
-        this.stood(letter, own, rect);
-        return true;
-      }
-    }
-    const cost = obstacles.price(letter.box, letter.spot, letter.place[3]) + this.clash(letter, letter.box, letters);
-    return cost > TROUBLE + (letter.place === own ? usual : 0) && this.moved(letter, letters, obstacles, rect, cost);
+  // how many letters went elsewhere: back to where the sheet has them, or off what they cover, the worst first
+  improved(letters, obstacles, rect, rest) {
+    const back = letters.filter(letter => letter.sheet && letter.place !== letter.sheet
+      && this.returned(letter, letters, obstacles, rect)).length;
+    const costs = new Map(letters.map(letter =>
+      [letter, this.covered(letter, obstacles) + this.clash(letter, letter.box, letters)]));
+    const usual = letter => letter.place === letter.sheet ? this.usual.get(letter.id) ?? 0 : 0;
+    const troubled = letters.filter(letter => costs.get(letter) > TROUBLE + usual(letter))
+      .sort((p, q) => costs.get(q) - costs.get(p)).filter(letter => rest || this.patient(letter));
+    return back + troubled.slice(0, rest ? Infinity : AT_ONCE).filter(letter => {
+      const better = this.moved(letter, letters, obstacles, rect, costs.get(letter));
+      if (!better) this.waits.set(letter.id, WAIT);
+      return better;
+    }).length;
+  }
+
+  // whether a letter has waited since it found no better place
+  patient({id}) {
+    const left = this.waits.get(id) ?? 0;
+    if (left) this.waits.set(id, left - 1);
+    return !left;
+  }
+
+  // whether a letter went back to where the sheet has it: there must be more than enough room
+  returned(letter, letters, obstacles, rect) {
+    const {wish, sheet} = letter, spot = wish.spots[sheet[0]], box = spot && this.boxed(wish, spot, sheet, rect);
+    if (!box || !holds(rect, spot) || this.clash(letter, box, letters, ROOMY)) return false;
+    const usual = this.usual.get(letter.id) ?? 0;
+    if (obstacles.price(box, spot, sheet[3], this.rules.AIR + ROOMY) > usual + TROUBLE / 2) return false;
+    this.stood(letter, sheet, rect);
+    return true;
   }
 
   // whether a letter went to a place that is clearly better than where it stands
   moved(letter, letters, obstacles, rect, cost = Infinity) {
     const {wish} = letter, reach = RINGS[RINGS.length - 1][0] + wish.clear + Math.max(...wish.box) + 2;
     let best = null, least = cost - BETTER;
-    wish.spots.forEach((spot, at) => {
-      if (!finite(spot) || !holds(rect, spot)) return;
-      const near = obstacles.near(grown([...spot, ...spot], reach));
+    for (const at of this.tried(letter, rect)) {
+      const spot = wish.spots[at], area = grown([...spot, ...spot], reach), near = obstacles.near(area);
+      const others = letters.filter(other => other !== letter && other.box && overlap(other.box, area, 0));
       for (const [ring, price] of RINGS) {
-        const led = ring > this.rules.LED, paid = price + (wish.free ? 0.05 * at + (led ? this.rules.LEADER : 0) : 0);
+        const led = ring > this.rules.LED;
+        const paid = price + (wish.free ? 0.05 * at + (led ? this.rules.LEADER : 0) : 0);
+        if (paid >= least) break;
         for (let way = 0; way < WAYS; way++) {
-          const first = paid + this.rules.TASTE * ((way + 14) % 16);
-          if (first >= least) continue;
-          const place = [at, ...this.offset(wish, ring, way), led], {box} = this.stood({wish}, place, rect);
-          if (!box) continue;
-          const clash = first + this.clash(letter, box, letters), all = clash < least ? clash + near.price(box, spot, led) : clash;
+          const place = [at, ...this.offset(wish, ring, way), led], box = this.boxed(wish, spot, place, rect);
+          let all = paid + this.rules.TASTE * ((way + 14) % 16);
+          if (!box || all >= least) continue;
+          all += this.clash(letter, box, others);
+          if (all < least) all += near.price(box, spot, led);
           if (all < least) [best, least] = [place, all];
         }
       }
-    });
+    }
     if (best) this.stood(letter, best, rect);
     else if (!letter.box) this.pushed(letter, rect);
     return best !== null;
   }
 
+  // of the spots of a letter where it stands, and the first ones
+  tried({wish, place}, rect) {
+    const there = wish.spots.map((_, at) => at).filter(at => finite(wish.spots[at]) && holds(rect, wish.spots[at]));
+    return [...new Set([...(place && there.includes(place[0]) ? [place[0]] : []), ...there])].slice(0, SPOTS);
+  }
+
   // from a spot to the lower left corner of a letter so far off it
   offset({clear, box: [wide, high]}, ring, way) {
-    const x = Math.cos(2 * Math.PI * way / WAYS), y = Math.sin(2 * Math.PI * way / WAYS), most = Math.max(Math.abs(x), Math.abs(y));
-    return [(clear + ring) * x + (x / most - 1) * wide / 2, (clear + ring) * y + (y / most - 1) * high / 2];
+    const [x, y] = DIRECTIONS[way], most = Math.max(Math.abs(x), Math.abs(y)), far = clear + ring;
+    return [far * x + (x / most - 1) * wide / 2, far * y + (y / most - 1) * high / 2];
   }
 
   // as near to its spot as the panel allows
   pushed(letter, rect) {
-    const at = letter.wish.spots.findIndex(spot => finite(spot) && holds(rect, spot)), [x, y] = letter.wish.spots[at];
-    const [wide, high] = letter.wish.box, left = Math.min(Math.max(x, rect[0]), rect[2] - wide);
-    const low = Math.min(Math.max(y, rect[1]), rect[3] - high);
-    Object.assign(letter, {place: [at, left - x, low - y, false], spot: [x, y], box: [left, low, left + wide, low + high]});
+    const at = this.tried(letter, rect)[0], [x, y] = letter.wish.spots[at], [wide, high] = letter.wish.box;
+    const left = Math.min(Math.max(x, rect[0]), rect[2] - wide), low = Math.min(Math.max(y, rect[1]), rect[3] - high);
+    const place = [at, left - x, low - y, false];
+    Object.assign(letter, {place, spot: [x, y], box: [left, low, left + wide, low + high]});
   }
 }

@@ -58,7 +58,8 @@ class DrawnMechanism {
     const {GUIDE, HIGH, HATCH, PITCH} = this.rules, {uses} = this.data, way = this.ways[ground];
     const at = this.plates.spots[block], given = this.plates.views[MECHANISM].at(this.given[block]);
     const t = (at[0] - given[0]) * way[0] + (at[1] - given[1]) * way[1], middle = off(at, way, -t);
-    const low = Math.min(0, t) - GUIDE, high = Math.max(0, t) + GUIDE, pitch = 2 * GUIDE / Math.floor(2 * GUIDE / PITCH);
+    const low = Math.min(0, t) - GUIDE, high = Math.max(0, t) + GUIDE;
+    const pitch = 2 * GUIDE / Math.floor(2 * GUIDE / PITCH);
     const line = (pen, p, q) => ({layer: "ground", tag: "line", pen, spots: [p, q]});
     const found = [line(uses.ground, off(middle, way, low, side * HIGH), off(middle, way, high, side * HIGH))];
     for (let i = Math.ceil((low + GUIDE) / pitch - 0.75 - 1e-9); (i + 0.75) * pitch < high + GUIDE; i++) {

@@ -1,8 +1,9 @@
 // The sheet's own picture, drawn anew in any pose: elements stay, and only what changed of them is written.
 
 const SVG = "http://www.w3.org/2000/svg";
-const BEHIND = ["plates", "ground", "links"], BEFORE = ["blocks", "drive", "pairs", "letters"];  // layers of the mechanism
+const BEHIND = ["plates", "ground", "links"], BEFORE = ["blocks", "drive", "pairs", "letters"];  // the steps
 const MOVING = [...BEHIND, "motion", ...BEFORE].map(layer => `g.layer-${layer}`);
+const PAUSE = 150;  // ms without another pose, after which letters settle
 const fine = number => Math.round(number * 100) / 100;
 const made = (name, attributes = {}) => {
   const node = document.createElementNS(SVG, name);
@@ -15,81 +16,98 @@ class Element {
   constructor(name, parent, before = null) {
     this.node = parent.insertBefore(made(name), before);
     this.written = {};
+    this.pen = null;
   }
 
-  write(attributes) {
-    for (const [key, value] of Object.entries(attributes)) {
-      if (this.written[key] === value) continue;
-      this.written[key] = value;
-      if (value === null) this.node.removeAttribute(key); else this.node.setAttribute(key, value);
-    }
+  set(key, value) {
+    if (this.written[key] === value) return;
+    this.written[key] = value;
+    if (value === null) this.node.removeAttribute(key); else this.node.setAttribute(key, value);
   }
+
+  // attributes of a pen, which seldom changes
+  look(pen, fill) {
+    if (this.pen === pen) return;
+    for (const key of Object.keys(this.pen?.look ?? {})) this.set(key, null);
+    for (const [key, value] of Object.entries(pen.look)) this.set(key, value);
+    if (fill) this.set("fill", fill);
+    this.pen = pen;
+  }
+
+  show(seen) { this.set("display", seen ? null : "none"); }
 }
+
+const NODES = {line: "polyline", shape: "polygon", arc: "path", circle: "circle", arrow: "g"};
 
 // elements for one item of a kind
 class Drawn {
   constructor(tag, sheet, parent, before) {
-    Object.assign(this, {tag, sheet});
-    this.own = new Element({line: "polyline", shape: "polygon", arc: "path", circle: "circle", arrow: "g"}[tag], parent, before);
-    if (tag === "arrow")
-      this.parts = ["polyline", "polygon", "polygon"].map(name => new Element(name, this.own.node));
+    Object.assign(this, {tag, sheet, own: new Element(NODES[tag], parent, before)});
+    if (tag !== "arrow") return;
+    this.own.set("class", "vector");
+    this.parts = ["polyline", "polygon", "polygon"].map(name => new Element(name, this.own.node));
   }
 
-  spots(spots) { return spots.map(([x, y]) => `${fine(x)},${fine(this.sheet.height - y)}`).join(" "); }
-
-  hide() { this.own.write({display: "none"}); }
-
   write(item, rect) {
-    const pen = this.sheet.pens[item.pen], y = spot => fine(this.sheet.height - spot[1]);
+    const {own, sheet} = this, pen = sheet.pens[item.pen];
     const ends = item.spots ?? (item.at ? [item.at] : [item.start, item.end]);
-    if (!ends.every(finite)) return this.hide();
-    if (this.tag === "line") this.own.write({points: this.spots(item.spots), ...pen.look, fill: "none", display: null});
-    else if (this.tag === "shape") this.own.write({points: this.spots(item.spots), ...pen.look, display: null});
-    else if (this.tag === "circle")
-      this.own.write({cx: fine(item.at[0]), cy: y(item.at), r: item.r, ...pen.look, display: null});
-    else if (this.tag === "arc") this.own.write({d: this.arc(item), ...pen.look, fill: "none", display: null});
-    else this.arrow(item, pen, rect);
+    own.show(ends.every(finite));
+    if (own.written.display) return;
+    if (this.tag === "arrow") return this.arrow(item, pen, rect);
+    own.look(pen, this.tag === "line" || this.tag === "arc" ? "none" : null);
+    if (item.spots) own.set("points", sheet.spots(item.spots));
+    else if (this.tag === "arc") own.set("d", this.arc(item));
+    else {
+      own.set("cx", fine(item.at[0]));
+      own.set("cy", fine(sheet.height - item.at[1]));
+      own.set("r", item.r);
+    }
   }
 
   arc(item) {
-    const p = onArc(item, item.start), q = onArc(item, item.end), y = spot => fine(this.sheet.height - spot[1]);
-    let r = Math.round(item.r * 1e4) / 1e4;
-    if (Math.abs(item.end - item.start - 180) < 1e-6)  // what is too small for its chord has that for a diameter
-      r = Math.round((Math.hypot(fine(p[0]) - fine(q[0]), y(p) - y(q)) / 2 - 1e-4) * 1e4) / 1e4;
-    const large = item.end - item.start > 180 + 1e-6 ? 1 : 0;
-    return `M ${fine(p[0])} ${y(p)} A ${r} ${r} 0 ${large} 0 ${fine(q[0])} ${y(q)}`;
+    const [p, q] = [item.start, item.end].map(angle => onArc(item, angle)).map(([x, y]) => [x, this.sheet.height - y]);
+    const [x, y, u, v] = [...p, ...q].map(fine), half = Math.abs(item.end - item.start - 180) < 1e-6;
+    // of a radius too small for its chord SVG makes a half circle
+    const r = Math.round((half ? Math.hypot(x - u, y - v) / 2 - 1e-4 : item.r) * 1e4) / 1e4;
+    return `M ${x} ${y} A ${r} ${r} 0 ${item.end - item.start > 180 ? 1 : 0} 0 ${u} ${v}`;
   }
 
   // a vector: its shaft ends in its head; where it leaves the panel it breaks off
   arrow({start, end, head, label}, pen, rect) {
-    const {SLIM, BARB, WALL, OPEN, WHITE, PAPER, BREAK_HEAD} = this.sheet.measures, high = this.sheet.height;
-    this.own.write({class: "vector", "data-from": `${fine(start[0])} ${fine(high - start[1])}`, display: null,
-                    "data-to": `${fine(end[0])} ${fine(high - end[1])}`, "data-vector": label || null});
-    const inside = segment(grown(rect, 0.02), start, end), [shaft, one, two] = this.parts;
-    const show = (part, spots, look) =>
-      part.write(spots.length ? {points: this.spots(spots), ...look, display: null} : {display: "none"});
-    if (!inside) return this.parts.forEach(part => show(part, []));
+    const {SLIM, BARB, WALL, OPEN, WHITE, PAPER, BREAK_HEAD} = this.sheet.measures, [shaft, one, two] = this.parts;
+    this.own.set("data-from", this.sheet.spots([start]).replace(",", " "));
+    this.own.set("data-to", this.sheet.spots([end]).replace(",", " "));
+    this.own.set("data-vector", label || null);
+    const inside = segment(grown(rect, 0.02), start, end);
+    const show = (part, spots, fill) => {
+      part.show(spots.length);
+      if (!spots.length) return;
+      part.set("points", this.sheet.spots(spots));
+      if (part === shaft) part.look(pen, "none"); else part.set("fill", fill);
+    };
+    if (!inside) return this.parts.forEach(part => part.show(false));
     const tip = between(start, end, inside[1]), tail = between(start, end, inside[0]);
     if (inside[1] < 1) head = Math.min(BREAK_HEAD, distance(tail, tip));
     const way = unit(start, end), half = head / SLIM[pen.tip], barb = Math.min(BARB, head / 2);
     const back = (t, u = 0) => off(tip, way, -t, u), neck = pen.tip === OPEN ? barb : head;
-    show(shaft, distance(tail, tip) > neck + 0.01 ? [tail, back(neck)] : [], {...pen.look, fill: "none"});
+    show(shaft, distance(tail, tip) > neck + 0.01 ? [tail, back(neck)] : []);
     if (pen.tip === OPEN) {
       for (const [part, side] of [[one, half], [two, -half]])
-        show(part, [tip, back(head - barb, side), back(head, side), back(barb)], {fill: pen.colour});
+        show(part, [tip, back(head - barb, side), back(head, side), back(barb)], pen.colour);
       return;
     }
     const barbs = [tip, back(head, half), back(head, -half)], radius = half * head / (half + Math.hypot(half, head));
     const part = pen.tip === WHITE ? 1 - WALL / radius : 0, middle = back(head - radius);
-    show(one, barbs, {fill: pen.colour});
-    show(two, part > 0 ? barbs.map(spot => between(middle, spot, part)) : [], {fill: PAPER});
+    show(one, barbs, pen.colour);
+    show(two, part > 0 ? barbs.map(spot => between(middle, spot, part)) : [], PAPER);
   }
 }
 
 // a layer or a step: its items in drawing order, and its letters over them
 class Group {
   constructor(sheet, attributes, title, panel) {
-    Object.assign(this, {sheet, node: made("g", attributes), drawn: [], letters: new Map(), rect: sheet.panels[panel].rect});
+    Object.assign(this, {sheet, node: made("g", attributes), rect: sheet.panels[panel].rect});
+    Object.assign(this, {drawn: [], letters: new Map()});
     this.node.setAttribute("clip-path", `url(#${sheet.clip}-${panel})`);
     if (title) this.node.appendChild(made("title")).textContent = title;
     this.end = this.node.appendChild(made("g"));  // of letters
@@ -104,60 +122,65 @@ class Group {
       }
       this.drawn[i].write(item, this.rect);
     });
-    for (const rest of this.drawn.slice(items.length)) rest.hide();
+    for (let i = items.length; i < this.drawn.length; i++) this.drawn[i].own.show(false);
   }
 
   letter(id, letter) {
     let drawn = this.letters.get(id);
-    if (!drawn) this.letters.set(id, drawn = new Lettered(this.sheet, this.end));
+    if (!drawn) this.letters.set(id, drawn = new Lettered(this.sheet, this.end, letter));
     drawn.write(letter);
   }
 
   // letters that are not there in this pose
   without(ids) {
-    for (const [id, drawn] of this.letters) drawn.own.write({display: ids.has(id) ? null : "none"});
+    for (const [id, drawn] of this.letters) drawn.own.show(ids.has(id));
   }
 }
 
 // a letter with its leader or ring
 class Lettered {
-  constructor(sheet, parent) {
-    Object.assign(this, {sheet, own: new Element("g", parent), text: null, told: null});
+  constructor(sheet, parent, {wish}) {
+    const own = new Element("g", parent), text = new Element("text", own.node);
+    Object.assign(this, {sheet, own, text, ring: null, leader: null});
+    if (wish.balloon) this.ring = new Element("circle", own.node, text.node);
+    this.spell(wish);
   }
 
-  write({wish, box, spot, place}) {
-    const {uses, pens, measures, height} = this.sheet, [left, low, right, high] = box;
-    if (this.told !== JSON.stringify(wish.runs)) this.spell(wish);
-    const base = wish.balloon ? [(left + right) / 2, (low + high) / 2 - wish.size * measures.CAPS / 2]
+  // all of it is shifted as one, which moves no letter against another
+  write({wish, box: [left, low, right, high], spot, place}) {
+    const {uses, pens, measures, height} = this.sheet, {CAPS, BALLOON} = measures;
+    const base = wish.balloon ? [(left + right) / 2, (low + high) / 2 - wish.size * CAPS / 2]
       : [left, low + wish.size * wish.depth];
     if (wish.balloon && wish.runs.length > 1) base[0] -= wish.wide / 2;
-    this.text.write({x: fine(base[0]), y: fine(height - base[1])});
-    if (wish.balloon) {
-      this.ring ??= new Element("circle", this.own.node, this.text.node);
-      this.ring.write({cx: fine((left + right) / 2), cy: fine(height - (low + high) / 2), ...pens[uses.balloon].look,
-                       r: Math.round(measures.BALLOON * wish.size * 1e4) / 1e4});
+    const [x, y] = [fine(base[0]), fine(height - base[1])];
+    this.own.set("transform", `translate(${x} ${y})`);
+    this.text.set("fill", pens[wish.pen].colour);
+    if (this.ring) {
+      this.ring.look(pens[uses.balloon]);
+      this.ring.set("cx", fine((left + right) / 2 - base[0]));
+      this.ring.set("cy", fine(-wish.size * CAPS / 2));
+      this.ring.set("r", Math.round(BALLOON * wish.size * 1e4) / 1e4);
     }
-    if (!place[3]) return this.leader?.write({display: "none"});
-    this.leader ??= new Element("polyline", this.own.node, this.own.node.firstChild);
+    if (place[3]) this.leader ??= new Element("polyline", this.own.node, this.own.node.firstChild);
+    this.leader?.show(place[3]);
+    if (!place[3]) return;
     const end = [Math.min(Math.max(spot[0], left), right), Math.min(Math.max(spot[1], low), high)];
-    this.leader.write({points: [spot, end].map(([x, y]) => `${fine(x)},${fine(height - y)}`).join(" "), display: null,
-                       ...pens[uses.leader].look, fill: "none"});
+    this.leader.look(pens[uses.leader], "none");
+    this.leader.set("points", [spot, end].map(([u, v]) => `${fine(u - x)},${fine(height - v - y)}`).join(" "));
   }
 
   // the letters on their levels, each level shifted against the one before
-  spell({runs, size, pen, bold, balloon}) {
-    const {LOWERED, DROP} = this.sheet.measures, plain = runs.length === 1 && runs[0][1] === 0;
-    this.told = JSON.stringify(runs);
-    this.text?.node.remove();
-    this.text = new Element("text", this.own.node);
-    this.text.write({"font-size": fine(size), fill: this.sheet.pens[pen].colour, "font-weight": bold ? "bold" : null,
-                     "text-anchor": balloon && runs.length === 1 ? "middle" : null});
-    if (plain) this.text.node.textContent = runs[0][0];
+  spell({runs, size, bold, balloon}) {
+    const {LOWERED, DROP} = this.sheet.measures, {node} = this.text, plain = runs.length === 1 && runs[0][1] === 0;
+    for (const [key, value] of [["x", 0], ["y", 0], ["font-size", fine(size)]]) this.text.set(key, value);
+    if (bold) this.text.set("font-weight", "bold");
+    if (balloon && runs.length === 1) this.text.set("text-anchor", "middle");
+    if (plain) node.textContent = runs[0][0];
     let at = 0;
     for (const [text, level] of plain ? [] : runs) {
       const shift = fine((at - level) * DROP * size), span = made("tspan", {
         ...(shift ? {dy: shift} : {}), ...(level ? {"font-size": fine(LOWERED[size])} : {})});
-      this.text.node.appendChild(span).textContent = text;
+      node.appendChild(span).textContent = text;
       at = level;
     }
   }
@@ -180,6 +203,13 @@ class Sheet {
     this.stepsOf = new Map([...numbers.keys()].map(number =>
       [number, data.steps.map((_, i) => i).filter(i => data.steps[i].number === number)]));
     this.last = data.steps.map((_, i) => data.vectors.filter(vector => vector.of === i));
+  }
+
+  // spots as SVG has them
+  spots(spots) {
+    let text = "";
+    for (const [x, y] of spots) text += `${text && " "}${fine(x)},${fine(this.height - y)}`;
+    return text;
   }
 
   get nodes() { return [...this.groups.values()].map(group => group.node); }
@@ -221,14 +251,18 @@ class Sheet {
     }
     this.steps.forEach((step, i) => plates.shown(i) && obstacles[step.panel].marks.push(plates.at[i]));
     obstacles[MECHANISM].marks.push(...plates.spots);
-    this.write(breaks, obstacles, home);
+    this.drawn = [breaks, obstacles, home];
+    this.write(false);
+    return home;
   }
 
-  write(breaks, obstacles, home) {
+  // the letters, in motion or at rest
+  write(rest) {
+    const [breaks, obstacles, home] = this.drawn;
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
     this.panels.forEach((_, panel) => {
       const wishes = this.wishes.of(panel, breaks);
-      for (const letter of this.lettering.placed(panel, wishes, obstacles[panel], home)) {
+      for (const letter of this.lettering.placed(panel, wishes, obstacles[panel], {home, rest})) {
         const key = letter.wish.step === undefined ? "letters" : this.steps[letter.wish.step].number;
         there.get(key).add(letter.id);
         this.groups.get(key).letter(letter.id, letter);
@@ -244,7 +278,7 @@ class Picture {
     Object.assign(this, {svg, data, sheets: [], sheet: null, traces: new Map()});
     const moving = svg.querySelectorAll(["g.step", ...MOVING].join());
     this.defs = svg.insertBefore(made("defs"), svg.firstChild);
-    this.place_ = svg.insertBefore(document.createComment("what moves"), moving[moving.length - 1]?.nextSibling ?? null);
+    this.start = svg.insertBefore(document.createComment("what moves"), [...moving].pop()?.nextSibling ?? null);
     for (const node of moving) node.remove();
   }
 
@@ -253,12 +287,16 @@ class Picture {
     const sheet = this.sheets[program] ??= this.opened(program);
     if (sheet !== this.sheet) {
       for (const node of this.sheet?.nodes ?? []) node.remove();
-      this.place_.after(...sheet.nodes);
+      this.start.after(...sheet.nodes);
       this.sheet = sheet;
     }
-    sheet.draw(values, points, guides);
+    clearTimeout(this.pause);
+    if (!sheet.draw(values, points, guides)) this.pause = setTimeout(() => this.settle(), PAUSE);
     return {slid: sheet.plates.views.map((view, i) => distance(view.origin, sheet.panels[i].origin) > 0)};
   }
+
+  // lets all letters look for the best places, as they do when a motion stops
+  settle() { this.sheet.write(true); }
 
   opened(program) {
     const sheet = new Sheet(this.data.programs[program]);

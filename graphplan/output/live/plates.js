@@ -78,8 +78,8 @@ class Plates {
     this.values = values ?? steps.map(() => [NaN, NaN, NaN]);  // in a singular pose only the mechanism is drawn
     this.places = data.points.map(([name, x, y]) => points[name] ?? [x, y]);
     this.views = views ?? data.panels.map((panel, index) => this.window(panel, index));
-    this.at = steps.map((step, i) => step.kind === POINT || step.kind === CIRCLE ? this.views[step.panel].at(this.values[i])
-      : null);
+    this.at = steps.map(({kind, panel}, i) =>
+      kind === POINT || kind === CIRCLE ? this.views[panel].at(this.values[i]) : null);
     this.spots = this.places.map(place => this.views[MECHANISM].at(place));
     for (const vector of data.vectors) {
       vector.ends = [this.at[vector.start], this.at[vector.end]];
@@ -91,8 +91,8 @@ class Plates {
 
   // the window of a plan: the mechanism, then the ends of vectors, the nearest first
   window(panel, index) {
-    const ends = panel.core.map(mark => this.values[mark]), first = index === MECHANISM ? this.places : ends.slice(0, 1);
-    const middle = first[0] ?? [0, 0];
+    const ends = panel.core.map(mark => this.values[mark]);
+    const first = index === MECHANISM ? this.places : ends.slice(0, 1), middle = first[0] ?? [0, 0];
     return slid(panel, [...first, ...ends.sort((p, q) => distance(p, middle) - distance(q, middle))]);
   }
 
@@ -115,7 +115,8 @@ class Plates {
   items(index) {
     const step = this.steps[index], found = this.strokes(step, index);
     if (step.kind === CIRCLE) found.push(...this.arcs(step, index));
-    if (step.dot && this.shown(index)) found.push({tag: "circle", pen: step.dot[0], at: this.at[index], r: step.dot[1]});
+    if (step.dot && this.shown(index))
+      found.push({tag: "circle", pen: step.dot[0], at: this.at[index], r: step.dot[1]});
     return found;
   }
 

@@ -48,7 +48,8 @@ READ = """svg => [...svg.querySelectorAll('g.step, g[class^="layer-"]')].map(gro
     .filter(node => !node.closest('[display=none]')).map(node => [node.localName,
       Object.fromEntries([...node.attributes].map(one => [one.name, one.value])),
       node.localName === 'text' ? node.innerHTML.replace(/ xmlns="[^"]*"/g, '') : '',
-      node.closest('.vector') !== null && node.localName !== 'g', node.parentNode !== group])])"""
+      node.closest('.vector') !== null && node.localName !== 'g', node.parentNode !== group,
+      (node.closest('[transform]')?.getAttribute('transform') ?? '0 0').match(/-?[\\d.]+/g).map(Number)])])"""
 
 Stroke = tuple[str, str, tuple[float, ...]]  # what it is, how it looks, where it lies
 Strokes = dict[str, list[Stroke]]
@@ -122,17 +123,18 @@ class Stage:
                       if node.tag in NUMBERS] for key, items in found.items()}  # fmt: skip
 
 
-def _stroke(tag: str, attributes: Mapping[str, str], text: str) -> Stroke:
-    """One element; which half of a circle is the larger is nothing to tell."""
+def _stroke(tag: str, attributes: Mapping[str, str], text: str, shift: Sequence[float] = (0.0, 0.0)) -> Stroke:
+    """One element that is shifted; which half of a circle is the larger is nothing to tell."""
     parts = " ".join(attributes.get(name, "") for name in NUMBERS[tag])
     numbers = [float(part) for part in parts.replace(",", " ").replace("M", "").replace("A", "").split()]
+    numbers = [part + shift[i % 2] * (tag != "circle" or i < 2) for i, part in enumerate(numbers)]
     look = " ".join(attributes.get(name, "") for name in LOOK)
     return tag, look + text, tuple(numbers[:4] + numbers[7:] if tag == "path" else numbers)
 
 
 def strokes(groups: Sequence[Any], whole: bool) -> Strokes:
     """Everything that is seen, or the strokes, arcs, dots and vectors of steps alone."""
-    return {key: [_stroke(tag, attributes, text) for tag, attributes, text, of_vector, nested in nodes
+    return {key: [_stroke(tag, attributes, text, shift) for tag, attributes, text, of_vector, nested, shift in nodes
                   if whole or not (of_vector or nested or tag == "text")]
             for key, nodes in groups if whole or not key.startswith("layer-")}  # fmt: skip
 
@@ -157,7 +159,7 @@ def _alike(one: Stroke, other: Stroke) -> bool:
         all(abs(p - q) <= NEAR for p, q in zip(one[2], other[2], strict=True))
 
 
-def whole(groups: Strokes, panels: Sequence[Rect], height: float) -> Strokes:
+def whole(groups: Strokes, panels: Mapping[str, Rect], height: float) -> Strokes:
     """What no panel cuts off: the one picture cuts strokes, the other shows a part of them."""
 
     def kept(key: str, stroke: Stroke) -> bool:
@@ -166,7 +168,7 @@ def whole(groups: Strokes, panels: Sequence[Rect], height: float) -> Strokes:
             return True
         ends = (*numbers[:2], *numbers[4:]) if tag == "path" else numbers
         spots = [(x, height - y) for x, y in zip(ends[::2], ends[1::2], strict=True)]
-        return any(all(panel.holds(spot, -0.02) for spot in spots) for panel in panels)
+        return all(panels.get(key, panels["0"]).holds(spot, -0.02) for spot in spots)
 
     return {key: [stroke for stroke in strokes if kept(key, stroke)] for key, strokes in groups.items()}
 
@@ -194,7 +196,7 @@ def stage(request: pytest.FixtureRequest, browser: Any) -> Iterator[Stage]:
 
 def test_in_the_given_pose_it_is_the_sheet(stage: Stage) -> None:
     """The strokes, arcs, dots, vectors, symbols and letters of the sheet stand where they stood, also after a turn."""
-    panels = [view.rect for view in stage.composition.views.values()]
+    panels = {str(drawn.number): drawn.view.rect for drawn in stage.composition.plates.steps}
     own = whole(strokes([group for group in stage.own if group[0] not in STILL], True), panels, stage.sheet.height)
     for pose in (None, *islice(stage.poses, 1)):
         if pose:

@@ -55,6 +55,7 @@ class Moving {
     for (const id of ["run", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
     by("unit").textContent = this.unit.trim();
     const word = this.slides ? "travel" : "turn";
+    this.bound();
     document.querySelector("label[for=drive]").textContent = page.say(word);
     by("travel").setAttribute("aria-label", page.say(word));
     by("run").textContent = page.say(this.running ? "stop" : "run");
@@ -112,13 +113,21 @@ class Moving {
   }
 
   draw() {
-    const {page} = this, {travel} = page.motion, [from, to] = this.ends, drive = by("drive");
-    const round = to - from === 360 && !this.slides && page.motion.limits()[0] === null;
-    Object.assign(drive, {min: from, max: to, value: round ? travel - 360 * Math.floor(travel / 360) : travel});
-    drive.setAttribute("aria-valuetext", this.told(travel));
-    if (document.activeElement !== by("travel") || !this.typing) by("travel").value = page.number(travel + 0, 5);
-    by("range").textContent = this.still ? "" : round ? page.say("round") : page.say("limits", this.told(from), this.told(to));
+    const {travel} = this.page.motion;
+    by("drive").setAttribute("aria-valuetext", this.told(travel));
+    by("drive").value = this.round ? travel - 360 * Math.floor(travel / 360) : travel;
+    by("travel").value = this.page.number(travel, 5);
     this.handles();
+    clearTimeout(this.bounding);
+    if (!this.busy) this.bounding = setTimeout(() => this.bound(), 50);  // where the limits are is sought when it rests
+  }
+
+  bound() {
+    const {page} = this, {travel} = page.motion, [from, to] = this.ends;
+    this.round = !this.slides && page.motion.limits().every(limit => limit === null);
+    Object.assign(by("drive"), {min: from, max: to, value: this.round ? travel - 360 * Math.floor(travel / 360) : travel});
+    by("range").textContent = this.still ? "" : this.round ? page.say("round")
+      : page.say("limits", this.told(from), this.told(to));
   }
 
   told(travel) { return `${this.page.number(travel)}${this.unit}`; }

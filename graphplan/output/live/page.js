@@ -120,7 +120,10 @@ class Page {
     this.program = program;
     const told = this.told.programs[program];
     for (const id of ["list", "readings", "tables", "forms"]) by(id).innerHTML = told[id];
-    this.live = this.templates[program].map(([part, text]) => [document.querySelector(`[data-told="${part}"]`), text]);
+    this.live = this.templates[program].map(([part, text]) => {
+      const node = document.querySelector(`[data-told="${part}"]`);
+      return [node, text, Boolean(node.closest("#results"))];
+    });
     this.place = Math.min(this.place, this.count);
     this.stepping.take();
     this.tracing.take();
@@ -135,9 +138,10 @@ class Page {
       return;
     }
     this.hurried = now;
-    const numbers = this.values && this.variant.outputs[this.program](this.values, Numbers);
-    for (const [node, text] of this.live) {
-      const told = numbers ? text.fill(numbers) : "–";
+    const numbers = this.values ? this.variant.outputs[this.program](this.values, Numbers) : [];
+    const read = this.motion.results() ? numbers : [];
+    for (const [node, text, result] of this.live) {
+      const told = text.fill(result ? read : numbers);
       if (node.innerHTML !== told) node.innerHTML = told;
     }
     this.stepping.tell();
@@ -150,7 +154,6 @@ class Page {
     this.said = said || (!this.values ? this.say("undrawn", this.translated(motion.pose.why ?? "")) : "")
       || (!results ? this.say("singular") : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
-    by("results").classList.toggle("unknown", !results);
   }
 
   translated(text) { return this.told.said?.[text] ?? text; }

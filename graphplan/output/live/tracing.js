@@ -3,6 +3,17 @@
 const COLOURS = ["#c2410c", "#0b63b0", "#15803d", "#7e22ce", "#a16207", "#be185d", "#0f766e", "#4d4d4d"];
 const POSES = 180, TOGETHER = 12;  // of a path, and how many of them between two frames
 
+// words with what follows a low line set below
+function lettered(words) {
+  const found = document.createElement("span");
+  for (const part of words.split(/(_\S+)/)) {
+    const low = document.createElement("sub");
+    low.textContent = part.slice(1);
+    found.append(part[0] === "_" ? low : part);
+  }
+  return found;
+}
+
 class Tracing {
   constructor(page) {
     Object.assign(this, {page, chosen: new Set(page.data.curves.map(name => `path ${name}`)), found: null});
@@ -17,7 +28,7 @@ class Tracing {
     const paths = Object.keys(linkage.owned).filter(name => !(name in page.motion.data.shared));
     this.all = [...paths.map(name => ({key: `path ${name}`, words: page.say("path", name), point: name, panel: 0})),
       ...page.drawn.vectors.filter(({name}) => name).map(({name, end, start, panel}) => ({key: name, end, start, panel,
-        words: page.say(page.drawn.turned ? "ends" : "hodograph", this.lettered(name))}))];
+        words: page.say(page.drawn.turned ? "ends" : "hodograph", name)}))];
     this.all.forEach((one, i) => {
       const label = document.createElement("label"), input = document.createElement("input"), line = document.createElement("i");
       one.colour = COLOURS[i % COLOURS.length];
@@ -27,15 +38,10 @@ class Tracing {
         this.draw();
       });
       line.style.borderColor = one.colour;
-      label.append(input, line, one.words);
+      label.append(input, line, lettered(one.words));
       box.append(label);
     });
     this.forget();
-  }
-
-  lettered(name) {
-    const [kind, of] = name.split(" ");
-    return `${kind === "velocity" ? "v" : "a"} ${of}`;
   }
 
   spell() {

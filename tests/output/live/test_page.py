@@ -235,17 +235,15 @@ def test_tab_stops_once_in_the_list_of_steps(steps: Page) -> None:
     """Whatever the number of steps, Tab stops at the current one alone, after the points and the controls."""
     steps.keyboard.press("ArrowRight")
     steps.keyboard.press("ArrowRight")
-    stops = ["first"]
-    steps.focus("#first")
-    for _ in range(16):
+    controls = ["variant", "language", "summary", "print", "copy", *"OABS", "first", "previous", "next", "last", "play",
+                "zoom", "place", "run", "home", "drive", "travel", "2"]
+    stops = ["variant"]
+    steps.focus("#variant")
+    for _ in controls[1:]:
         steps.keyboard.press("Tab")
         stops.append(steps.evaluate("document.activeElement.id || document.activeElement.dataset.place || "
                                     "document.activeElement.dataset.point || document.activeElement.localName"))
-    controls = ["first", "previous", "next", "last", "play", "zoom", "place", "run", "home", "drive", "travel",
-                "variant", "language", "summary", "print", "copy", "2"]
     assert stops == controls
-    points = steps.eval_on_selector_all(".handle[tabindex='0']", "all => all.map(one => one.dataset.point)")
-    assert sorted(points) == [*"ABOS"]
 
 
 def test_the_drive_moves_by_keys_and_the_step_stays(steps: Page) -> None:
@@ -373,7 +371,7 @@ def test_no_screen_needs_sideways_scrolling(steps: Page, width: int) -> None:
     """From 375 pixels on, nothing is wider than the screen, and every control is on it."""
     steps.set_viewport_size({"width": width, "height": 750})
     assert steps.evaluate("document.documentElement.scrollWidth") <= width
-    controls = steps.query_selector_all("#controls :is(button, input, select, summary):not([hidden])")
+    controls = steps.query_selector_all(".row :is(button, input, select, summary):not([hidden])")
     for box in filter(None, (control.bounding_box() for control in controls)):
         assert box["x"] >= 0
         assert box["x"] + box["width"] <= width

@@ -27,7 +27,7 @@ class Stepping {
 
   // the picture and the list are others
   spell() {
-    this.halos = this.page.svg.insertBefore(made("g", {id: "halos"}), this.page.picture.place_);
+    this.halos = this.page.svg.insertBefore(made("g", {id: "halos"}), this.page.picture.start);
     this.zooming = null;
     by("play").textContent = this.page.say(this.playing ? "pause" : "play");
   }

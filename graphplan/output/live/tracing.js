@@ -45,7 +45,7 @@ class Tracing {
   }
 
   spell() {
-    this.layer = this.page.svg.insertBefore(made("g", {id: "traces"}), this.page.picture.place_);
+    this.layer = this.page.svg.insertBefore(made("g", {id: "traces"}), this.page.picture.start);
     this.drawn = null;
   }
 
@@ -79,7 +79,7 @@ class Tracing {
     if (!this.all || !this.chosen.size && !this.layer.hasChildNodes()) return;
     this.forget();
     if (this.chosen.size && !this.found) return this.walk();
-    const windows = this.page.picture.windows, key = JSON.stringify([[...this.chosen], windows.map(one => one.origin)]);
+    const windows = this.page.picture.windows, key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale])]);
     if (this.drawn === key) return;
     this.drawn = key;
     this.layer.replaceChildren(...this.all.filter(one => this.chosen.has(one.key)).map(one => this.path(one, windows[one.panel])));

@@ -5,6 +5,7 @@ Points are complex numbers; a line is a point and a direction; a circle its cent
 
 from __future__ import annotations
 
+import ast
 import cmath
 import io
 import math
@@ -80,7 +81,10 @@ COMMANDS = {
     "UnitOrthogonalVector": lambda v: Vector(1j * v.z / abs(v.z)),
     "Segment": lambda *ends: ends, "Polygon": lambda *corners: corners, "CircleArc": lambda *ends: ends,
     "If": lambda holds, one, other: one if holds else other,
-    "x": lambda P: P.real, "y": lambda P: P.imag, "sqrt": math.sqrt, "abs": abs,
+    "x": lambda P: P.real, "y": lambda P: P.imag, "abs": abs, "floor": math.floor, "Min": min, "Max": max,
+    "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan, "acos": math.acos, "cos": math.cos, "sin": math.sin,
+    "Element": lambda values, place: values[int(place) - 1],
+    "Angle": lambda P, Q, R: cmath.phase((R - Q) / (P - Q)) % (2 * math.pi), "Point": lambda arc: arc[1],  # where it begins
     "sgn": lambda a: math.copysign(1.0, a) if a else 0.0,
 }
 
@@ -90,27 +94,41 @@ def opened(packed: bytes) -> Element:
     return fromstring(zipfile.ZipFile(io.BytesIO(packed)).read("geogebra.xml"))
 
 
-def read(document: Element, moved: Mapping[str, complex] | None = None) -> dict[str, Any]:
-    """The value of every object, by label, with some free points moved."""
+def read(document: Element, moved: Mapping[str, Any] | None = None) -> dict[str, Any]:
+    """The value of every object, by label, with some free points, points of curves and sliders moved."""
     values: dict[str, Any] = {}
     for entry in document.find("construction") or ():
         label = entry.get("label", "")
         if entry.tag == "command":
             inputs = [_value(text, values) for text in entry.find("input").attrib.values()]  # type: ignore[union-attr]
             output = next(iter(entry.find("output").attrib.values()))  # type: ignore[union-attr]
-            values[output] = COMMANDS[entry.get("name", "")](*inputs)
+            values[output] = (moved or {}).get(output, COMMANDS[entry.get("name", "")](*inputs))
         elif entry.tag == "expression":
             values[label] = _value(entry.get("exp", ""), values)
+        elif (number := entry.find("value")) is not None and label not in values:
+            told = number.get("val", "")
+            values[label] = (moved or {}).get(label, float(told) if told not in ("true", "false") else told == "true")
         elif entry.get("type") == "point" and label not in values:
             at = entry.find("coords")
             values[label] = (moved or {}).get(label, complex(float(at.get("x")), float(at.get("y"))))  # type: ignore[union-attr,arg-type]
     return values
 
 
+class Spots(ast.NodeTransformer):
+    """Two numbers in brackets are a point."""
+
+    def visit_Tuple(self, node: ast.Tuple) -> ast.AST:
+        self.generic_visit(node)
+        return ast.Call(ast.Name("complex", ast.Load()), node.elts, [])
+
+
 def _value(text: str, values: Mapping[str, Any]) -> Any:
     """What an expression gives: it is Python's but for brackets, powers and degrees."""
     if text.startswith('"'):
         return text
+    if text.startswith("{"):
+        return [_value(part, values) for part in text[1:-1].split(", ")]
     source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
     source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
-    return _z(eval(source, {"V": values, **COMMANDS}))
+    tree = ast.fix_missing_locations(Spots().visit(ast.parse(source, mode="eval")))
+    return eval(compile(tree, "<ggb>", "eval"), {"V": values, "complex": complex, **COMMANDS})

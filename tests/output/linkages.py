@@ -33,6 +33,14 @@ class DraggedLinkage:
             return None
         return {name: found[1](name) for name in self.places}
 
+    def guides(self, pins: Mapping[str, complex], travels: Sequence[float]) -> dict[str, complex]:
+        """Where the guides point that ride on links, in a pose that can be reached."""
+        found = self.led(pins, travels)
+        assert found is not None
+        angles = {link: found[0][3 * k + 2] for link, k in self.links.items()}
+        return {slide.name: complex(*map(float, slide.direction)) * cmath.exp(1j * angles[slide.along])
+                for slide in self.scene.slides if slide.through is None and slide.along != FRAME}
+
     def led(self, pins: Mapping[str, complex], travels: Sequence[float]) -> tuple[Any, Any] | None:
         """The poses of the links, and where any point is."""
         now = np.zeros(3 * len(self.links))

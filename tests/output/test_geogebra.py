@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+import cmath
 import io
+import math
 import zipfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
+from pathlib import Path
+from random import Random
+from typing import Any
 
 import pytest
+from geogebra_program import GeoGebra
 from geogebra_reader import COMMANDS, Ray, Round, opened, read
-from objects import NAMES, PLACES, drafted_plates, farthest, gap, loose, moved, programs
+from linkages import DraggedLinkage
+from objects import NAMES, PLACES, drafted_plates, gap, loose, programs
 
-from graphplan.kernel.program import Panel
-from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra, labels
+from graphplan.cycle.travel import paces
+from graphplan.cycle.turn import under
+from graphplan.errors import ConstructionError
+from graphplan.kernel.kinds import POINT
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Panel, evaluate
+from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
+from graphplan.output.exports.ggb_commands import labels
+from graphplan.output.exports.relations import relations
+from graphplan.sheet.cycle_frames import _given as given_in_pose
 from graphplan.sheet.plates.pens import BLUE
 
 SCENES = [("rosenauer-basic", False), ("jaanimets-10", False), ("walschaerts-loaded", False), ("four-bar", True)]
@@ -40,17 +56,129 @@ def test_every_operation(name: str, place: Callable[[int], Panel]) -> None:
             assert gap(mark, coordinates(found[called[mark]])) < 1e-9
 
 
+class Drag:
+    """A packaged scene on paper, dragged: what GeoGebra is told, and where the marks are then."""
+
+    def __init__(self, name: str, strict: bool = False):
+        self.drawing, self.plates, _ = drafted_plates(name, strict)
+        self.scene, self.view, self.called = self.drawing.scene, next(iter(self.plates)).view, labels(self.plates)
+        found = relations(self.scene, self.view)
+        assert found is not None
+        self.relations, self.linkage = found, DraggedLinkage(found.scene)
+
+    def some(self, rng: Random, far: float) -> tuple[dict[str, complex], list[float]]:
+        """A pin somewhere near and the drives where the first one goes."""
+        scene, pins, travels = self.scene, dict[str, complex](), list[float]()
+        if self.relations.free and rng.random() < 0.7:
+            name = rng.choice(self.relations.free)
+            off = complex(rng.uniform(-far, far), rng.uniform(-far, far)) * scene.extent
+            pins[name] = self.linkage.places[name] + off
+        if scene.drives and not scene.motions:
+            travel = rng.uniform(*self.relations.limits) / (self.view.scale if scene.drives[0].slides else 1.0)
+            travels = [pace * travel for pace in paces(scene)]
+        return pins, travels or [rng.uniform(-0.3, 0.3) for _ in scene.drives]
+
+    def told(self, pins: Mapping[str, complex], travels: Sequence[float]) -> dict[str, Any]:
+        """Free points, in mm, and sliders, by label."""
+        marks = {drawn.name: self.called[drawn] for drawn in self.plates.pose.values()}
+        where = {name: pins.get(name, self.linkage.places[name]) for name in self.relations.free}
+        sliders = {f"drive_{{{k + 1}}}": travel if drive.slides else math.degrees(travel)
+                   for k, (travel, drive) in enumerate(zip(travels, self.scene.drives, strict=True))}
+        return {marks[name]: complex(*self.view((z.real, z.imag))) for name, z in where.items()} | sliders
+
+    def truth(self, pins: Mapping[str, complex], travels: Sequence[float]) -> dict[str, complex] | None:
+        """Where all points are in mm, by label; none where the linkage does not come there, or nothing can be drawn."""
+        points = self.linkage.dragged(pins, travels)
+        if points is None:
+            return None
+        points |= {name: points[at] for name, at in under(self.relations.scene).items()}
+        given = given_in_pose(self.drawing.drawn, points, self.linkage.guides(pins, travels))
+        values = evaluate(self.drawing.drawn, Floats(), given)
+        found = {}
+        for mark in self.plates.drawn:
+            if mark.kind == POINT:
+                z = points[mark.name] if mark.index < 0 else complex(*values[mark.index][:2])
+                found[self.called[mark]] = complex(*mark.view((z.real, z.imag)))
+        return found
+
+    def gap(self, found: Mapping[str, Any], truth: Mapping[str, complex]) -> float:
+        """How far points lie from where they should, beside the size of the paper or how far off it they are."""
+        wide = self.plates.box.width
+        gaps = [abs(found[label] - z) / max(wide, abs(z)) for label, z in truth.items()]
+        return math.inf if any(map(math.isnan, gaps)) else max(gaps)
+
+
 @pytest.mark.parametrize(("scene", "strict"), SCENES)
-def test_marks_and_dragging(scene: str, strict: bool) -> None:
-    """Every point is where the program has it: in the pose that is given, and after a point of it is dragged."""
-    drawing, plates, _ = drafted_plates(scene, strict)
-    document, called = opened(geogebra(plates)), labels(plates)
-    free, at, values = moved(drawing, plates)
-    for elsewhere, truth in (({}, drawing.values), ({called[free]: complex(*at)}, values)):
-        found = read(document, elsewhere)
-        spots = {mark: found[called[mark]] for mark in plates.drawn}
-        points = {mark: spot for mark, spot in spots.items() if isinstance(spot, complex)}
-        assert farthest(plates, points, truth) < 1e-6
+def test_the_mechanism_moves(scene: str, strict: bool) -> None:
+    """Every point is where the construction has it: in the given pose, and where pins and sliders are dragged to."""
+    drag, rng = Drag(scene, strict), Random(scene)
+    document = opened(geogebra(drag.plates))
+    drags = [({}, [0.0] * len(drag.scene.drives)), *(drag.some(rng, 0.03) for _ in range(4))]
+    led = 0
+    for pins, travels in drags:
+        with suppress(ConstructionError):
+            truth = drag.truth(pins, travels)
+            if truth is not None:
+                led += 1
+                assert drag.gap(read(document, drag.told(pins, travels)), truth) < 1e-6
+    assert led
+
+
+def test_a_handle_turns_the_drive() -> None:
+    """A handle that is dragged around its orbit adds its turn to the slider's, and stays on the crank pin."""
+    drag = Drag("four-bar")
+    document, turn = opened(geogebra(drag.plates)), cmath.exp(1j * math.radians(25))
+    O, A = (complex(*drag.plates.pose[name].at) for name in "OA")
+    slid = read(document, {"drive_{1}": 30.0})
+    begun = next(z for label, z in slid.items() if label.startswith("pin_"))
+    assert abs(begun - slid["A"]) < 1e-9
+    found = read(document, {"drive_{1}": 30.0, "handle_{1}": O + (begun - O) * turn})
+    assert abs(found["A"] - (O + (A - O) * cmath.exp(1j * math.radians(55)))) < 1e-9
+
+
+@pytest.fixture(scope="module")
+def program(tmp_path_factory: pytest.TempPathFactory) -> Iterator[GeoGebra]:
+    with GeoGebra(tmp_path_factory.mktemp("geogebra")) as found:
+        yield found
+
+
+@pytest.mark.parametrize("scene", ["four-bar", "shaper", "triad"])
+def test_in_geogebra_itself(program: GeoGebra, scene: str, tmp_path: Path) -> None:
+    """GeoGebra 4.0 opens the file and has every point where the construction has it, wherever one drags to."""
+    drag, rng = Drag(scene), Random(scene)
+    program.open(tmp_path / "figure.ggb", geogebra(drag.plates))
+    for pins, travels in [({}, [0.0]), *(drag.some(rng, 0.03) for _ in range(3))]:
+        with suppress(ConstructionError):
+            truth = drag.truth(pins, travels)
+            for label, value in drag.told(pins, travels).items():
+                program.tell(*(("drag", label, value.real, value.imag) if isinstance(value, complex)
+                               else ("set", label, value)))
+            if truth is not None:
+                assert drag.gap(program.values(), truth) < 1e-6
+
+
+def test_what_cannot_be_is_not_there_and_comes_back(program: GeoGebra, tmp_path: Path) -> None:
+    """A pin that is dragged too far takes the figure away; dragged back, it is there again."""
+    _, plates, _ = drafted_plates("four-bar")
+    program.open(tmp_path / "figure.ggb", geogebra(plates))
+    before, (x, y) = program.values(), plates.pose["C"].at
+    program.tell("drag", "C", x + 900, y)
+    assert math.isnan(program.values()["B"].real)
+    program.tell("drag", "C", x, y)
+    assert abs(program.values()["B"] - before["B"]) < 1e-9
+
+
+def test_the_navigation_bar_walks_the_steps(program: GeoGebra, tmp_path: Path) -> None:
+    """At the breakpoint of a step its marks are seen with its own sentence, and nothing of later steps."""
+    drawing, plates, _ = drafted_plates("four-bar")
+    program.open(tmp_path / "figure.ggb", geogebra(plates))
+    called = labels(plates)
+    for number in (0, 5, drawing.drawn.number(len(drawing.drawn) - 1)):
+        program.tell("step", f"step_{{{number}}}")
+        seen = program.seen()
+        assert {label for label in seen if label.startswith("step_")} >= {f"step_{{{number}}}"}
+        later = {called[mark] for mark in plates.drawn if mark.number > number}
+        assert not later & seen
 
 
 def test_same_bytes() -> None:
@@ -73,22 +201,37 @@ def test_what_is_seen() -> None:
     letters = {caption.get("val") for caption in captions if caption is not None}
     assert {"β", "γ"} <= letters
     assert {element.get("type") for element in elements} >= {"segment", "polygon", "vector", "conicpart", "text"}
+    values = [e for e in elements if e.get("type") == "text" and e.get("label").startswith("value")]
+    assert len(values) == len(plates.plans.drawing.arrows)
     blue = [e for e in elements if e.get("type") == "vector" and e.find("objColor").get("b") == str(0x8C)]
     heads = [one for ones in _GeoGebraWriter(plates).due.values() for one in ones if getattr(one, "head", 0.0)]
     assert len(blue) == sum(stroke.pen.colour == BLUE for stroke in heads) > 0
 
 
 def test_the_protocol_speaks() -> None:
-    """Every drawn object is captioned with its sentence, and every plan begins with a breakpoint."""
+    """Every drawn step ends with its sentence, where the navigation bar stops; marks are captioned with theirs."""
     _, plates, _ = drafted_plates("jaanimets-10")
-    elements = {e.get("label"): e for e in opened(geogebra(plates)).findall("construction/element")}
-    for mark, label in labels(plates).items():
-        caption = elements[label].find("caption")
-        assert caption is not None
-        assert caption.get("val") == mark.sentence or elements[label].find("labelMode").get("val") == "3"
-        stops = elements[label].find("breakpoint") is not None
-        assert stops == (mark in plates.firsts)
-    assert len(plates.firsts) == len(plates.plans.panels)
+    document = opened(geogebra(plates))
+    elements = {e.get("label"): e for e in document.findall("construction/element")}
+    texts = {e.get("label"): e.get("exp") for e in document.findall("construction/expression")}
+    stops = [label for label, element in elements.items() if element.find("breakpoint") is not None]
+    steps = [mark for mark in plates.drawn if mark.number]
+    assert stops == [f"step_{{{number}}}" for number in range(len(steps) + 1)]
+    for mark in steps:
+        assert mark.sentence in texts[f"step_{{{mark.number}}}"].replace("”", '"')
+        caption = elements[labels(plates)[mark]].find("caption")
+        assert caption.get("val") == mark.sentence or elements[labels(plates)[mark]].find("labelMode").get("val") == "3"
+
+
+def test_check_boxes_for_plans_and_stages() -> None:
+    """Each plan and each stage has a check box, by which what is drawn of it is seen."""
+    drawing, plates, _ = drafted_plates("four-bar")
+    elements = opened(geogebra(plates)).findall("construction/element")
+    captions = {e.get("label"): e.find("caption").get("val") for e in elements if e.get("type") == "boolean"}
+    assert set(captions.values()) == {*(plate.caption for plate in plates),
+                                      *(str(stage.title) for stage, _ in drawing.drawn.stages)}
+    conditions = " ".join(e.find("condition").get("showObject") for e in elements if e.find("condition") is not None)
+    assert all(box in conditions for box in captions)
 
 
 def test_nothing_but_what_old_and_new_readers_know() -> None:

@@ -18,6 +18,8 @@ from dataclasses import replace
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body, Drive
 from graphplan.cycle.dyads import Placed, dyad
@@ -38,6 +40,7 @@ from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
 CLOSE = 1e-5  # the largest last correction, in radians and reaches: its square is what is left
+SPANS = 180  # between the knots of a state
 SAME = 1e-6  # mm: how near places of the frame are that are one
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
@@ -72,10 +75,22 @@ class _Ground(NamedTuple):
 
 
 class Knots(NamedTuple):
-    """Where the undragged linkage is at some travels of its first drive (radians, or mm): `states`, each as long."""
+    """Where the undragged linkage is from one travel of its first drive to another (radians, or mm).
 
-    travel: tuple[float, ...]
+    Each of the `states` is told in equal steps of arccos(1 - 2 p), where p is the part of the travel that is done: near
+    a limit, where states change with the root of the travel, the knots are as much denser.
+    """
+
+    low: float
+    high: float
     states: tuple[tuple[float, ...], ...]
+
+    def at(self, travel: float) -> list[float]:
+        """The states at a travel, straight between the knots."""
+        part = min(max((travel - self.low) / (self.high - self.low), 0.0), 1.0)
+        far = math.acos(1.0 - 2.0 * part) / math.pi * SPANS
+        k = min(int(far), SPANS - 1)
+        return [row[k] + (far - k) * (row[k + 1] - row[k]) for row in self.states]
 
 
 class Written(NamedTuple):
@@ -90,6 +105,8 @@ class Written(NamedTuple):
 
 def relations(scene: Scene, view: View) -> Relations | None:
     """The relations of a scene on paper; none where it cannot be followed: then its points only stay in their pose."""
+    if not scene.links:
+        return None
     try:
         found = Relations(scene, view)
         if scene.drives:
@@ -306,16 +323,34 @@ class Relations:
         return float(self.motion.path.travel[0]) * size, float(self.motion.path.travel[-1]) * size
 
     @cached_property
+    def ways(self) -> dict[str, Spot]:
+        """How far slides on the frame go back and on along their guides, in mm, where drives say it."""
+        if not self.scene.drives:
+            return {}
+        (low, high), found = self.motion.path.travel[[0, -1]], {}
+        points = self.motion.turn(np.linspace(low, high, SPANS)).points
+        for slide in self.scene.slides:
+            if slide.along == FRAME:
+                ray = complex(*map(float, slide.direction))
+                off = points[slide.at] - complex(*map(float, self.scene.points[slide.at]))
+                far = self.view.scale * (off * ray.conjugate() / abs(ray)).real
+                found[slide.name] = float(np.nanmin(far)), float(np.nanmax(far))
+        return found
+
+    @cached_property
     def knots(self) -> Knots | None:
         """Where the states are on the way; none where the compass rules do all, or nothing drives."""
         if not self.scene.drives or not any("state" in name for name in self.asked):
             return None
-        path, size = self.motion.path, self.view.scale if self.scene.drives[0].slides else 1.0
+        path, (low, high) = self.motion.path, self.limits
+        if low == high:
+            return None
+        size = self.view.scale if self.scene.drives[0].slides else 1.0
         long = self.motion.linkage.reach * self.view.scale
-        states = path.nearest(path.travel)
-        return Knots(tuple(size * t for t in path.travel.tolist()),
-                     tuple(tuple((row * (1.0 if angle else long)).tolist())
-                           for row, angle in zip(states, self.angles, strict=True)))
+        travel = low + (high - low) * (1 - np.cos(np.linspace(0.0, np.pi, SPANS + 1))) / 2
+        states, _ = path.predicted(travel / size)
+        return Knots(low, high, tuple(tuple((row * (1.0 if angle else long)).tolist())
+                                      for row, angle in zip(states, self.angles, strict=True)))
 
     @cached_property
     def asked(self) -> dict[str, int]:
@@ -343,8 +378,8 @@ class Relations:
             found[f"x {name}"], found[f"y {name}"] = pins.get(name, (at.real, at.imag))
         for k, travel in enumerate(travels):
             found |= {f"cos {k}": math.cos(travel), f"sin {k}": math.sin(travel), f"travel {k}": travel}
-        for i in range(len(self.angles)):
-            state = interpolated(self.knots, i, travels[0]) if self.knots else 0.0
+        states = self.knots.at(travels[0]) if self.knots else [0.0] * len(self.angles)
+        for i, state in enumerate(states):
             found |= {f"cos state {i}": math.cos(state), f"sin state {i}": math.sin(state), f"state {i}": state}
         return found
 
@@ -359,14 +394,6 @@ class Relations:
         except (ValueError, ZeroDivisionError, OverflowError):
             return None
         return found
-
-
-def interpolated(knots: Knots, i: int, travel: float) -> float:
-    """A state between the knots around a travel."""
-    ts, row = knots.travel, knots.states[i]
-    k = min(max(sum(t <= travel for t in ts), 1), len(ts) - 1)
-    part = (travel - ts[k - 1]) / (ts[k] - ts[k - 1])
-    return row[k - 1] + part * (row[k] - row[k - 1])
 
 
 def _grounded(scene: Scene) -> Scene:

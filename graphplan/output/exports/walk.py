@@ -11,11 +11,17 @@ import math
 import string
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import cached_property
+from typing import NamedTuple
 
 from graphplan.kernel.kinds import LINE, Movement
+from graphplan.mechanism.model import FRAME
+from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
+from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import picture
+from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
+from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
@@ -75,6 +81,27 @@ def turned_back(drawn: DrawnStep) -> bool:
     return "right" in drawn.step.params.values() or "back" in drawn.step.params.values()
 
 
+class Riding(NamedTuple):
+    """On which points a part of the mechanism rides, each of its spots on the nearest one; it turns with the link.
+
+    Without a link it does not turn, without a point it stays.
+    """
+
+    points: tuple[str, ...] = ()
+    link: str = ""
+
+
+def _riding(part: Figure | Guide | Rail) -> Riding:
+    """What a part of the mechanism rides on."""
+    slide = part.slide
+    link = "" if slide is None else slide.link if slide.link != FRAME else slide.along
+    if isinstance(part, Figure):
+        return Riding(part.at, part.link or link)
+    if isinstance(part, Rail):
+        return Riding((part.seat, part.end), link)
+    return Riding() if part.slide.along == FRAME else Riding((part.seat,), link)
+
+
 class Letter:
     """Lettering that stands off a mark: the middle of its base line so many mm from it, right and up.
 
@@ -86,6 +113,12 @@ class Letter:
         self.off = self._from_mark((text.box.centre[0], text.at[1]))
         self.leader = [self._from_mark(spot) for item in before if isinstance(item, Polyline) for spot in item.spots]
         self.ringed = next((self._from_mark(item.centre) for item in before if isinstance(item, Circle)), None)
+
+    @classmethod
+    def beside(cls, mark: DrawnStep) -> Letter:
+        """A mark's own name above its right, where the sheet has none."""
+        at = mark.at[0] + 1.0, mark.at[1] + 1.0
+        return cls(mark, Text(pens.LETTERS, "letters", None, at, sentence_runs(mark.name), 2.5))
 
     def _from_mark(self, spot: Spot) -> Spot:
         return spot[0] - self.mark.at[0], spot[1] - self.mark.at[1]
@@ -116,6 +149,25 @@ class Walk:
             hung = all(spot in self.joints for spot in spots)
             if item.layer in layers and (hung or not self.live or item.layer not in RIDING):
                 yield item, spots
+
+    def riding(self, plate: Plate, ways: Mapping[str, Spot]) -> Iterator[tuple[Item, Riding]]:
+        """The items of the mechanism on its plan, whole, each with what it rides on; paths of points ride on nothing.
+
+        Guides of the frame are as long as the `ways` of their slides.
+        """
+        if plate.panel != MECHANISM:
+            return
+        motion = self.plates.plans.motion
+        yield from ((item, Riding()) for item in (motion.items(plate.view) if motion else ()))
+        mechanism = plate.drawn_mechanism
+        for part in mechanism.parts():
+            riding = _riding(part)
+            if isinstance(part, Guide) and part.slide.along == FRAME:
+                at, along = mechanism.seat(part.slide), mechanism.along(part.slide)
+                items: Iterable[Item] = symbols.guideway(at, along, part.side, ways.get(part.slide.name, (0.0, 0.0)))
+            else:
+                items = part.items
+            yield from ((item, riding) for item in items)
 
     def letters(self, plate: Plate) -> Iterator[Letter]:
         """The letters of a plan where the sheet has them, each off the mark that it hangs on."""

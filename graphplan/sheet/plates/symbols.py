@@ -63,12 +63,13 @@ def pivot(at: Spot, down: Vector) -> Iterator[Item]:
     yield from hatching(start, end, -1.0)
 
 
-def guideway(at: Spot, along: Vector, side: float) -> Iterator[Item]:
-    """A fixed guide under a block: its line, hatched on the outer side."""
-    start, end = off(at, along, -GUIDE, side * HIGH), off(at, along, GUIDE, side * HIGH)
+def guideway(at: Spot, along: Vector, side: float, way: tuple[float, float] = (0.0, 0.0)) -> Iterator[Item]:
+    """A fixed guide under a block that goes so far back and on along it: its line, hatched on the outer side."""
+    low, high = way[0] - GUIDE, way[1] + GUIDE
+    start, end = off(at, along, low, side * HIGH), off(at, along, high, side * HIGH)
     yield Polyline(pens.GROUND, "ground", None, (start, end))
     yield from hatching(start, end, side)
-    yield Polyline(pens.PRODUCED, "ground", None, (off(at, along, -GUIDE), off(at, along, GUIDE)))
+    yield Polyline(pens.PRODUCED, "ground", None, (off(at, along, low), off(at, along, high)))
 
 
 def block(at: Spot, along: Vector) -> Item:

@@ -1,0 +1,132 @@
+"""Steps as GeoGebra writes them: by its own commands where their marks allow it, else by their formula.
+
+Crossings of circles are laid off to the side that is declared, so they stay on it when points are dragged: GeoGebra
+numbers its intersections, but not by side. Only what GeoGebra 4.0 and its successors share is used.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+
+from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
+from graphplan.kernel.tape.written import Language, operations
+from graphplan.output.exports.formula import formula
+from graphplan.output.exports.walk import at_home, parameters, turned_back
+from graphplan.sheet.lettering.lettering import name_runs
+from graphplan.sheet.plates.drawn_step import DrawnStep
+from graphplan.sheet.plates.plate import Plates
+
+Terms = Sequence[tuple[str, str]]
+
+DEEPEST = 3  # operations within each other: GeoGebra 4.0 takes twice as long to read each one more
+CENTRES = "Vector[{centre0}, {centre1}]"
+APART = "Distance[{centre0}, {centre1}]"
+ALONG = f"({APART}^2 + {{radius0}}^2 - {{radius1}}^2) / (2 * {APART})"  # on the line of centres, to the chord
+
+# The command of each movement, and its inputs: {k} is what lengths from another plan are multiplied by, {sign} that of
+# the side declared, {dx} and {dy} are in mm; {centre0} and {radius0} are those of the circle {0}.
+COMMANDS = {
+    Movement.RULED: ("Line", "{0}", "{1}"),
+    Movement.GUIDED: ("Line", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.PARALLEL: ("Line", "{1}", "{0}"),
+    Movement.PERPENDICULAR: ("OrthogonalLine", "{1}", "{0}"),
+    Movement.BISECTED: ("LineBisector", "{0}", "{1}"),
+    Movement.MET: ("Intersect", "{0}", "{1}"),
+    Movement.OPENED: ("Distance", "{0}", "{1}"),
+    Movement.STRUCK: ("Circle", "{0}", "{k} * {1}"),
+    Movement.HALVED: ("Midpoint", "{0}", "{1}"),
+    Movement.DROPPED: ("Intersect", "{0}", "OrthogonalLine[{1}, {0}]"),
+    Movement.LAID_OFF: ("Translate", "{2}", "{k} * Vector[{0}, {1}]"),
+    Movement.TURNED: ("Translate", "{2}", "{k} * OrthogonalVector[Vector[{0}, {1}]]"),
+    Movement.LAID_BY_COMPONENTS: ("Translate", "{0}", "Vector[({dx}, {dy})]"),
+    Movement.CUT: ("Translate", "Intersect[{0}, OrthogonalLine[{centre1}, {0}]]",
+                   "{sign}sqrt({radius1}^2 - Distance[{centre1}, {0}]^2) * UnitVector[{0}]"),
+    Movement.ARCS_MET: ("Translate", f"Translate[{{centre0}}, {ALONG} * UnitVector[{CENTRES}]]",
+                        f"{{sign}}sqrt({{radius0}}^2 - ({ALONG})^2) * UnitOrthogonalVector[{CENTRES}]"),
+}  # fmt: skip
+
+
+def number(value: float) -> str:
+    """A number as GeoGebra reads it: in its eyes a small e is a letter."""
+    text = repr(float(value)).upper()
+    return f"({text})" if value < 0 else text
+
+
+LANGUAGE = Language(number, operations("sqrt({})", "abs({})", "If[abs({0}) <= {2} * ({1}), 0, sgn({0})]"))
+PLACE = ("x({0})", "y({0})")
+LINES = ("x(Intersect[{0}, OrthogonalLine[(0, 0), {0}]])", "y(Intersect[{0}, OrthogonalLine[(0, 0), {0}]])",
+         "x(Direction[{0}])", "y(Direction[{0}])")
+RESULTS = {
+    POINT: ("", ("({0}, {1})",)),
+    LINE: ("Line", ("({0}, {1})", "Vector[({2}, {3})]")),
+    OPENING: ("", ("{0}",)),
+    CIRCLE: ("Circle", ("({0}, {1})", "{2}")),
+}
+
+
+def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
+            guides: Mapping[str, tuple[str, str]]) -> tuple[Terms, str, list[str]]:
+    """The numbers that a mark needs, by label, and its command with its inputs; without a name an expression.
+
+    `guides` say where those guides point that ride on links.
+    """
+    movement = drawn.step.op.movement
+    if movement in COMMANDS and at_home(drawn):
+        name, *inputs = COMMANDS[movement]
+        told = {name: number(value) for name, value in parameters(drawn).items()}
+        for place, arg in enumerate(drawn.args):
+            if arg.kind == CIRCLE:
+                told[f"centre{place}"], told[f"radius{place}"] = _circle(arg, labels)
+        told["sign"] = "-" if turned_back(drawn) else ""
+        if movement is Movement.GUIDED and (guide := guides.get(" along ".join(drawn.step.links))):
+            told["dx"], told["dy"] = guide
+        return (), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs]
+    read = [_coordinates(arg, labels) for arg in drawn.args]
+    found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
+    name, texts = RESULTS[drawn.kind]
+    return found.terms, name, [text.format(*found.results) for text in texts]
+
+
+def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:
+    """The centre and the radius of a circle: the marks that it was struck with, where they are as large here."""
+    if circle.step.op.movement is Movement.STRUCK and at_home(circle):
+        centre, opening = (labels[arg] for arg in circle.args)
+        factor = parameters(circle)["k"]
+        return centre, opening if factor == 1 else f"({number(factor)} * {opening})"
+    return f"Center[{labels[circle]}]", f"Radius[{labels[circle]}]"
+
+
+def _coordinates(drawn: DrawnStep, labels: Mapping[DrawnStep, str]) -> list[str]:
+    """An operand of a formula by its coordinates."""
+    if drawn.kind == CIRCLE:
+        centre, radius = _circle(drawn, labels)
+        return [*(text.format(centre) for text in PLACE), radius]
+    return [text.format(labels[drawn]) for text in {POINT: PLACE, LINE: LINES, OPENING: ("{0}",)}[drawn.kind]]
+
+
+# ---- labels ----------------------------------------------------------------------------------------------------------
+
+RESERVED = {"x", "y", "z", "e", "i", "π"}  # letters that mean something else in GeoGebra
+TAKEN = ("number", "side", "caption", "stroke", "vector", "arc", "link", "point", "line", "numeric", "opening",
+         "circle", "drive", "handle", "orbit", "travel", "place", "state", "knot", "turn", "plan", "stage", "step",
+         "value", "scale", "pin")  # so begin labels made here
+LABEL = re.compile(r"[^\W\d_][^\W_]*'*(_\{[^\W_]+\})?'*")
+
+
+def letters(name: str) -> str:
+    """A mark's name as GeoGebra sets it: primes, Greek letters, a subscript in braces."""
+    return "".join(f"_{{{run.text}}}" if run.level else run.text for run in name_runs(name)).replace("′", "'").replace(
+        "″", "''")
+
+
+def labels(plates: Plates) -> dict[DrawnStep, str]:
+    """The label of every mark: its letters where GeoGebra allows them, else its kind and place."""
+    found: dict[DrawnStep, str] = {}
+    taken = set(RESERVED)
+    for place, drawn in enumerate(plates.drawn):
+        letter = letters(drawn.name)
+        fits = LABEL.fullmatch(letter) and not letter.startswith(TAKEN) and letter not in taken
+        found[drawn] = letter if fits else f"{drawn.kind}_{{{place}}}"
+        taken.add(found[drawn])
+    return found

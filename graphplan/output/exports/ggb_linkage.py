@@ -1,0 +1,150 @@
+"""The linkage of a scene in GeoGebra: its fixed pins can be dragged, its drives have a slider each, and a handle where
+they turn about a fixed pin; every other point is where the relations have it.
+
+A handle is a point of a circle that the slider turns: both together are the drive's travel. The orbit begins where the
+slider has the crank pin, so that the handle stays on it.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Mapping
+from itertools import chain
+from xml.etree.ElementTree import Element
+
+from graphplan.mechanism.model import FRAME, Drive
+from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
+from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, lettered
+from graphplan.output.exports.relations import SPANS, Relations
+from graphplan.output.exports.relations import Written as WrittenRelations
+from graphplan.phrases import digits
+from graphplan.sheet.plates import pens
+
+SLIDER, ROW = 260, 36  # pixels: how long a slider is, and from one to the next
+ROUND = 359.99  # degrees of an orbit: a whole circle has no beginning
+
+
+def slider(k: int) -> str:
+    """The label of a drive's slider."""
+    return f"drive_{{{k + 1}}}"
+
+
+def handle(k: int) -> str:
+    """The label of a drive's handle."""
+    return f"handle_{{{k + 1}}}"
+
+
+class Linkage:
+    """Enters a linkage among the objects; `labels` say what the points of the scene are called."""
+
+    def __init__(self, relations: Relations, objects: Objects, labels: Mapping[str, str]):
+        self.relations, self.objects, self.labels = relations, objects, labels
+        self.scene, self.places = relations.scene, relations.places
+
+    def enter(self, pin: Callable[[str], Element]) -> WrittenRelations:
+        """The free pins, by what enters one, the drives and the numbers of all else; what the points are made of."""
+        for name in self.relations.free:
+            pin(name)
+        inputs: dict[str, str] = {}
+        for name in self.relations.free:
+            inputs |= {f"x {name}": f"x({self.labels[name]})", f"y {name}": f"y({self.labels[name]})"}
+        for k, drive in enumerate(self.scene.drives):
+            inputs |= dict(self._driven(k, drive))
+        inputs |= dict(self._states())
+        return self._numbers(self.relations.written(LANGUAGE, inputs, "place", DEEPEST))
+
+    def _numbers(self, found: WrittenRelations) -> WrittenRelations:
+        """The terms, and the turns of links by a label each."""
+        for label, text in found.terms:
+            self.objects.numeric(label, text)
+        turns = {link: (self.objects.numeric(self.objects.label("turn"), cos),
+                        self.objects.numeric(self.objects.label("turn"), sin))
+                 for link, (cos, sin) in found.turns.items()}
+        return found._replace(turns=turns)
+
+    # ---- drives ----------------------------------------------------------------------------------------------------
+
+    def _driven(self, k: int, drive: Drive) -> Iterator[tuple[str, str]]:
+        """The inputs that a drive gives: its slider's and its handle's travel together."""
+        scale = self.relations.view.scale
+        self._slider(k, drive)
+        if drive.slides:
+            yield f"travel {k}", self.objects.numeric(f"travel_{{{k + 1}}}", f"{number(scale)} * {slider(k)}")
+            return
+        turned = self._handle(k, drive)
+        travel = self.objects.numeric(f"travel_{{{k + 1}}}", f"{slider(k)} + {turned}" if turned else slider(k))
+        for part in ("cos", "sin"):
+            yield f"{part} {k}", self.objects.numeric(f"{part}travel_{{{k + 1}}}".replace("travel", "drive"),
+                                                      f"{part}({travel}°)")
+
+    def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
+        """From where to where the slider goes, in degrees or scene lengths."""
+        if k or self.scene.drives[0].slides != drive.slides:
+            return (-180.0, 180.0) if not drive.slides else (-self.scene.extent, self.scene.extent)
+        low, high = self.relations.limits
+        unit = self.relations.view.scale if drive.slides else math.radians(1.0)
+        return low / unit, high / unit
+
+    def _slider(self, k: int, drive: Drive) -> None:
+        element = self.objects.element("numeric", slider(k), True, True, pens.LETTERS, POINTS)
+        low, high = self._limits(k, drive)
+        empty(element, "value", val=0.0)
+        sign, unit = ("s", f" {self.scene.units.length}") if drive.slides else ("φ", "°")
+        lettered(element, f"{sign}_{{{drive.link}}} = %v{unit}")
+        empty(element, "slider", min=low, max=high, absoluteScreenLocation=True, width=SLIDER, x=20, y=40 + ROW * k,
+              fixed=True, horizontal=True, showAlgebra=True)
+        whole = high - low > 359.0 and not drive.slides
+        empty(element, "animation", step=float(digits((high - low) / 360, 1)), speed=1.0, type=1 if whole else 0,
+              playing=False)
+
+    def _handle(self, k: int, drive: Drive) -> str:
+        """How far the handle has turned the drive, in degrees; nothing where it has none."""
+        points = self.scene.links[drive.link]
+        pivots = [p for p in points if drive.on == FRAME and p in self.scene.links.get(FRAME, ())]
+        pins = [p for p in points if p not in pivots and p not in self.scene.links.get(FRAME, ())]
+        if not pivots or not pins:
+            return ""
+        arm, pivot = self.places[pins[0]] - self.places[pivots[0]], self.labels[pivots[0]]
+        x, y, angle = number(arm.real), number(arm.imag), f"{slider(k)}°"
+        begin = self.objects.hidden(self.objects.label("pin"), f"{pivot} + ({x} * cos({angle}) - {y} * sin({angle}), "
+                                                               f"{x} * sin({angle}) + {y} * cos({angle}))")
+        orbit = f"orbit_{{{k + 1}}}"
+        self.objects.command("CircleArc", [pivot, begin, f"Rotate[{begin}, {ROUND}°, {pivot}]"], [orbit])
+        self.objects.element("conicpart", orbit, False, False, pens.THIN, CURVES)
+        self.objects.command("Point", [orbit], [handle(k)])
+        element = self.objects.element("point", handle(k), True, False, pens.PAIR, POINTS)
+        at = self.places[pins[0]]
+        empty(element, "coords", x=at.real, y=at.imag, z=1.0)
+        empty(element, "pointSize", val=6)
+        empty(element, "pointStyle", val=2)
+        return f"Angle[{begin}, {pivot}, {handle(k)}] / (1°)"
+
+    # ---- where Newton's steps begin --------------------------------------------------------------------------------
+
+    def _states(self) -> Iterator[tuple[str, str]]:
+        """The inputs of states: straight between the knots around the first drive's travel."""
+        knots, asked = self.relations.knots, self.relations.asked
+        states = sorted({int(name.split()[-1]) for name in asked if "state" in name})
+        if knots is None:
+            yield from chain.from_iterable(((f"cos state {i}", "1"), (f"sin state {i}", "0"), (f"state {i}", "0"))
+                                           for i in states)
+            return
+        travel = "travel_{1}"
+        if not self.scene.drives[0].slides:
+            low = math.degrees((knots.low + knots.high) / 2) - 180
+            travel = f"({travel} - 360 * floor(({travel} - {number(low)}) / 360))"
+        unit = 1.0 if self.scene.drives[0].slides else math.radians(1.0)
+        part = f"({travel} - {number(knots.low / unit)}) / {number((knots.high - knots.low) / unit)}"
+        done = self.objects.numeric("knot_{1}", f"Min[1, Max[0, {part}]]")
+        far = self.objects.numeric("knot_{2}", f"{number(SPANS / math.pi)} * acos(1 - 2 * {done})")
+        k = self.objects.numeric("knot_{3}", f"Min[{SPANS}, floor({far}) + 1]")
+        for i in states:
+            values = f"knots_{{{i}}}"
+            self.objects.expression(values, "{" + ", ".join(number(round(one, 7)) for one in knots.states[i]) + "}")
+            self.objects.element("list", values, False, False, pens.THIN, CURVES)
+            before, after = (f"Element[{values}, {place}]" for place in (k, f"{k} + 1"))
+            state = self.objects.numeric(f"state_{{{i}}}", f"{before} + ({far} - {k} + 1) * ({after} - {before})")
+            for name, text in ((f"cos state {i}", f"cos({state})"), (f"sin state {i}", f"sin({state})")):
+                if name in asked:
+                    yield name, self.objects.numeric(f"{name[:3]}state_{{{i}}}".replace("state", "knot"), text)
+            yield f"state {i}", state

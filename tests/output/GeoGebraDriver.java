@@ -56,7 +56,8 @@ public class GeoGebraDriver {
                 StringBuilder told = new StringBuilder();
                 for (Object one : app.getKernel().getConstruction().getGeoSetConstructionOrder()) {
                     GeoElement object = (GeoElement) one;
-                    String seen = object.isEuclidianVisible() ? "seen" : "hidden";
+                    boolean there = object.getConstructionIndex() <= app.getKernel().getConstructionStep();
+                    String seen = there && object.isEuclidianVisible() ? "seen" : "hidden";
                     told.append(object.getLabel() + "\t" + seen + " " + where(object) + "\t");
                 }
                 return told;

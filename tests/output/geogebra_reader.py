@@ -84,7 +84,7 @@ COMMANDS = {
     "x": lambda P: P.real, "y": lambda P: P.imag, "abs": abs, "floor": math.floor, "Min": min, "Max": max,
     "sqrt": lambda a: math.sqrt(a) if a >= 0 else math.nan, "acos": math.acos, "cos": math.cos, "sin": math.sin,
     "Element": lambda values, place: values[int(place) - 1],
-    "Angle": lambda P, Q, R: cmath.phase((R - Q) / (P - Q)) % (2 * math.pi), "Point": lambda arc: arc[1],  # where it begins
+    "Angle": lambda P, Q, R: cmath.phase((R - Q) / (P - Q)) % (2 * math.pi), "Point": lambda arc: arc[1],
     "sgn": lambda a: math.copysign(1.0, a) if a else 0.0,
 }
 

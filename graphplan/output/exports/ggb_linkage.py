@@ -80,7 +80,7 @@ class Linkage:
     def _limits(self, k: int, drive: Drive) -> tuple[float, float]:
         """From where to where the slider goes, in degrees or scene lengths."""
         if k or self.scene.drives[0].slides != drive.slides:
-            return (-180.0, 180.0) if not drive.slides else (-self.scene.extent, self.scene.extent)
+            return (-360.0, 360.0) if not drive.slides else (-self.scene.extent, self.scene.extent)
         low, high = self.relations.limits
         unit = self.relations.view.scale if drive.slides else math.radians(1.0)
         return low / unit, high / unit

@@ -170,10 +170,10 @@ def test_what_cannot_be_is_not_there_and_comes_back(program: GeoGebra, tmp_path:
 
 def test_the_navigation_bar_walks_the_steps(program: GeoGebra, tmp_path: Path) -> None:
     """At the breakpoint of a step its marks are seen with its own sentence, and nothing of later steps."""
-    drawing, plates, _ = drafted_plates("four-bar")
+    _, plates, _ = drafted_plates("four-bar")
     program.open(tmp_path / "figure.ggb", geogebra(plates))
     called = labels(plates)
-    for number in (0, 5, drawing.drawn.number(len(drawing.drawn) - 1)):
+    for number in (0, 5, max(mark.number for mark in plates.drawn)):
         program.tell("step", f"step_{{{number}}}")
         seen = program.seen()
         assert {label for label in seen if label.startswith("step_")} == {f"step_{{{number}}}"}

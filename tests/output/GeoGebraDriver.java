@@ -48,6 +48,7 @@ public class GeoGebraDriver {
                 api.setCoords(part[1], Double.parseDouble(part[2]), Double.parseDouble(part[3]));
                 return true;
             case "step":
+                app.getKernel().setConstructionStep(app.getKernel().getLastConstructionStep());
                 app.getKernel().setConstructionStep(app.getKernel().lookupLabel(part[1]).getConstructionIndex());
                 return true;
             case "picture":

@@ -28,20 +28,16 @@ from graphplan.cycle.linkage import Linkage
 from graphplan.cycle.travel import TURN, closes, paces
 from graphplan.cycle.turn import RangeOfMotion, under
 from graphplan.errors import GraphplanError
-from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
-from graphplan.mechanism.directions import vector
-from graphplan.mechanism.model import FRAME, Placement, Scene
-from graphplan.mechanism.numerals import exactly
-from graphplan.mechanism.placements import needs
-from graphplan.output.exports.planar import Planar, planar
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.output.exports.ground import Ground
+from graphplan.output.exports.planar import planar
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
 CLOSE = 1e-5  # the largest last correction, in radians and reaches: its square is what is left
 SPANS = 180  # between the knots of a state
-SAME = 1e-6  # mm: how near places of the frame are that are one
 
 Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
 
@@ -55,23 +51,6 @@ class _OnPaper(Linkage):
         super().__init__(scene, tuple(float(k + 1) for k in range(len(scene.drives))))
         places = self.places.values()
         self.origins[FRAME] = complex(min(z.real for z in places) - 7.0, min(z.imag for z in places) - 5.0)  # no pin
-
-
-class _Ground(NamedTuple):
-    """The frame: its points where they are dragged, all else where it was given."""
-
-    pins: Mapping[str, Planar]
-    places: Mapping[str, complex]
-
-    def at(self, place: complex) -> Planar:
-        pin = next((name for name in self.pins if abs(self.places[name] - place) < SAME), None)
-        return planar(place) if pin is None else self.pins[pin]
-
-    def ray(self, along: complex) -> Planar:
-        return planar(along)
-
-    def beside(self, origin: complex, base: Any) -> Placed:
-        return Placed(origin, base, planar(1.0))
 
 
 class Knots(NamedTuple):
@@ -130,74 +109,12 @@ class Relations:
         self.tape = self.domain.tape
         self._on_paper = _OnPaper(self.scene.posed(places, lambda one: one.direction))
         self.places, self.angles = self._on_paper.places, list[bool]()
-        fixed = {end for slide in scene.slides if slide.along == FRAME for end in slide.through or ()}
-        self.free: list[str] = []
-        pins: dict[str, Planar] = {}
-        for name in self._still(fixed):
-            pins[name] = self._pin(name, pins, fixed)
-        self._ground = _Ground(pins, self.places)
-        self._senses: list[float] = []
+        self._ground = Ground(self.domain, self.scene, view, self.places)
+        self.free = self._ground.free
         self.placed: dict[str, Any] = {FRAME: self._ground}
         self.groups = [Group(self._on_paper, part) for part in self._on_paper.parts]
         for group in self.groups:
             self.placed.update(self._followed(group))
-
-    # ---- the frame -------------------------------------------------------------------------------------------------
-
-    def _still(self, fixed: set[str]) -> list[str]:
-        """The points of the frame and of no link, each after those that place it."""
-        still = [name for name, links in self.scene.links_of.items() if FRAME in links or not links]
-        found: list[str] = []
-        while left := [name for name in still if name not in found]:
-            ready = [name for name in left if {*self._placers(name, still, fixed)} <= {*found}]
-            found += ready or left
-        return found
-
-    def _placers(self, name: str, still: Sequence[str], fixed: set[str]) -> tuple[str, ...]:
-        """The points from which a point of the frame is placed, if all are of the frame themselves."""
-        placed = self.scene.placements.get(name)
-        on = needs(placed) if placed and name not in fixed else ()
-        return on if {*on} <= {*still} else ()
-
-    def _pin(self, name: str, pins: Mapping[str, Planar], fixed: set[str]) -> Planar:
-        """A point of the frame: free, or as the scene places it from others."""
-        place = self.scene.placements.get(name)
-        if place and self._placers(name, [*pins], fixed):
-            x, y = self._put(name, place, {other: (pin.re, pin.im) for other, pin in pins.items()})
-            return Planar(x, y)
-        if name in fixed:
-            return planar(self.places[name])
-        self.free.append(name)
-        return Planar(self.tape.input(f"x {name}"), self.tape.input(f"y {name}"))
-
-    def _put(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
-        """Where a placement by distance, angle or compasses puts a point."""
-        data: dict[str, Any] = placement.data
-        scale = self.view.scale
-        if placement.how == "polar":
-            (x, y), off = at[data["from"]], self.places[name] - self.places[data["from"]]
-            return x + off.real, y + off.imag
-        if placement.how == "compass":
-            arcs = [(*at[centre], (scale * float(r)) ** 2) for centre, r in data["distances"].items()]
-            return made_by(Movement.ARCS_MET).rule(self.domain, *arcs, side=data["side"])
-        if placement.how == "on-line":
-            P, Q = (planar(at[end]) for end in data["on"].split())
-            found = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
-            return found.re, found.im
-        ((centre, r),) = data["distances"].items()
-        through, way = data["on"]["through"], data["on"]["direction"]
-        x, y = at[through] if isinstance(through, str) else self.view((float(through[0]), float(through[1])))
-        dx, dy = self._direction(way, at)
-        line, arc = (-dy, dx, dy * x - dx * y), (*at[centre], (scale * float(r)) ** 2)
-        return made_by(Movement.CUT).rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
-
-    def _direction(self, way: Any, at: Mapping[str, Spot]) -> Spot:
-        """A direction: of two points, or as it is given."""
-        if isinstance(way, str) and len(ends := way.split()) == 2:
-            (x, y), (u, v) = (at[end] for end in ends)
-            return u - x, v - y
-        x, y, _ = vector(way, lambda name: exactly(self.scene.points[name]))
-        return float(x), float(y)
 
     # ---- the links -------------------------------------------------------------------------------------------------
 

@@ -1,0 +1,104 @@
+"""The frame of a linkage on paper: its free pins, and the points that the scene places from those by compasses,
+protractor or scale."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from graphplan.cycle.dyads import Placed
+from graphplan.kernel.kinds import Movement, made_by
+from graphplan.kernel.tape.record import Symbols
+from graphplan.mechanism.directions import vector
+from graphplan.mechanism.model import FRAME, Placement, Scene
+from graphplan.mechanism.numerals import exactly
+from graphplan.mechanism.placements import needs
+from graphplan.output.exports.planar import Planar, planar
+from graphplan.sheet.plates.view import View
+
+SAME = 1e-6  # mm: how near places of the frame are that are one
+
+Spot = tuple[Any, Any]  # symbols, or numbers where nothing moves it
+
+
+class Ground:
+    """The frame as compass rules read a link: its points where they are dragged, all else where it was given.
+
+    `free` are the pins that may be dragged. Points that give a guide of the frame its direction stay.
+    """
+
+    def __init__(self, domain: Symbols, scene: Scene, view: View, places: Mapping[str, complex]):
+        self.domain, self.scene, self.view, self.places = domain, scene, view, places
+        self.fixed = {end for slide in scene.slides if slide.along == FRAME for end in slide.through or ()}
+        self.free: list[str] = []
+        self.pins: dict[str, Planar] = {}
+        for name in self._still():
+            self.pins[name] = self._pin(name)
+
+    def at(self, place: complex) -> Planar:
+        """Where the frame's point is that was given at this place."""
+        pin = next((name for name in self.pins if abs(self.places[name] - place) < SAME), None)
+        return planar(place) if pin is None else self.pins[pin]
+
+    def ray(self, along: complex) -> Planar:
+        """Where a direction points that was given so."""
+        return planar(along)
+
+    def beside(self, origin: complex, base: Any) -> Placed:
+        """A link that turns as the frame does, and has this point."""
+        return Placed(origin, base, planar(1.0))
+
+    def _still(self) -> list[str]:
+        """The points of the frame and of no link, each after those that place it."""
+        still = [name for name, links in self.scene.links_of.items() if FRAME in links or not links]
+        found: list[str] = []
+        while left := [name for name in still if name not in found]:
+            ready = [name for name in left if {*self._placers(name, still)} <= {*found}]
+            found += ready or left
+        return found
+
+    def _placers(self, name: str, still: Sequence[str]) -> tuple[str, ...]:
+        """The points from which a point of the frame is placed, if all are of the frame themselves."""
+        placed = self.scene.placements.get(name)
+        on = needs(placed) if placed and name not in self.fixed else ()
+        return on if {*on} <= {*still} else ()
+
+    def _pin(self, name: str) -> Planar:
+        """A point of the frame: free, or as the scene places it from others."""
+        place = self.scene.placements.get(name)
+        if place and self._placers(name, [*self.pins]):
+            x, y = self._put(name, place, {other: (pin.re, pin.im) for other, pin in self.pins.items()})
+            return Planar(x, y)
+        if name in self.fixed:
+            return planar(self.places[name])
+        self.free.append(name)
+        return Planar(self.domain.tape.input(f"x {name}"), self.domain.tape.input(f"y {name}"))
+
+    def _put(self, name: str, placement: Placement, at: Mapping[str, Spot]) -> Any:
+        """Where a placement by distance, angle or compasses puts a point."""
+        data: dict[str, Any] = placement.data
+        scale = self.view.scale
+        if placement.how == "polar":
+            (x, y), off = at[data["from"]], self.places[name] - self.places[data["from"]]
+            return x + off.real, y + off.imag
+        if placement.how == "compass":
+            arcs = [(*at[centre], (scale * float(r)) ** 2) for centre, r in data["distances"].items()]
+            return made_by(Movement.ARCS_MET).rule(self.domain, *arcs, side=data["side"])
+        if placement.how == "on-line":
+            P, Q = (planar(at[end]) for end in data["on"].split())
+            found = P + (Q - P) * (scale * float(data["distance"]) / ((Q - P).real**2 + (Q - P).imag**2).sqrt())
+            return found.re, found.im
+        ((centre, r),) = data["distances"].items()
+        through, way = data["on"]["through"], data["on"]["direction"]
+        x, y = at[through] if isinstance(through, str) else self.view((float(through[0]), float(through[1])))
+        dx, dy = self._direction(way, at)
+        line, arc = (-dy, dx, dy * x - dx * y), (*at[centre], (scale * float(r)) ** 2)
+        return made_by(Movement.CUT).rule(self.domain, line, arc, way="on" if data["pick"] == "right" else "back")
+
+    def _direction(self, way: Any, at: Mapping[str, Spot]) -> Spot:
+        """A direction: of two points, or as it is given."""
+        if isinstance(way, str) and len(ends := way.split()) == 2:
+            (x, y), (u, v) = (at[end] for end in ends)
+            return u - x, v - y
+        x, y, _ = vector(way, lambda name: exactly(self.scene.points[name]))
+        return float(x), float(y)

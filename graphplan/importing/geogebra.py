@@ -16,8 +16,7 @@ GeoGebra knows no speeds. Values and dependences are read as they are for drawin
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
-from functools import cache
+from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from pathlib import Path
 from typing import Any
@@ -30,7 +29,6 @@ AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
 RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
 INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
-FOLLOWED = 200  # objects on which one depends, one after another
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 
@@ -44,10 +42,15 @@ class _Drawing:
 
     def __init__(self, objects: Objects):
         self.objects = objects
-        self.moves = cache(self._moves)
+        self.dependents: dict[str, set[str]] = {}
+        for label in objects.elements:
+            for name in self._needs(label):
+                self.dependents.setdefault(name, set()).add(label)
         self.points = {label for label, element in objects.elements.items()
                        if element.get("type") == "point" and isinstance(objects.values.get(label), complex)}
         self.driving = {*self._driving()}
+        running = [label for label in objects.elements if self._command(label)[0] in ("Point", "PointIn")]
+        self.moving = self._made_of([*self.driving, *running])
         self.sketch = Sketch("GeoGebra")
         self.sketch.note("the unit of length: a unit of GeoGebra's plane is read as mm")
         own = any(label.startswith("stroke_") for label in objects.elements)
@@ -102,15 +105,17 @@ class _Drawing:
                 if label in turning or playing:
                     yield label
 
-    def _moves(self, label: str, depth: int = 0) -> bool:
+    def moves(self, label: str) -> bool:
         """Whether a driving number, or a point that runs on something, makes an object move."""
-        if label in self.driving or depth > FOLLOWED:
-            return label in self.driving
-        command, _, _ = self._command(label)
-        return command in ("Point", "PointIn") or any(self._moves_on(name, depth) for name in self._needs(label))
+        return label in self.moving or any(name in self.moving for name in self._needs(label))
 
-    def _moves_on(self, name: str, depth: int) -> bool:
-        return self.moves(name, depth + 1)
+    def _made_of(self, labels: Iterable[str]) -> set[str]:
+        """These objects, and all that depend on them."""
+        found, new = {*labels}, [*labels]
+        while new:
+            new += (further := self.dependents.get(new.pop(), set()) - found)
+            found |= further
+        return found
 
     # ---- links -----------------------------------------------------------------------------------------------------
 
@@ -261,16 +266,12 @@ class _Drawing:
     def _frame(self) -> None:
         """Points that are made fixed; where anything moves also all that do not."""
         moving = any(self.moves(label) for label in self.sketch.places)
+        led = self._made_of({point for drive in self.sketch.drives for point in drive.link[1:]})  # by a handle
         for label in self.sketch.places:
             flag = self.objects.elements[label].find("fixed")
             made = flag is not None and flag.get("val") == "true" and self._free(label)
-            if made or ((moving or bool(self.sketch.drives)) and not self.moves(label) and not self._hangs(label)):
+            if made or ((moving or bool(self.sketch.drives)) and label not in self.moving | led):
                 self.sketch.fixed[label] = None
-
-    def _hangs(self, label: str) -> bool:
-        """Whether a point that does not move by itself is led by a handle."""
-        led = {point for drive in self.sketch.drives if isinstance(drive.link, tuple) for point in drive.link[1:]}
-        return label in led or any(name in led or self._hangs(name) for name in self._needs(label))
 
 
 def _parts(inputs: str) -> list[str]:

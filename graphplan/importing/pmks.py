@@ -129,7 +129,7 @@ def _lines(text: str) -> Read:
                                                                              "name" else title)
             driving = int(value) if key.strip() == "d" else driving
         elif words := [word for word in re.split(r"[,\s]+", line.strip()) if word]:
-            kind = next(place for place, word in enumerate(words) if word.upper() in ("R", "P", "RP", "G"))
+            kind = [word.upper() in ("R", "P", "RP", "G") for word in words].index(True)
             numbers = [float(number(word)) for word in words[kind + 1 : kind + 4] if not word.isalpha()]
             shows = words[-1] if re.fullmatch("[tf]{1,4}", words[-1]) else ""
             found.joints.append(Joint(str(len(found.joints)), "", complex(numbers[0], numbers[1]), words[kind].upper(),

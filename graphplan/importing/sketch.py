@@ -18,6 +18,7 @@ Way = tuple[str, str] | complex
 """The direction of a guide: from one point to another, or a vector."""
 
 LARGEST, MOST = 300, 1500  # links, and points that they have together
+FARTHEST = 1e9  # from the origin
 NEAR = 1e-9  # of the sketch: points that rounding alone keeps apart, and pins that lie on a line
 
 
@@ -72,7 +73,12 @@ class Sketch:
     notes: list[str] = field(default_factory=list)
 
     def point(self, key: str, at: complex, name: str = "") -> str:
-        """Put a point; its key."""
+        """Put a point; its key.
+
+        Fails with `ValueError` where it lies too far away.
+        """
+        if not abs(at) < FARTHEST:
+            raise ValueError(f"a point lies at {at.real:g}, {at.imag:g}")
         self.places[key], self.names[key] = at, name
         return key
 
@@ -127,6 +133,9 @@ def tidied(sketch: Sketch) -> Sketch:
     _slide(sketch)
     _find_driven(sketch)
     _connected(sketch)
+    slides = {(guide.link, guide.along) for guide in sketch.guides}
+    sketch.drives = [one for one in sketch.drives if {str(one.link), one.on} <= {*sketch.links, FRAME}
+                     and one.link != FRAME and (not one.slides or (one.link, one.on) in slides)]
     used = {point for points in sketch.bodies.values() for point in points}
     used |= {point for guide in sketch.guides if isinstance(guide.way, tuple) for point in guide.way}
     sketch.places = {key: at for key, at in sketch.places.items() if key in used}
@@ -214,7 +223,9 @@ def _absorb(sketch: Sketch, link: str, into: str) -> None:
 def _slide(sketch: Sketch) -> None:
     """A pin in a slot carries a block; two pins of a link in one slot let it slide alone."""
     slots = [replace(slot, way=_level(sketch.vector(slot.way)) if slot.along == FRAME else slot.way)
-             for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]]
+             for slot in sketch.slots if slot.at not in sketch.bodies[slot.along]
+             and abs(sketch.vector(slot.way)) > NEAR * sketch.size]
+    sketch.guides = [guide for guide in sketch.guides if abs(sketch.vector(guide.way)) > NEAR * sketch.size]
     while slots:
         slot = slots.pop(0)
         holders = [key for key in sketch.holders(slot.at) if key != slot.along]
@@ -309,7 +320,6 @@ def _connected(sketch: Sketch) -> None:
             named = " ".join(sketch.names[point] or "?" for point in points)
             sketch.note(f"a link that hangs on no other was left out: {sketch.called[key] or named}")
     sketch.guides = [one for one in sketch.guides if one.link in kept and one.along in kept]
-    sketch.drives = [one for one in sketch.drives if one.link in kept]
     if FRAME not in kept:
         sketch.fixed = {}
     else:

@@ -17,6 +17,7 @@ from graphplan.mechanism.scene_text import written
 BARE = re.compile(r"[A-Za-z0-9_-]+")
 DIGITS = 14  # of a coordinate, counted from the size of the sketch
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
+LARGEST = 1e12
 LONGEST = 200  # characters of a comment or title
 
 
@@ -135,6 +136,11 @@ def _pair(value: complex, size: float) -> str:
 
 
 def number(value: float, size: float = 1.0) -> str:
-    """A number as one writes it, without the digits that rounding left, which are beyond those of the size."""
+    """A number as one writes it, without the digits that rounding left, which are beyond those of the size.
+
+    Fails with `ValueError` where it is too large.
+    """
+    if not abs(value) < LARGEST:
+        raise ValueError(f"the number {value:g} is too large")
     places = DIGITS - Decimal(abs(size) or 1.0).adjusted()
     return written(Fraction(round(Decimal(repr(float(value))), min(places, 60)) + 0))

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import replace
 from decimal import Decimal, localcontext
 from fractions import Fraction
@@ -242,7 +243,10 @@ def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:
 
 
 def _guide(slide: Slide | Balance, points: dict[str, tuple[Fraction, Fraction]]) -> Place:
-    written: Any = slide.direction if slide.written is None else vector(slide.written, points.__getitem__, FINELY)[:2]
+    written: Any = slide.direction
+    if slide.written is not None:
+        with suppress(Misfit):  # such a direction has a fault of its own, and stands for any
+            written = vector(slide.written, points.__getitem__, FINELY)[:2]
     x, y = exactly(written)
     return _unit(_decimal(x), _decimal(y))
 

@@ -242,3 +242,32 @@ def test_it_is_followed_around_its_cycle(machine: Machine) -> None:
         for one, other in combinations(named, 2):
             lengths = np.abs(points[one] - points[other])
             assert lengths == pytest.approx(np.full(9, lengths[4]), rel=1e-9), link
+
+
+SPOILED = """
+[points]
+A = [0, 0]
+B = [50, 45]
+C = [200, 1e308]
+F = [300, 50]
+G = [300, 90]
+[links]
+1 = "A B C"
+2 = "F G"
+3 = "B G"
+frame = "F B G"
+[[slides]]
+link = "1"
+along = "frame"
+at = "A"
+direction = "A C"
+[[drive]]
+link = "2"
+omega = 1
+"""
+
+
+def test_a_guide_by_a_faulty_point_is_told_by_the_point() -> None:
+    """What special geometry would say of a scene with faults does not hide them."""
+    with pytest.raises(SceneError, match=r"points\.C: 1e308 is no usable number"):
+        parse(SPOILED, "spoiled")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import logging
 import math
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -25,6 +26,7 @@ from graphplan.sheet.lettering.lettering import CAPS
 
 T = TypeVar("T")
 
+logging.getLogger("ezdxf").addHandler(logging.NullHandler())  # what it mends in a file it would tell on standard error
 LARGEST = 8 * MB
 LINES, ENTITIES = 300_000, 20_000  # of a file: so many are read in a short time
 BESIDE = 15.0  # mm: so far right of the first page are further ones of words

@@ -1,5 +1,3 @@
-"use strict";
-
 /** Groups of links, closed one after another by Newton's steps: one pose of the linkage. Lengths count in reaches. */
 class Linkage {
   constructor(data, steps) {
@@ -263,5 +261,3 @@ function ahead(knots, travel) {
   }
   return state;
 }
-
-if (typeof module !== "undefined") module.exports = { Linkage, Path };

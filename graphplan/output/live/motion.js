@@ -1,5 +1,3 @@
-"use strict";
-
 /** The mechanism of a live page: where its drives are, where that puts its points, and what the construction says. */
 class Motion {
   constructor(data, tape) {
@@ -149,7 +147,9 @@ class Motion {
 
   drawn() {
     const points = this.points(), guides = this.guides(), programs = this.data.programs;
-    const torn = this.data.shared.find(([one, other]) => this.torn(points[one], points[other]));
+    const way = (name) => (([x, y]) => [x / Math.hypot(x, y), y / Math.hypot(x, y)])(guides[name] ?? this.data.guides[name]);
+    const torn = this.data.shared.find(([one, other]) => apart(points[one], points[other]) > ROUNDED * this.data.linkage.reach)
+      ?? this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED);
     if (torn) return { program: this._program, values: null, why: torn[2], results: null };
     const found = programs.map(() => null);
     const tried = (k) => (found[k] ??= this.tried(k, points, guides));
@@ -160,11 +160,6 @@ class Motion {
     if (program >= 0) this._program = program;
     const drawn = { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "" };
     return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
-  }
-
-  /** Whether two places are two. */
-  torn([x, y], [u, v]) {
-    return Math.hypot(x - u, y - v) > ROUNDED * this.data.linkage.reach;
   }
 
   /** Results with how they were found, and by how much the linkage's own opinion differs. */
@@ -181,13 +176,13 @@ class Motion {
     const rules = this.tape.rules[k](x), values = this.tape.drawn[k](x);
     if (typeof rules === "number") return { values: null, rules: null, why: asked.rules[rules], apart: Infinity };
     if (typeof values === "number") return { values: null, rules, why: asked.drawn[values], apart: Infinity };
-    let apart = 0, size = 0;
+    let most = 0, size = 0;
     for (const [i, mark] of wanted.entries()) {
-      const [px, py] = values[mark], [qx, qy] = rules.points[i], gap = Math.hypot(px - qx, py - qy);
-      apart = gap <= apart ? apart : gap;
-      size = Math.max(size, Math.hypot(qx, qy));
+      const gap = apart(values[mark], rules.points[i]);
+      most = gap <= most ? most : gap;
+      size = Math.max(size, Math.hypot(...rules.points[i]));
     }
-    return { values, rules, why: "", apart: apart === 0 ? 0 : apart / size };
+    return { values, rules, why: "", apart: most === 0 ? 0 : most / size };
   }
 
   // ---- drags ----------------------------------------------------------------------------------------------------
@@ -201,24 +196,21 @@ class Motion {
     else this.pull(at, [x, y]);
   }
 
-  /** Turns the drives until a moving point is as near to a place as it comes, downhill from here (Levenberg). */
+  /** Turns the drives until a moving point is as near to a place as it comes, downhill from here: Newton's steps, damped
+      where they lead uphill (Levenberg). */
   pull(name, goal) {
-    const apart = (knot) => {
-      const [x, y] = this.at(name, knot.lies);
-      return [goal[0] - x, goal[1] - y];
-    };
-    let found = { ...this.stop, knot: this.knot, path: this.path }, left = apart(this.knot), damping = 1e-9;
+    const way = (knot) => less(goal, this.at(name, knot.lies));
+    let found = { ...this.stop, knot: this.knot, path: this.path }, left = way(this.knot), damping = 1e-9;
     const tried = (change) => {
-      const next = this.along(found, change), gap = apart(next.knot);
+      const next = this.along(found, change), gap = way(next.knot);
       if (!(Math.hypot(...gap) < Math.hypot(...left))) return false;
       [found, left] = [next, gap];
       return true;
     };
     for (let round = 0; round < ROUNDS && damping < STIFF; round++) {
-      const columns = this.columns(name, found.knot);
-      const change = downhill(columns, left, damping, found.path.rules.longest);
+      const change = downhill(this.columns(name, found.knot), this.bends(name, found.knot), left, damping, found.path.rules);
       if (Math.max(...change.map(Math.abs)) < found.path.rules.finest) {
-        if (round || !this.nudges().some(tried)) break;  // at a dead point either way may lead there
+        if (!this.nudges().some(tried)) break;  // at a dead point either way may lead there
       } else damping = tried(change) ? Math.max(1e-9, damping / 4) : 8 * Math.max(1e-3, damping);
     }
     if (found.path === this.path) this.set(found.path, found);
@@ -230,10 +222,25 @@ class Motion {
 
   /** How a point moves by each drive: for a radian, or a reach of a sliding one. */
   columns(name, knot) {
+    return this.way.map((_, k) => this.rate(name, this.linkage.moving(knot, this.alone(k))));
+  }
+
+  /** One drive's turn by a radian, or a reach of a sliding one. */
+  alone(k) {
     const { drives, reach } = this.data.linkage;
-    return drives.map((drive, k) => {
-      const alone = drives.map((_, i) => (i !== k ? 0 : drive.slides ? reach : 1));
-      return this.rate(name, this.linkage.moving(knot, alone));
+    return drives.map((drive, i) => (i !== k ? 0 : drive.slides ? reach : 1));
+  }
+
+  /** How these columns change by each drive, by small differences. */
+  bends(name, knot) {
+    return this.way.map((_, k) => {
+      const one = this.alone(k), rate = this.linkage.stated(knot, one);
+      const [back, on] = [-NEARBY, NEARBY].map((turn) => {
+        const drives = knot.drives.map((from, i) => from + turn * one[i]);
+        const state = knot.state.map((from, i) => from + turn * rate[i]);
+        return this.columns(name, this.linkage.placed(drives, one, state, knot.lies));
+      });
+      return on.map(([x, y], i) => [(x - back[i][0]) / (2 * NEARBY), (y - back[i][1]) / (2 * NEARBY)]);
     });
   }
 
@@ -308,13 +315,22 @@ class Motion {
 }
 
 const ROUNDED = 1e-9;  // of the reach: points that lie no further apart lie in one place
+const NEARBY = 2 ** -14;  // radians
 const ROUNDS = 100, STIFF = 1e12;  // of a pull: how many steps at most, and how stiff it becomes before it gives up
 
-/** The turns of the drives that take a point nearer by so much, none longer than the longest: damped least squares. */
-function downhill(columns, [x, y], damping, longest) {
-  const n = columns.length, size = Math.max(...columns.map(([u, v]) => u * u + v * v)) || 1;
-  const rows = columns.map(([u, v], i) => [
-    ...columns.map(([a, b], k) => u * a + v * b + (i === k ? damping * size : 0)), u * x + v * y]);
+/** How far two places lie apart. */
+function apart([x, y], [u, v]) {
+  return Math.hypot(x - u, y - v);
+}
+
+/** The turns of the drives that take a point nearer by so much, none longer than the longest: a damped step of Newton's,
+    from how it moves by each drive, and how that bends. */
+function downhill(columns, bends, [x, y], damping, { longest }) {
+  const n = columns.length, far = Math.hypot(x, y);
+  const sizes = columns.map(([u, v], i) => u * u + v * v + Math.max(...bends[i].map((bend) => Math.hypot(...bend))) * far);
+  const size = Math.max(...sizes) || 1, rows = columns.map(([u, v], i) => [
+    ...columns.map(([a, b], k) => u * a + v * b - bends[i][k][0] * x - bends[i][k][1] * y + (i === k ? damping * size : 0)),
+    u * x + v * y]);
   for (let i = 0; i < n; i++) {
     for (let k = i + 1; k < n; k++) {
       const part = rows[k][i] / rows[i][i];
@@ -347,5 +363,3 @@ function written(table, above = "") {
   }
   return text;
 }
-
-if (typeof module !== "undefined") module.exports = { Motion };

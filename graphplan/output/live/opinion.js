@@ -1,5 +1,3 @@
-"use strict";
-
 /** The linkage's own opinion of its rates and forces, beside the construction's: velocities by Newton's rates,
     accelerations by their differences, balances by virtual powers.  */
 class Opinion {
@@ -168,5 +166,3 @@ const ROUGH = 2 ** -10;  // by how much two differences may differ, of the large
 function less(one, two) {
   return [one[0] - two[0], one[1] - two[1]];
 }
-
-if (typeof module !== "undefined") module.exports = { Opinion };

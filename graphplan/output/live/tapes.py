@@ -1,0 +1,166 @@
+"""A construction in any pose, as functions of JavaScript: the marks of its drawn steps, its results by the rules."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from typing import Any, NamedTuple, cast
+
+from graphplan.check.forces import Forces
+from graphplan.check.json_results import data as as_solved
+from graphplan.check.report import Report
+from graphplan.errors import Undrawable
+from graphplan.kernel.kinds import POINT, Movement
+from graphplan.kernel.program import Program, Step, error_at, evaluate
+from graphplan.kernel.tape.record import Symbol, Symbols, Tape
+from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.methods.construction import Construction
+
+SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
+"""What of the solver's report is another in each pose."""
+
+Data = dict[str, Any]
+
+
+def arrow(parameters: str, body: Iterable[str]) -> str:
+    return "\n".join([f"{parameters} => {{", *body, "}"])
+
+
+def _literal(value: Any, text: Mapping[int, str]) -> str:
+    """Nested values, symbols among them, as JavaScript."""
+    if isinstance(value, dict):
+        return "{" + ", ".join(f"{json.dumps(key)}: {_literal(part, text)}" for key, part in value.items()) + "}"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_literal(part, text) for part in value) + "]"
+    return text[value.place] if isinstance(value, Symbol) else json.dumps(value)
+
+
+def _symbols(value: Any) -> Iterator[int]:
+    """The places of all symbols in nested values."""
+    if isinstance(value, dict | list | tuple):
+        for part in value.values() if isinstance(value, dict) else value:
+            yield from _symbols(part)
+    elif isinstance(value, Symbol):
+        yield value.place
+
+
+class _Asking(Symbols):
+    """Symbols that keep why a question was asked, by the step that asked it."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.reasons: list[tuple[str, str]] = []
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        return self._noted(super().sqrt(value, code, why), code, why)
+
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        return self._noted(super().nonzero(value, scale, code, why), code, why)
+
+    def _noted(self, found: Any, code: str, why: str) -> Any:
+        self.reasons += [(code, why)] * (len(self.tape.questions) - len(self.reasons))
+        return found
+
+
+class _Answering(Writer):
+    """Writes questions that give the number of the one that fails."""
+
+    def __init__(self, tape: Tape, inputs: Mapping[int, str]):
+        nonzero, root = (text.replace("null", "{name}") for text in (JAVASCRIPT.nonzero, JAVASCRIPT.root))
+        super().__init__(tape, JAVASCRIPT._replace(nonzero=nonzero, root=root), inputs)
+        self.numbers = {asked_of(question): k for k, question in enumerate(tape.questions)}
+
+    def _question(self, places: tuple[int, ...], name: str) -> str:
+        return super()._question(places, str(self.numbers[places]))
+
+
+class _Told(NamedTuple):
+    """A program on a tape: the domain, the value of each step, and which step asked each question."""
+
+    domain: _Asking
+    values: list[Any]
+    asked: list[Step]
+
+
+class PosedTapes:
+    """One construction in any pose: two functions of what moves, and what is to be known of them.
+
+    Both read an array and give the number of a question that fails, or: `drawn` the values of all marks, `rules` the
+    wanted points and the results.
+    """
+
+    def __init__(self, drawing: Construction):
+        self.drawing, scene = drawing, drawing.scene
+        given = {step.name for program in (drawing.drawn, drawing.program) for step in program.steps[:program.givens]}
+        self.points = [name for name in scene.points if name in given]
+        self.guides = [slide.name for slide in scene.slides if slide.through is None and slide.along != FRAME]
+        drawn, rules = self._told(drawing.drawn), self._told(drawing.program)
+        self.wanted = [(i, j) for i, j in zip(drawing.drawn.wanted, drawing.program.wanted, strict=True)
+                       if drawing.drawn.steps[i].op.gives == POINT]
+        self.drawn = self._function(drawn, tuple(drawn.values))
+        points = tuple(rules.values[j] for _, j in self.wanted)
+        self.rules = self._function(rules, {"points": points, "results": self._results(rules)})
+        steps = len(drawing.drawn) - drawing.drawn.givens
+        self.data = {
+            "points": self.points, "guides": self.guides, "wanted": [i for i, _ in self.wanted],
+            "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
+            "title": scene.title, "method": drawing.method, "steps": steps,
+        }  # fmt: skip
+
+    def _told(self, program: Program) -> _Told:
+        """A program on a tape of its own."""
+        domain, asked = _Asking(), list[Step]()
+        number = domain.tape.input
+        given: dict[Any, Any] = {name: {part: number(f"{name}.{part}") for part in "xy"} for name in self.points}
+        for name in self.guides:
+            way = {part: number(f"{name}.{part}") for part in ("dx", "dy")}
+            given |= {step.index: way for step in program.steps
+                      if step.op.movement is Movement.GUIDED and " along ".join(step.links) == name}
+        values = evaluate(program, domain, given,
+                          lambda step: asked.extend([step] * (len(domain.tape.questions) - len(asked))))
+        return _Told(domain, values, asked)
+
+    def _reasons(self, program: Program, told: _Told) -> list[str]:
+        """Why each question's step cannot be drawn where its answer is no."""
+        reasons = zip(told.asked, told.domain.reasons, strict=False)
+        return [str(error_at(program, step, Undrawable(*reason))) for step, reason in reasons]
+
+    def _results(self, told: _Told) -> Data:
+        """What `solve` prints, of symbols."""
+        domain, program = told.domain, self.drawing.program
+        results = self.drawing.told([told.values[index] for index in program.wanted], domain)
+        at = {name: (domain.tape.input(f"{name}.x"), domain.tape.input(f"{name}.y")) for name in self.points}
+        scene = self.drawing.scene.posed({**self.drawing.scene.points, **at}, lambda one: one.direction)
+        forces = _Forces(scene, results, cast(Any, None), rounds=self.drawing.rounds, bounded=True)
+        found = as_solved(_Report(self.drawing, cast(Any, None), results, False, forces if scene.loads else None,
+                                  posed=scene))
+        return {key: part for key, part in found.items() if key not in SOLVED}
+
+    def _function(self, told: _Told, wanted: Any) -> str:
+        """A function of the points' coordinates and the guides' directions to what is wanted."""
+        tape = told.domain.tape
+        names = [f"{name}.{part}" for name in self.points for part in "xy"]
+        names += [f"{name}.{part}" for name in self.guides for part in ("dx", "dy")]
+        inputs = {tape.input(name).place: f"x[{k}]" for k, name in enumerate(names)}
+        writer = _Answering(tape, inputs)
+        body = writer.statements([*_symbols(wanted)], tape.questions)
+        return arrow("(x)", [*body, f"return {_literal(wanted, writer.text)};"])
+
+
+class _Forces(Forces):
+    """Forces of symbols; their efficiency is left to the page, which knows the powers."""
+
+    efficiency = None
+
+
+@dataclass(frozen=True)
+class _Report(Report):
+    """A report in another pose."""
+
+    posed: Scene | None = None
+
+    @property
+    def scene(self) -> Scene:
+        return self.posed or self.drawing.scene

@@ -53,7 +53,7 @@ def run(options: argparse.Namespace) -> int:
 
 def exported(name: str, on_sheet: Drafted) -> str | bytes:
     """A construction on its sheet in the format of this name; fails with `Refused` where that cannot be had."""
-    content: str | bytes = back_end(name)(READ[FORMATS[name].reads](on_sheet))
+    content: str | bytes = back_end(name)(*READ[FORMATS[name].reads](on_sheet))
     return content
 
 

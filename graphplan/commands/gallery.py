@@ -20,6 +20,7 @@ from typing import TYPE_CHECKING
 
 from graphplan.commands.choices import add_language
 from graphplan.commands.export import exported
+from graphplan.commands.live import page
 from graphplan.commands.output import Messages, error, folder_at, write_all
 from graphplan.commands.result_schemas import tables
 from graphplan.errors import Refused
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
     from graphplan.words.tongue import Tongue
 
 FILES = ("ggb", "tikz", "gcl", "dxf")  # formats of other programs, each in a folder of its own
-LIVE = "live"
+LIVE, SCRIPT = "live", "graphplan-live.js"  # the folder of the moving pages, and the script that they share
 RESERVED = ("index", "tutorial", "reference", *FILES, LIVE)
 
 
@@ -80,6 +81,7 @@ class _Site:
     def files(self) -> Iterator[tuple[str, str | bytes]]:
         """Every file of the site, by its name in the folder: its scenes' one after the other, then its pages."""
         from graphplan.mechanism.scene import load, packaged
+        from graphplan.output.live.page import script
         from graphplan.output.manual import scenes, tutorial
         from graphplan.output.manual.reference import reference
         from graphplan.output.manual.site import INDEX, REFERENCE, TUTORIAL
@@ -89,10 +91,14 @@ class _Site:
         for count, (name, scene) in enumerate(names.items(), 1):
             messages.progress(f"{count}/{len(names)} {name}")
             one, files = self._shown(load(scene), name)
+            if one.live:
+                yield one.live, self._live(scene)
             yield from files.items()
             yield f"{one.name}.html", scenes.scene_page(one, self.tongue)
             shown.append(one)
         messages.progress("")
+        if not self.options.brief:
+            yield f"{LIVE}/{SCRIPT}", script()
         charts = sorted(path.stem for path in (self.options.folder / "charts").glob("*.svg"))
         yield INDEX, scenes.index(shown, charts, self.tongue)
         yield TUTORIAL, tutorial.tutorial([f"{name}.svg" for name in names], self.tongue)
@@ -128,7 +134,16 @@ class _Site:
             files |= {f"{name}.toml": scene.text} | dict(self._exported(name, on_sheet))
             told |= {f"{name}.toml": said("the scene")} | {
                 path: FORMATS[path.partition("/")[0]].told for path in files if "/" in path}
-        return ShownScene(scene, name, data(found)["steps"], words, told), files
+        live = "" if self.options.brief else f"{LIVE}/{name}.html"
+        return ShownScene(scene, name, data(found)["steps"], words, told, live), files
+
+    def _live(self, scene: str) -> str:
+        """The page on which a scene moves."""
+        from graphplan.commands import parser
+
+        words = ["live", scene, "-o", "page.html", "--choices", "none"]
+        words += ["--language", self.options.language] if self.options.language else []
+        return page(parser(["live"]).parse_args(words), shared=SCRIPT)
 
     def _exported(self, name: str, on_sheet: Drafted) -> Iterator[tuple[str, str | bytes]]:
         """What other programs read."""

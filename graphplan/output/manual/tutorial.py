@@ -40,7 +40,7 @@ def first_plan() -> list[Lesson]:
         Lesson(said("The same with a polar plan in the place of orthogonal velocities, and in German."),
                (f"graphplan draw {FILE} --plan polar --language de -o polar.svg",)),
         Lesson(said("Let it move: open the page in a browser, drag the crank or a pin, go through the steps in any "
-                    "pose."), (f"graphplan handout {FILE} -o moving.html",)),
+                    "pose."), (f"graphplan live {FILE} -o moving.html",)),
         Lesson(said("A machine of your own begins with a scene in which every section is explained; or with one from "
                     "another program."), ("graphplan new machine.toml",)),
     ]

@@ -49,8 +49,8 @@ class Moving {
   spell() {
     const {page, still} = this, {svg} = page;
     svg.append(this.layer = made("g", {id: "handles"}));
-    const {under, shared} = page.motion.data, names = Object.keys(page.motion.points());
-    this.points = names.filter(name => !(name in under) && !(name in shared));
+    const {under, shared} = page.motion.data, covered = new Set([...Object.keys(under), ...shared.map(([one]) => one)]);
+    this.points = Object.keys(page.motion.points()).filter(name => !covered.has(name));
     this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
     for (const id of ["run", "home", "drive", "travel"]) by(id).disabled = Boolean(still);
     by("unit").textContent = this.unit.trim();

@@ -151,7 +151,7 @@ class Page {
   warn() {
     const {motion} = this, results = motion.results(), said = this.translated(motion.said || motion.still || "");
     const off = results && Object.values(results.check ?? {}).some(one => one > 1e-5);
-    this.said = said || (!this.values ? this.say("undrawn", this.translated(motion.pose.why ?? "")) : "")
+    this.said = said || (this.values ? "" : motion.pose.why ? this.say("undrawn", this.translated(motion.pose.why)) : this.say("formless"))
       || (!results ? this.say("singular") : off ? this.say("differs") : "");
     if (by("said").textContent !== this.said) by("said").textContent = this.said;
   }

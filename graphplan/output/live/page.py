@@ -26,14 +26,14 @@ from graphplan.output.live.texts import Texts
 from graphplan.output.live.words import WORDS
 from graphplan.output.svg import svg
 from graphplan.phrases import Said
+from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.layout import captions, framed, layout, sheet
 from graphplan.sheet.plates.display import Rect, Sheet
 from graphplan.sheet.plates.plans import Plans, around
 from graphplan.words.tongue import Tongue, tongue
 
 PACKING = 9  # how hard gzip tries
-STILL = "paper", "border", "ruling", "text"  # layers that no pose moves
 SCRIPTS = "texts.js", "page.js", "stepping.js", "moving.js", "tracing.js", "choosing.js"
 POLICY = "default-src 'none'; img-src data:; style-src 'unsafe-inline'; script-src 'unsafe-inline' 'unsafe-eval'"
 SHARED = " 'self' file:"  # where a script that pages share may come from
@@ -75,17 +75,17 @@ class LivePage:
         template = files(__package__).joinpath("live.html").read_text("utf-8")
         say = tongue(self.languages[0])
         own = self._spoken(0, say)
-        sheet = _sheet(self._in(self._own, say))
+        first = layout(self._own.plans.drawing, composition=self._in(self._own, say))
         parts = {
             **{f"word:{name}": escape(say(word)) for name, word in WORDS.items()},
             "language": say.code, "title": escape(say.title(self.title)),
             "source": escape(self._own.plans.drawing.scene.source), "policy": POLICY + (SHARED if shared else ""),
-            "width": f"{sheet.width:g}", "height": f"{sheet.height:g}", "svg": _inline(sheet),
+            "width": f"{first.width:g}", "height": f"{first.height:g}", "svg": _inline(first),
             **{name: own["programs"][0][name] for name in ("list", "readings", "tables", "forms")},
             "data": embedded(json.dumps(self._data(), ensure_ascii=False, separators=(",", ":"))),
             "packs": "\n".join(f'<script type="application/octet-stream" id="pack-{number}">{packed(pack)}</script>'
                                for number, pack in enumerate(self._packs())),
-            "scene": embedded(sheet.scene),
+            "scene": embedded(first.scene),
             "script": f'<script src="{escape(shared)}"></script>' if shared else f"<script>\n{script()}</script>",
         }  # fmt: skip
         return re.sub(r"\{\{([\w:]+)\}\}", lambda place: parts[place[1]], template)
@@ -136,10 +136,9 @@ class LivePage:
         """What of a variant is said in a language, told once."""
         if (number, say.code) not in self._told:
             compositions = [self._in(one, say) for one in self.variants[number].compositions]
-            still = _sheet(compositions[0])
-            still = replace(still, items=tuple(item for item in still.items if item.layer in STILL))
+            still = [*framed(compositions[0]), *captions(compositions[0])]
             self._told[number, say.code] = {
-                "title": say.title(self.title), "svg": _inline(still),
+                "title": say.title(self.title), "svg": _inline(sheet(compositions[0], still, CONSTRUCTION)),
                 "pictures": [pictures.picture(one) for one in compositions],
                 "programs": [texts.told(say) for texts in self._texts[number]],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
@@ -168,13 +167,9 @@ def script() -> str:
     return "\n".join(['"use strict";', "(() => {", motions.script(), pictures.scripts(), *own, "})();", ""])
 
 
-def _sheet(composition: Composition) -> Sheet:
-    return layout(composition.plans.drawing, composition=composition)
-
-
-def _inline(sheet: Sheet) -> str:
+def _inline(page: Sheet) -> str:
     """A sheet as SVG for the page, which has the scene elsewhere."""
-    text = svg(replace(sheet, scene=""), id="picture", role="img", aria_label=sheet.title)
+    text = svg(replace(page, scene=""), id="picture", role="img", aria_label=page.title)
     return text[text.index("<svg") :].strip()
 
 

@@ -25,7 +25,8 @@ class Tracing {
     box.replaceChildren();
     by("curves").hidden = Boolean(page.motion.still);
     if (page.motion.still) return;
-    const paths = Object.keys(linkage.owned).filter(name => !(name in page.motion.data.shared));
+    const shared = new Set(page.motion.data.shared.map(([one]) => one));
+    const paths = Object.keys(linkage.owned).filter(name => !shared.has(name));
     this.all = [...paths.map(name => ({key: `path ${name}`, words: page.say("path", name), point: name, panel: 0})),
       ...page.drawn.vectors.filter(({name}) => name).map(({name, end, start, panel}) => ({key: name, end, start, panel,
         words: page.say(page.drawn.turned ? "ends" : "hodograph", name)}))];

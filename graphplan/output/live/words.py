@@ -26,6 +26,7 @@ WORDS: dict[str, Said] = {
     "limits": said("from {0} to {1}", "%1", "%2"), "round": said("all around"),
     "handle": said("Point {0}: drag it, or move it by the arrow keys", "%"),
     "undrawn": said("In this pose the construction cannot be drawn: {0}", "%"),
+    "formless": said("In this pose the construction takes other forms than those that are drawn here."),
     "singular": said("In this pose there are no results."),
     "differs": said("Construction and second opinion differ in this pose."),
 }  # fmt: skip

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import json
 import math
+import os
 import re
 from collections import Counter
 from collections.abc import Iterator
 from functools import cache
 from html import unescape
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -17,6 +19,7 @@ from pages import Reader, chromium, opened, page_of
 import graphplan as gp
 from graphplan.commands import main
 from graphplan.cycle import follow
+from graphplan.mechanism.scene import packaged
 from graphplan.sheet.layout.composition import Composition, compose
 from graphplan.sheet.words.protocol import Protocol
 from graphplan.sheet.words.texts import Words
@@ -106,13 +109,20 @@ def test_bad_input_is_refused(tmp_path: Any, capsys: pytest.CaptureFixture[str])
 
 def test_pages_may_share_their_script() -> None:
     """With a shared script the page refers to that, and has none of its own."""
-    from graphplan.output.live.page import Variant, live, script
+    from graphplan.output.live.page import script
 
-    composition = composition_of("four-bar")
-    page = live([Variant("orthogonal", "", (composition,))], ["en"], "Four-bar", shared="graphplan-live.js")
+    page = shared_page()
     assert '<script src="graphplan-live.js"></script>' in page
     assert "class Motion" in script()
     assert "class Motion" not in page
+
+
+@cache
+def shared_page() -> str:
+    from graphplan.output.live.page import Variant, live
+
+    composition = composition_of("four-bar")
+    return live([Variant("orthogonal", "", (composition,))], ["en"], "Four-bar", shared="graphplan-live.js")
 
 
 # ---- in a browser ----------------------------------------------------------------------------------------------------
@@ -421,6 +431,35 @@ def test_results_and_words_are_python_s_in_other_poses(browser: Any) -> None:
                     assert complex(*rates[kind]) == pytest.approx(wanted, abs=1e-9 * max(abs(wanted), 100))
             speed = gp.phrases.digits(abs(complex(poses.velocity["M"][k])))
             assert speed in unescape(told)
+
+
+@pytest.mark.parametrize("name", packaged() if "GRAPHPLAN_LIVE" in os.environ else ("triad-loaded", "alt-eight-link"))
+def test_pages_of_packaged_scenes_move(browser: Any, name: str) -> None:
+    """Between its limits a mechanism moves and its points are dragged, and nobody complains."""
+    with opened(browser, page_of("live", name, "--choices", "none")) as page:
+        low, high = (limit if limit is not None else end
+                     for limit, end in zip(page.evaluate("graphplan.limits()"), (-170, 170), strict=True))
+        for k in range(1, 8):
+            travel = low + (high - low) * k / 8
+            page.evaluate(f"graphplan.travel = {travel}")
+            assert page.evaluate("graphplan.travel") == pytest.approx(travel, abs=1e-9)
+            assert page.evaluate("graphplan.said") or page.evaluate("graphplan.results()")
+        page.evaluate("for (const [name, [x, y]] of Object.entries(graphplan.points())) graphplan.drag(name, x + 1, y)")
+        assert all(math.isfinite(one) for place in page.evaluate("graphplan.points()").values() for one in place)
+
+
+def test_a_shared_script_serves_from_the_disk(browser: Any, tmp_path: Path) -> None:
+    """A page whose script stands beside it moves as others do."""
+    from graphplan.output.live.page import script
+
+    page = tmp_path / "page.html"
+    page.write_text(shared_page(), "utf-8")
+    (tmp_path / "graphplan-live.js").write_text(script(), "utf-8")
+    found = browser.new_page()
+    found.goto(page.as_uri())
+    found.evaluate("graphplan.ready")
+    assert found.evaluate("graphplan.travel = 12; graphplan.results().points.A.velocity.length") == 2
+    found.close()
 
 
 def test_a_limit_stops_it_with_its_reason(browser: Any) -> None:

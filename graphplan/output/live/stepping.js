@@ -74,7 +74,7 @@ class Stepping {
     const group = step.number ? page.svg.querySelector(`g.step[data-step="${step.number}"]`) : null;
     const ring = made("g", {class: `halo ${role}`, "clip-path": `url(#${sheet.clip}-${step.plan})`});
     const strokes = [...group?.querySelectorAll("polyline, path, circle, polygon") ?? []]
-      .filter(stroke => !stroke.closest("[display=none]"));
+      .filter(stroke => !stroke.closest("[display=none], [transform]"));  // letters are not lit up
     ring.append(...strokes.map(stroke => stroke.cloneNode(true)));
     const spot = this.spot(index), wide = (page.zoomed ? page.drawn.panels[step.plan] : page.drawn.plans)[2];
     const radius = (role === "made" ? 11 : 9) * wide / page.svg.clientWidth;

@@ -260,14 +260,14 @@ class Sheet {
   write(rest) {
     const [breaks, obstacles, home] = this.drawn;
     const there = new Map([...this.groups.keys()].map(key => [key, new Set()]));
-    this.panels.forEach((_, panel) => {
-      const wishes = this.wishes.of(panel, breaks);
-      for (const letter of this.lettering.placed(panel, wishes, obstacles[panel], {home, rest})) {
+    this.letters = this.panels.map((_, panel) =>
+      this.lettering.placed(panel, this.wishes.of(panel, breaks), obstacles[panel], {home, rest}));
+    for (const letters of this.letters)
+      for (const letter of letters) {
         const key = letter.wish.step === undefined ? "letters" : this.steps[letter.wish.step].number;
         there.get(key).add(letter.id);
         this.groups.get(key).letter(letter.id, letter);
       }
-    });
     for (const [key, group] of this.groups) group.without(there.get(key));
   }
 }

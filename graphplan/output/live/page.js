@@ -138,13 +138,14 @@ class Page {
       return;
     }
     this.hurried = now;
-    const numbers = this.values ? this.variant.outputs[this.program](this.values, Numbers) : [];
+    const {windows, sheet} = this.picture, larger = windows.map(({scale}, i) => sheet.panels[i].scale / scale);
+    const numbers = this.values ? this.variant.outputs[this.program](this.values, larger, Numbers) : [];
     const read = this.motion.results() ? numbers : [];
     for (const [node, text, result] of this.live) {
       const told = text.fill(result ? read : numbers);
       if (node.innerHTML !== told) node.innerHTML = told;
     }
-    this.stepping.tell();
+    this.stepping.speak();
   }
 
   // what stops the mechanism, or the construction

@@ -93,15 +93,20 @@ class Stepping {
 
   // ---- the words
 
-  tell() {
-    const {page, step, buttons} = this, {place, count, words} = page;
+  // the sentence of the step, as the list has it
+  speak() {
+    const {page, step} = this, {place, count, words} = page, button = this.buttons[place - 1];
     const set = (id, told) => { if (by(id).innerHTML !== told) by(id).innerHTML = told; };
-    const button = buttons[place - 1];
     set("sentence", step ? `${words.step} ${place}/${count}. ${button.lastElementChild.innerHTML}` : words.begin);
-    const whole = button && this.wholes.find(one => one.parentElement.contains(button));
-    set("whole", whole?.innerHTML.replace(/ data-told="\d+"/g, "") ?? "");
+    set("whole", this.whole?.innerHTML.replace(/ data-told="\d+"/g, "") ?? "");
+  }
+
+  tell() {
+    const {page, step, buttons} = this, {place, count} = page, button = buttons[place - 1];
+    const whole = this.whole = button && this.wholes.find(one => one.parentElement.contains(button));
     const stage = button?.closest(".stage");
-    set("stage", stage ? [...stage.children].filter(one => one.tagName !== "OL").map(one => one.outerHTML).join("") : "");
+    by("stage").innerHTML = [...stage?.children ?? []].filter(one => one.tagName !== "OL").map(one => one.outerHTML).join("");
+    this.speak();
     const names = page.told.programs[page.program].names;
     for (const [id, marks] of [["reads", step ? [...new Set(step.reads)] : []], ["makes", step ? [this.index] : []]]) {
       by(id).hidden = !marks.length;

@@ -32,6 +32,17 @@ LEVELS = "{}", "<sup>{}</sup>", "<sub>{}</sub>"  # of letters: on the line, abov
 FOLLOWS = re.compile(f"[{PLACE}{EITHER}]")
 
 
+@dataclass(frozen=True)
+class FollowingScales(Scales):
+    """Scales of a sheet on which plans may be drawn at others: each so many times as many lengths for a mm."""
+
+    later: Later = field(default_factory=Later)
+    panels: tuple[str, ...] = ()
+
+    def of(self, panel: str) -> Any:
+        return super().of(panel) * self.later.input(f"s[{self.panels.index(panel)}]")
+
+
 class Following(Construction):
     """A construction whose marks lie wherever they will lie."""
 
@@ -57,7 +68,7 @@ class Texts:
         """The texts of the given pose by the part of the page, what the marks are called, and the templates."""
         plans = replace(self.plans, tongue=tongue)
         given = Telling(plans, self.scales)
-        following = Telling(Plans(Following(plans.drawing, self.later), tongue), self.scales)
+        following = Telling(Plans(Following(plans.drawing, self.later), tongue), self._scales)
         parts = {"list": "\n".join(given.protocol()), "readings": "".join(given.readings()),
                  "tables": given.results(), "forms": "".join(given.forms())}
         for _ in (*following.protocol(), *following.readings(), following.results()):
@@ -66,6 +77,11 @@ class Texts:
             raise ValueError("a text of other poses has other parts")
         return {**parts, "names": [given.set(plans.drawing.drawn.text(i)) for i in range(len(plans.drawing.drawn))],
                 "templates": {k: told for k, told in enumerate(following.parts) if FOLLOWS.search(told)}}
+
+    @property
+    def _scales(self) -> Scales:
+        """The scales of the plans, wherever they will be."""
+        return FollowingScales(**vars(self.scales), later=self.later, panels=tuple(self.plans.panels))
 
     def javascript(self) -> str:
         """The function that fills all templates that were told."""

@@ -59,11 +59,12 @@ class Later:
             del self.assumed[place]
 
     def javascript(self) -> str:
-        """A function from the values of the marks to the outputs; it is given what is no arithmetic."""
+        """A function to the outputs, of the marks' values v, of s, by which plans have larger scales, and of what is
+        no arithmetic."""
         writer = Writer(self.tape, LIVE)
         body = writer.statements([*self.outputs])
         told = ",".join(writer.text[place] for place in self.outputs)
-        return "\n".join(["function (v, {tenths, hypot}) {", *body, f"return [{told}];", "}"])
+        return "\n".join(["function (v, s, {tenths, hypot}) {", *body, f"return [{told}];", "}"])
 
 
 class Asked(Undecided):

@@ -82,7 +82,7 @@ def test_what_hangs_on_a_number_is_told_of_both_cases() -> None:
     assert later.outputs
     poses = [[-1, 5], [2, 5], [2, 0.5]]
     found = run(f"const f = {later.javascript()}; const t = new Template(data.template, {{'.': ','}});"
-                "console.log(JSON.stringify(data.poses.map(v => t.fill(f(v, Numbers)))))",
+                "console.log(JSON.stringify(data.poses.map(v => t.fill(f(v, [], Numbers)))))",
                 {"template": template, "poses": poses})
     assert found == ["below", "7 of two", "2,5 of one"]
     assert isinstance(x, Unknown)
@@ -135,7 +135,7 @@ def test_filled_in_they_are_the_texts_of_that_pose(name: str, language: str) -> 
     filled = run(f"const f = {texts.javascript()};"
                  "const all = Object.entries(data.templates).map(([k, text]) => [k, new Template(text, data.signs)]);"
                  "const told = numbers => Object.fromEntries(all.map(([k, text]) => [k, text.fill(numbers)]));"
-                 "console.log(JSON.stringify(data.poses.map(values => told(f(values, Numbers)))))",
+                 "console.log(JSON.stringify(data.poses.map(values => told(f(values, Array(9).fill(1), Numbers)))))",
                  {"templates": told["templates"], "poses": [one.values for one in found],
                   "signs": {chr(sign): own for sign, own in say.signs.items()}})
     given = in_words(Plans(drawing, say), scales)

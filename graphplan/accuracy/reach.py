@@ -1,10 +1,264 @@
-"""Constructions that hold over the reach of drags: one that suits its pose need not be drawable in the next one."""
+"""Constructions that hold over the reach of drags: a form that suits its pose may vanish in the next one.
+
+The linkage is led around its cycle, and its pins are dragged a little; in all poses at once the drawn steps are
+compared with what the rules say. Where they fail, the same program is drawn out in forms for such a pose; a short list
+then serves wherever the rules do. A compound whose form fails somewhere is told of, too: an export may have its mark by
+the rule itself, which holds everywhere.
+
+Cost, beside construct: a replay of the drawn steps over some sixty poses (milliseconds), the tape of the linkage (0.02
+to 0.5 s) and for each further construction its drawing out.
+"""
 
 from __future__ import annotations
 
-from graphplan.methods.construction import Construction
+from collections.abc import Mapping
+from dataclasses import replace
+from random import Random
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from graphplan.cycle.relations import Relations, relations
+from graphplan.cycle.travel import paces
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.kinds import LINE, POINT
+from graphplan.kernel.numbers.arrays import Arrays
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.program import Program, Step, evaluate
+from graphplan.mechanism.model import Scene
+from graphplan.methods.construct import construct
+from graphplan.methods.construction import Compound, Construction
+from graphplan.sheet.cycle_frames import SAME, given_in, scene_in
+from graphplan.sheet.plates.display import Rect
+from graphplan.sheet.plates.view import View
+
+TRAVELS, DRAGS, FAR = 48, 4, 0.03  # poses around; drags of each pin, and how far, of the linkage's extent
+MOST = 12  # constructions that are drawn out at most
+ALONE = View(Rect(0.0, 0.0, 1.0, 1.0), 1.0, (0.0, 0.0))
+Array = Any
+
+
+class Reached(NamedTuple):
+    """Poses to which drags lead, the given one first: points and guides, complex arrays of shape (n,)."""
+
+    points: Mapping[str, Array]
+    guides: Mapping[str, Array]
+
+    def __len__(self) -> int:
+        return len(next(iter(self.points.values())))
+
+    def pose(self, k: int) -> tuple[dict[str, complex], dict[str, complex]]:
+        """One of them."""
+        return ({name: complex(z[k]) for name, z in self.points.items()},
+                {name: complex(z[k]) for name, z in self.guides.items()})
+
+
+def reached(drawing: Construction) -> Reached | None:
+    """Poses around the cycle and with pins dragged a little; none where the scene cannot be followed."""
+    found = relations(drawing.scene, ALONE)
+    if found is None:
+        return None
+    poses = [pose for pins, travels in _drags(found) if (pose := found.posed(pins, travels)) is not None]
+    if not poses:
+        return None
+    points, guides = ({name: np.array([complex(*pose[part][name]) for pose in poses]) for name in poses[0][part]}
+                      for part in (0, 1))
+    return Reached(points, guides)
+
+
+def _drags(found: Relations) -> list[tuple[dict[str, tuple[float, float]], list[float]]]:
+    """Where pins and drives are brought."""
+    scene, rng = found.scene, Random(1)
+    rates = paces(scene) if scene.drives else ()
+    low, high = found.limits if scene.drives else (0.0, 0.0)
+    part: Array = (1 - np.cos(np.linspace(0.0, np.pi, TRAVELS))) / 2 if scene.drives else []
+    drags: list[tuple[dict[str, tuple[float, float]], list[float]]] = [({}, [0.0] * len(rates))]
+    drags += [({}, [rate * (low + (high - low) * p) for rate in rates]) for p in part]
+    for name in found.free * DRAGS:
+        x, y = found.places[name].real, found.places[name].imag
+        dx, dy = (FAR * scene.extent * rng.uniform(-1, 1) for _ in range(2))
+        drags.append(({name: (x + dx, y + dy)}, [rate * rng.uniform(low, high) for rate in rates]))
+    return drags
 
 
 def constructions(drawing: Construction) -> list[Construction]:
-    """The given construction, then others that draw what it cannot in poses that the linkage reaches."""
-    return [drawing]
+    """The given construction, then others that draw what it cannot in poses that the linkage reaches.
+
+    Each other one is drawn in such a pose: its scene is the scene there.
+    """
+    try:
+        poses = reached(drawing)
+    except Refused:
+        poses = None
+    if poses is None:
+        return [drawing]
+    found, held = [drawing], [drawn_alike(drawing, poses)]
+    open = ~held[0] & _regular(drawing, poses)
+    while open.any() and len(found) < MOST:
+        places = np.flatnonzero(open)
+        k = int(places[len(places) // 2])
+        open[k] = False
+        other = _drawn_in(drawing, *poses.pose(k))
+        if other is not None and (holds := drawn_alike(other, poses))[k]:
+            found.append(other)
+            held.append(holds)
+            open &= ~holds
+    return _fewest(found, held)
+
+
+def _fewest(found: list[Construction], held: list[Array]) -> list[Construction]:
+    """Without those whose poses others draw as well; the first one stays."""
+    kept = list(range(len(found)))
+    for k in range(1, len(found)):
+        others = [held[i] for i in kept if i != k]
+        if not (held[k] & ~np.any(others, axis=0)).any():
+            kept.remove(k)
+    return [found[k] for k in kept]
+
+
+def _regular(drawing: Construction, poses: Reached) -> Array:
+    """The poses in which the rules give every point that is wanted, shape (n,)."""
+    wanted = _wanted(drawing.program, poses, drawing.program.wanted)
+    return np.all([np.isfinite(x) & np.isfinite(y) for x, y in wanted], axis=0) if wanted else np.ones(len(poses), bool)
+
+
+def drawn_alike(drawing: Construction, poses: Reached) -> Array:
+    """The poses in which the drawn steps give the points that the rules do, shape (n,)."""
+    with np.errstate(all="ignore"):
+        return _alike(drawing, poses, evaluate(drawing.drawn, Arrays(), _given(drawing.drawn, poses)))
+
+
+def _alike(drawing: Construction, poses: Reached, values: list[Any]) -> Array:
+    """The same, of values of the drawn steps."""
+    drawn, program, full = drawing.drawn, drawing.program, np.zeros(len(poses))
+    pairs = [(i, j) for i, j in zip(drawn.wanted, program.wanted, strict=True) if drawn.steps[i].op.gives == POINT]
+    if not pairs:
+        return np.ones(len(poses), dtype=bool)
+    ours = [(values[i][0] + full, values[i][1] + full) for i, _ in pairs]
+    truth = _wanted(program, poses, [j for _, j in pairs])
+    size = np.max([np.hypot(x, y) for x, y in truth], axis=0)
+    gaps = [np.hypot(x - u, y - v) for (x, y), (u, v) in zip(ours, truth, strict=True)]
+    return np.max(gaps, axis=0) <= SAME * size  # nan is not
+
+
+def _wanted(program: Program, poses: Reached, places: Any) -> list[tuple[Array, Array]]:
+    """Some points of a program in all poses."""
+    with np.errstate(all="ignore"):
+        values = evaluate(program, Arrays(), _given(program, poses))
+    full = np.zeros(len(poses))
+    return [(values[i][0] + full, values[i][1] + full) for i in places if program.steps[i].op.gives == POINT]
+
+
+def _given(program: Program, poses: Reached) -> dict[Any, dict[str, Any]]:
+    return given_in(program, poses.points, poses.guides)
+
+
+def _drawn_in(drawing: Construction, points: dict[str, complex], guides: dict[str, complex]) -> Construction | None:
+    """The same program drawn out in forms for a pose; where it has none, what the planner finds for the pose."""
+    given, scene = given_in(drawing.program, points, guides), scene_in(drawing.scene, points, guides)
+
+    def there(step: Step) -> Step:
+        other = given.get(step.name) or given.get(step.index)
+        return step.but(params={**step.params, **other}) if other else step
+
+    program = replace(drawing.program, steps=tuple(map(there, drawing.program.steps)))
+    one = Construction(**{**drawing.__getstate__(), "scene": scene, "program": program})
+    for afresh in (False, True) if drawing.scene.loads is None else (False,):
+        try:
+            found = _afresh(scene, drawing) if afresh else one
+            if found.values:
+                return found
+        except (ConstructionError, Refused):
+            continue
+    return None
+
+
+def _afresh(scene: Scene, drawing: Construction) -> Construction:
+    """What the planner finds for a pose, on the same plans."""
+    return construct(scene, plan="orthogonal" if drawing.turned else "polar", strict=drawing.strict)
+
+
+# ---- compounds that their forms do not hold everywhere ---------------------------------------------------------------
+
+
+class Missed(NamedTuple):
+    """A compound whose drawn form fails in some poses, and whether its line is drawn against the rule's way."""
+
+    compound: Compound
+    against: bool
+
+
+def holding(drawing: Construction) -> tuple[Construction, dict[int, Missed]]:
+    """The first of the constructions that serves in all poses if its missed compounds are put right, else that which
+    serves in most; and those compounds, by the mark that they make.
+    """
+    try:
+        poses = reached(drawing)
+    except Refused:
+        poses = None
+    if poses is None:
+        return drawing, {}
+    wrong, held = missed(drawing, poses)
+    open = _regular(drawing, poses) & ~held
+    if not open.any():
+        return drawing, wrong
+    found = [(drawing, wrong, held), *((one, *missed(one, poses)) for one in constructions(drawing)[1:])]
+    best = max(found, key=lambda one: int(one[2].sum()))
+    return best[0], best[1]
+
+
+def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Array]:
+    """The compounds whose form fails in some pose although their rule does not, by the mark that they make; and the
+    poses in which all that is wanted is right if they are put right, shape (n,).
+
+    Each is read from marks that are put right, where others before it fail.
+    """
+    drawn, given, domain = drawing.drawn, _given(drawing.drawn, poses), Arrays()
+    compounds = {compound.step.index: compound for compound in drawing.compounds}
+    values, found = list[Any](), dict[int, Missed]()
+    with np.errstate(all="ignore"):
+        for step in drawn.steps:
+            other = given.get(step.name) or given.get(step.index)
+            value = domain.whole(step.op.rule(domain, *[values[arg] for arg in step.args],
+                                              **({**step.params, **other} if other else step.params)))
+            compound = compounds.get(step.index)
+            if compound is not None and (sign := _sense(drawing, compound)):
+                args = [values[arg] for arg in compound.step.args]
+                truth = domain.whole(compound.step.op.rule(domain, *args, **compound.step.params))
+                truth = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
+                if (np.isfinite(truth[0]) & ~_one(step.op.gives, value, truth, args)).any():
+                    found[step.index], value = Missed(compound, sign < 0), truth
+            values.append(value)
+    return found, _alike(drawing, poses, values)
+
+
+def _sense(drawing: Construction, compound: Compound) -> int:
+    """Whether a compound's rule gives its drawn mark in the given pose: 1, or -1 for a line that runs against it."""
+    step = compound.step
+    try:
+        truth = step.op.rule(Floats(), *[drawing.values[arg] for arg in step.args], **step.params)
+    except (ConstructionError, ZeroDivisionError, ValueError):
+        return 0
+    value, args = drawing.values[step.index], [drawing.values[arg] for arg in step.args]
+    for sign in (1, -1) if step.op.gives == LINE else (1,):
+        signed = tuple(sign * part for part in truth) if step.op.gives == LINE else truth
+        if bool(np.all(_one(step.op.gives, value, signed, args))):
+            return sign
+    return 0
+
+
+def _one(kind: str, value: Any, truth: Any, args: Any) -> Array:
+    """Where two marks are one, beside the marks that they were made from."""
+    size: Array = 1e-12
+    for arg in args:
+        if len(arg) == 2:
+            size = np.maximum(size, np.hypot(arg[0], arg[1]))
+    if kind == LINE:
+        (a, b, c), (u, v, w) = value, truth
+        n, m = np.hypot(a, b), np.hypot(u, v)
+        return (np.hypot(a / n - u / m, b / n - v / m) <= SAME) & (np.abs(c / n - w / m) <= SAME * size)
+    if kind == POINT:
+        size = np.maximum(size, np.hypot(truth[0], truth[1]))
+        return np.hypot(value[0] - truth[0], value[1] - truth[1]) <= SAME * size
+    return np.all([np.abs(p - q) <= SAME * np.maximum(1e-12, np.abs(q)) for p, q in zip(value, truth, strict=True)],
+                  axis=0)

@@ -55,7 +55,7 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
 
     None where the pose is singular, or its drawing takes other forms than that of the given pose.
     """
-    drawn, program = (_given(steps, points, guides) for steps in (construction.drawn, construction.program))
+    drawn, program = (given_in(steps, points, guides) for steps in (construction.drawn, construction.program))
     try:
         values = evaluate(construction.drawn, Floats(), drawn)
         truth = evaluate(construction.program, Floats(), program)
@@ -63,7 +63,7 @@ def posed(construction: Construction, points: Mapping[str, complex], guides: Map
         return None
     if not _alike(construction, values, truth):
         return None
-    return Posed(construction, _scene(construction.scene, points, guides), values, program)
+    return Posed(construction, scene_in(construction.scene, points, guides), values, program)
 
 
 def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[Any]) -> bool:
@@ -74,7 +74,7 @@ def _alike(construction: Construction, values: Sequence[Any], truth: Sequence[An
     return all(math.dist(*pair) <= SAME * size for pair in pairs)
 
 
-def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
+def given_in(program: Program, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Given:
     """What is given to the steps of a program in a pose."""
     marked = {step.name for step in program.steps[: program.givens]}
     given: Given = {name: {"x": z.real, "y": z.imag} for name, z in points.items() if name in marked}
@@ -85,7 +85,7 @@ def _given(program: Program, points: Mapping[str, complex], guides: Mapping[str,
     return given
 
 
-def _scene(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Scene:
+def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Scene:
     """The scene in another pose."""
 
     def direction(slide: Any) -> Pair:
@@ -200,7 +200,7 @@ def undrawn(composition: Composition, points: Mapping[str, complex], guides: Map
     """The sheet of a pose in which nothing can be constructed: the mechanism alone."""
     bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
     window, motion = bare.views[MECHANISM], bare.plans.motion
-    mechanism = DrawnMechanism(_scene(bare.plans.drawing.scene, points, guides), window)
+    mechanism = DrawnMechanism(scene_in(bare.plans.drawing.scene, points, guides), window)
     shown = [*(motion.items(window) if motion else ()), *mechanism.items()]
     items = [cut for item in shown for cut in clip.clipped(item, window.rect)]
     letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,

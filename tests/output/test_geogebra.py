@@ -13,11 +13,12 @@ from random import Random
 from typing import Any
 
 import pytest
+from dragged_linkages import DraggedLinkage
 from geogebra_program import GeoGebra
 from geogebra_reader import COMMANDS, Ray, Round, opened, read
-from linkages import DraggedLinkage
 from objects import NAMES, PLACES, drafted_plates, gap, loose, programs
 
+from graphplan.cycle.relations import relations
 from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
 from graphplan.errors import ConstructionError
@@ -26,8 +27,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.program import Panel, evaluate
 from graphplan.output.exports.geogebra import _GeoGebraWriter, geogebra
 from graphplan.output.exports.ggb_commands import labels
-from graphplan.output.exports.relations import relations
-from graphplan.sheet.cycle_frames import _given as given_in_pose
+from graphplan.sheet.cycle_frames import given_in as given_in_pose
 from graphplan.sheet.plates.pens import BLUE
 
 SCENES = [("rosenauer-basic", False), ("jaanimets-10", False), ("walschaerts-loaded", False), ("four-bar", True)]

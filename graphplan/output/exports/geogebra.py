@@ -16,12 +16,12 @@ from functools import cached_property
 from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from graphplan.cycle.relations import Written, relations
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
 from graphplan.output.exports.ggb_commands import labels, letters, number, written
 from graphplan.output.exports.ggb_linkage import ROW, Linkage
 from graphplan.output.exports.ggb_xml import CURVES, LINKS, POINTS, VECTORS, Objects, empty, lettered, quoted, spot
-from graphplan.output.exports.relations import Written, relations
 from graphplan.output.exports.walk import Elements, Letter, Riding, corners
 from graphplan.phrases import joined, said, unit
 from graphplan.sheet.layout.scales import ACCELERATIONS, VELOCITIES, Scales

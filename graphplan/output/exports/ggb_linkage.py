@@ -12,11 +12,11 @@ from collections.abc import Callable, Iterator, Mapping
 from itertools import chain
 from xml.etree.ElementTree import Element
 
+from graphplan.cycle.relations import SPANS, Relations
+from graphplan.cycle.relations import Written as WrittenRelations
 from graphplan.mechanism.model import FRAME, Drive
 from graphplan.output.exports.ggb_commands import DEEPEST, LANGUAGE, number
 from graphplan.output.exports.ggb_xml import CURVES, POINTS, Objects, empty, lettered
-from graphplan.output.exports.relations import SPANS, Relations
-from graphplan.output.exports.relations import Written as WrittenRelations
 from graphplan.phrases import digits
 from graphplan.sheet.plates import pens
 

@@ -6,13 +6,13 @@ from __future__ import annotations
 from random import Random
 
 import pytest
-from linkages import DraggedLinkage
+from dragged_linkages import DraggedLinkage
 
 import graphplan as gp
+from graphplan.cycle.relations import Relations, relations
 from graphplan.cycle.travel import paces
 from graphplan.cycle.turn import under
 from graphplan.mechanism.scene import packaged, parse
-from graphplan.output.exports.relations import Relations, relations
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.view import View
 

@@ -13,8 +13,7 @@ the state i at the first drive's travel `cos state i`, `sin state i`, or `state 
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import Any, NamedTuple
 
@@ -23,16 +22,16 @@ import numpy as np
 from graphplan.cycle import closure, newton
 from graphplan.cycle.closure import Body, Drive
 from graphplan.cycle.dyads import Placed, dyad
+from graphplan.cycle.ground import Ground
 from graphplan.cycle.groups import Group
-from graphplan.cycle.linkage import Linkage
+from graphplan.cycle.linkage import Linkage, grounded
+from graphplan.cycle.planar import planar
 from graphplan.cycle.travel import TURN, closes, paces
 from graphplan.cycle.turn import RangeOfMotion, under
 from graphplan.errors import GraphplanError
 from graphplan.kernel.tape.record import Symbol, Symbols
 from graphplan.kernel.tape.written import DEEPEST, Language, Writer, function
 from graphplan.mechanism.model import FRAME, Scene
-from graphplan.output.exports.ground import Ground
-from graphplan.output.exports.planar import planar
 from graphplan.sheet.plates.view import View
 
 STEPS = 6  # of Newton: enough for pins that are dragged by a tenth of the linkage
@@ -103,7 +102,7 @@ class Relations:
     """
 
     def __init__(self, scene: Scene, view: View):
-        self.scene, self.view = _grounded(scene), view
+        self.scene, self.view = grounded(scene), view
         places = {name: view((float(x), float(y))) for name, (x, y) in scene.points.items()}
         self.domain = Symbols()
         self.tape = self.domain.tape
@@ -302,19 +301,21 @@ class Relations:
 
     def place(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> dict[str, Spot] | None:
         """Where all points are on paper, with some pins and the drives elsewhere; none where the pose is not."""
-        names = [*self.asked]
-        told = {name: tuple(map(self.tape.place, spot)) for name, spot in self.points.items()}
-        run = function(self.tape, [self.asked[name] for name in names], told)
+        found = self.posed(pins, travels)
+        return found[0] if found else None
+
+    def posed(self, pins: Mapping[str, Spot], travels: Sequence[float]) -> tuple[dict[str, Spot], ...] | None:
+        """The same, and where guides point that ride on links."""
         numbers = self.inputs(pins, travels)
         try:
-            found: dict[str, Spot] | None = run(*[numbers[name] for name in names])
+            found: tuple[dict[str, Spot], ...] | None = self._run(*[numbers[name] for name in self.asked])
         except (ValueError, ZeroDivisionError, OverflowError):
             return None
         return found
 
-
-def _grounded(scene: Scene) -> Scene:
-    """The scene with the points whose motion is given as pins of its frame."""
-    if not scene.motions:
-        return scene
-    return replace(scene, motions={}, links={**scene.links, FRAME: (*scene.links.get(FRAME, ()), *scene.motions)})
+    @cached_property
+    def _run(self) -> Callable[..., Any]:
+        """A function from the inputs to points and guides."""
+        told = tuple({name: tuple(map(self.tape.place, spot)) for name, spot in some.items()}
+                     for some in (self.points, self.guides))
+        return function(self.tape, [*self.asked.values()], told)

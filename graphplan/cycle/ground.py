@@ -7,13 +7,13 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from graphplan.cycle.dyads import Placed
+from graphplan.cycle.planar import Planar, planar
 from graphplan.kernel.kinds import Movement, made_by
 from graphplan.kernel.tape.record import Symbols
 from graphplan.mechanism.directions import vector
 from graphplan.mechanism.model import FRAME, Placement, Scene
 from graphplan.mechanism.numerals import exactly
 from graphplan.mechanism.placements import needs
-from graphplan.output.exports.planar import Planar, planar
 from graphplan.sheet.plates.view import View
 
 SAME = 1e-6  # mm: how near places of the frame are that are one

@@ -28,7 +28,7 @@ class Moving {
 
   get still() { return this.page.motion.still; }
   get slides() { return Boolean(this.page.motion.data.linkage.drives[0]?.slides); }
-  get unit() { return this.slides ? ` ${this.page.data.unit}` : "°"; }
+  get unit() { return this.slides ? ` ${this.page.data.units[this.page.language]}` : "°"; }
   get little() { return this.slides ? (this.ends[1] - this.ends[0]) / 200 : 1; }
 
   // from where to where the slider goes: to the limits, else once around
@@ -47,8 +47,8 @@ class Moving {
   // ---- the page is told in another language, or drawn in another pose
 
   spell() {
-    const {page, still} = this, {svg} = page;
-    svg.append(this.layer = made("g", {id: "handles"}));
+    const {page, still} = this;
+    by("handles").replaceChildren();
     const {under, shared} = page.motion.data, covered = new Set([...Object.keys(under), ...shared.map(([one]) => one)]);
     this.points = Object.keys(page.motion.points()).filter(name => !covered.has(name));
     this.grips = new Map(this.points.map(name => [name, this.grip(name)]));
@@ -64,7 +64,7 @@ class Moving {
   grip(name) {
     const {page} = this, grip = made("circle", {class: "handle", tabindex: 0, role: "button",
       "aria-label": page.say("handle", name), "data-point": name});
-    this.layer.append(grip);
+    by("handles").append(grip);
     grip.addEventListener("pointerdown", event => {
       if (event.button) return;
       event.preventDefault();

@@ -25,7 +25,7 @@ from graphplan.output.live import picture as pictures
 from graphplan.output.live.texts import Texts
 from graphplan.output.live.words import WORDS
 from graphplan.output.svg import svg
-from graphplan.phrases import Said
+from graphplan.phrases import Said, unit
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions, framed, layout, sheet
@@ -98,7 +98,8 @@ class LivePage:
             "languages": {code: LANGUAGES[code] for code in self.languages},
             "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
-            "unit": own.drawing.scene.units.length, "curves": list(own.drawing.scene.sheet.curves),
+            "units": {code: tongue(code)(unit(own.drawing.scene.units.length)) for code in self.languages},
+            "curves": list(own.drawing.scene.sheet.curves),
             "stepsFirst": self.steps_first,
         }  # fmt: skip
 

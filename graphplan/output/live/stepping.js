@@ -156,7 +156,7 @@ class Stepping {
   }
 
   frame(box) {
-    this.page.svg.setAttribute("viewBox", box.join(" "));
+    for (const svg of [this.page.svg, by("handles")]) svg.setAttribute("viewBox", box.join(" "));
     this.page.moving.measure();
   }
 

@@ -24,6 +24,7 @@ WORDS: dict[str, Said] = {
     "hodograph": said("Hodograph of {0}", "%"), "ends": said("Ends of {0}", "%"),
     "readings": said("Measured on the sheet"), "forms": said("Method and forms"),
     "limits": said("from {0} to {1}", "%1", "%2"), "round": said("all around"),
+    "points": said("Points of the mechanism"),
     "handle": said("Point {0}: drag it, or move it by the arrow keys", "%"),
     "undrawn": said("In this pose the construction cannot be drawn: {0}", "%"),
     "formless": said("In this pose the construction takes other forms than those that are drawn here."),

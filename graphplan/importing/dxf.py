@@ -2,7 +2,8 @@
 
 Layers and blocks tell more by their names: what is on `ground` or `frame` is fixed, what is on `slide` or `guide` are
 lines along which pins slide, what is on `drive`, `crank` or `input` drives, and all that is on a layer `link 3` is one
-link. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS).
+link. Texts beside pins are their names. The unit is that of the drawing ($INSUNITS). Of a sheet of graphplan's own that
+a CAD program saved anew the mechanism in its own size is read, which stands on layers of its own.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ GUIDES = re.compile(r"slide|guide|slot", re.IGNORECASE)
 DRIVES = re.compile(r"drive|crank|input|motor", re.IGNORECASE)
 LINK = re.compile(r"link[ _-]*(\S+)", re.IGNORECASE)
 OTHER = re.compile(r"dim|text|title|border|hidden|defpoints|hatch|cent(re|er)", re.IGNORECASE)
+OWN, SYMBOLS = "MECHANISM 1-1 ", re.compile(r"blocks|drive|dimensions")  # of graphplan's own sheets
 NEAR = 2e-4  # of the drawing: ends that are so near are one joint
 PIN = 0.06  # of the drawing: a larger circle is no pin
 BESIDE = 2.5  # heights of letters from a pin to its name
@@ -69,6 +71,7 @@ class _Drawing:
         """Its sketch: joints, links, slides, what is fixed and what drives."""
         self.budget = Budget(self.path, THINGS, "lines, circles and texts")
         self.hidden = {layer.dxf.name for layer in self.document.layers if layer.is_off() or layer.is_frozen()}
+        self.own = any(layer.dxf.name.startswith(OWN) for layer in self.document.layers)
         self._read(self.document.modelspace(), 0, "")
         spots = [corner for shape in self.shapes for corner in shape.corners] + [pin.at for pin in self.pins]
         if not all(on_paper(spot.real, spot.imag) for spot in spots):
@@ -94,6 +97,9 @@ class _Drawing:
             layer = within if layer == "0" and within else layer
             if layer in self.hidden or entity.dxf.get("invisible", 0):
                 continue
+            if self.own and (not layer.startswith(OWN) or SYMBOLS.search(layer)):
+                continue
+            layer = layer.removeprefix(OWN)
             match entity.dxftype():
                 case "INSERT" if depth < DEEPEST:
                     if GROUND.search(entity.dxf.name):
@@ -146,7 +152,7 @@ class _Drawing:
             self._pinned(found, pin, bars)
         for shape in self.shapes:
             if GUIDES.search(shape.layer):
-                self._guide(found, shape.corners)
+                self._guide(found, shape, bars)
 
     def _put(self, found: Sketch, spot: complex) -> str:
         key = self._joint(spot)
@@ -154,7 +160,10 @@ class _Drawing:
 
     def _pinned(self, found: Sketch, pin: _Pin, bars: Sequence[_Shape]) -> None:
         """A pin on the way of a bar is a joint of it, one on the ground is fixed."""
-        on = [shape for shape in bars if any(_beside(pin.at, *side) <= NEAR * self.size for side in _sides(shape))]
+        guides = [shape for shape in self.shapes if GUIDES.search(shape.layer)
+                  and _beside(pin.at, shape.corners[0], shape.corners[-1]) <= NEAR * self.size]
+        on = [shape for shape in bars if any(_beside(pin.at, *side) <= NEAR * self.size for side in _sides(shape))
+              and (pin.at in shape.corners or not any(self._carries(shape, guide) for guide in guides))]
         if on:
             key = self._put(found, pin.at)
             for shape in on:
@@ -165,16 +174,24 @@ class _Drawing:
         if GROUND.search(pin.layer) and (key := self._joint(pin.at)) in found.places:
             found.fixed[key] = None
 
-    def _guide(self, found: Sketch, corners: Sequence[complex]) -> None:
-        """The pins on a guide slide along it; it is of the link that has both its ends, else of the frame."""
-        start, end = corners[0], corners[-1]
-        ends = [key for key, at in found.places.items() if min(abs(at - start), abs(at - end)) <= NEAR * self.size]
-        along = next((link for link, points in found.links.items() if len(ends) == 2 and {*ends} <= {*points}), FRAME)
+    def _carries(self, bar: _Shape, guide: _Shape) -> bool:
+        """Whether a side of a bar runs along a guide, or on from it: then the guide is on its link."""
+        start, end = guide.corners[0], guide.corners[-1]
+        return any(max(_across(corner, start, end) for corner in side) <= NEAR * self.size for side in _sides(bar))
+
+    def _guide(self, found: Sketch, guide: _Shape, bars: Sequence[_Shape]) -> None:
+        """The pins on a guide slide along it; it is of the link with a bar along it, else of the frame."""
+        start, end = guide.corners[0], guide.corners[-1]
+        carriers = [{self._joint(corner) for corner in bar.corners} for bar in bars if self._carries(bar, guide)]
+        along = next((link for link, points in found.links.items() if any(joints <= {*points} for joints in carriers)),
+                     FRAME)
         way = (end - start) / abs(end - start)
         for key, at in found.places.items():
             if _beside(at, start, end) <= NEAR * self.size and key not in found.fixed and (
                     along == FRAME or key not in found.links[along]):
                 found.slots.append(Slot(key, along, way))
+                if along == FRAME and self.own:
+                    found.note("that each guide without a bar along it is on the frame is a guess")
 
     def _named(self, found: Sketch) -> None:
         """Names by the texts beside the joints."""
@@ -208,3 +225,8 @@ def _beside(at: complex, start: complex, end: complex) -> float:
         return abs(at - start)
     part = ((at - start) * way.conjugate()).real / abs(way) ** 2
     return abs(at - start - min(max(part, 0.0), 1.0) * way)
+
+
+def _across(at: complex, start: complex, end: complex) -> float:
+    """How far a place is from a line."""
+    return abs(((end - start).conjugate() * (at - start)).imag) / abs(end - start)

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator
-from itertools import pairwise
+from itertools import combinations, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +29,7 @@ AXES = {"xAxis": 1 + 0j, "yAxis": 1j}
 RIGID = {"Midpoint", "Center", "Rotate", "Dilate", "Centroid"}
 TURNED = re.compile(r";\s*([^)]*)\)|(?:cos|sin)\s*\(([^()]*)\)")
 INNER = re.compile(r"(\w+)\s*[\[(](.*)[\])]")
+STRAIGHT = 1e-6  # by which the directions of bars in one line differ
 GUESS = "GeoGebra knows no speed: 1 {unit} is a guess."
 
 
@@ -52,15 +53,17 @@ class _Drawing:
         running = [label for label in objects.elements if self._command(label)[0] in ("Point", "PointIn")]
         self.moving = self._made_of([*self.driving, *running])
         self.sketch = Sketch("GeoGebra")
-        self.sketch.note("the unit of length: a unit of GeoGebra's plane is read as mm")
         own = any(label.startswith("stroke_") for label in objects.elements)
-        for ends in self._links(own):
+        unit = "graphplan's own sheet, saved anew, is in mm of paper" if own else "GeoGebra's own is read as mm"
+        self.sketch.note(f"the unit of length: {unit}")
+        for ends in self._straightened([*self._links(own)]) if own else self._links(own):
             self._used(*ends)
             self.sketch.link(ends)
         for label in [*self.sketch.places]:
             self._bound(label)
         for label in sorted(self.points - self.sketch.places.keys()):
-            self._carried(label)
+            if not (own and label.startswith("point_")):
+                self._carried(label)
         self._frame()
 
     def _used(self, *labels: str) -> None:
@@ -128,8 +131,8 @@ class _Drawing:
             strange = own and (layer is None or layer.get("val") != "0")
             if command not in ("Segment", "Polygon", "PolyLine", "Polyline") or place or not seen(element) or strange:
                 continue
-            corners = [name for name in inputs if name in self.points]
-            if len(corners) < len(inputs) or len(corners) < 2:
+            corners = [name for name in inputs if name in self.points and not (own and name.startswith("point_"))]
+            if len(corners) < 2 or (len(corners) < len(inputs) and not own):
                 left += not own
             elif command in ("PolyLine", "Polyline"):
                 yield from ([*pair] for pair in pairwise(corners))
@@ -137,6 +140,17 @@ class _Drawing:
                 yield corners
         if left:
             self.sketch.note(f"{left} segments or polygons whose ends are no points of their own: left out")
+
+    def _straightened(self, links: list[list[str]]) -> list[list[str]]:
+        """With bars that go on straight as one: graphplan draws a bar from point to point."""
+        bars, at = [link for link in links if len(link) == 2], self.objects.values
+        for one, other in combinations(bars, 2):
+            for joint in {*one} & {*other}:
+                ways = [at[next(name for name in bar[::step] if name != joint)] - at[joint]
+                        for bar, step in ((one, 1), (other, -1))]
+                if len({*one, *other}) > 2 and abs(ways[0] / abs(ways[0]) + ways[1] / abs(ways[1])) < STRAIGHT:
+                    links.append([*dict.fromkeys([*one, *other])])
+        return links
 
     def _bound(self, label: str) -> None:
         """What holds a point of a link: circles, lines, turns."""

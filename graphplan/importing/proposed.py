@@ -59,6 +59,8 @@ def _driven(sketch: Sketch) -> Iterator[Sketch]:
     if sketch.drives:
         yield sketch
     if missing > 0:
+        if sketch.drives and not missing % 2:
+            yield from _ended(sketch, missing // 2)
         yield from _more(sketch, missing)
     elif missing < 0 < sketch.freedoms:
         yield from _fewer(sketch, sketch.freedoms)
@@ -107,18 +109,9 @@ def _framed(sketch: Sketch) -> Iterator[Sketch]:
     """With the ends of the chain on the frame; of a closed chain with a link as frame: one that lies level, the longest
     first."""
     names = named_points(sketch)
-    held = {point: sketch.holders(point) for point in sketch.places}
-    ends = sorted((point for point, keys in held.items() if len(keys) == 1), key=lambda point: (
-        len(sketch.links[held[point][0]]), names[point]))
-    for many in range(1, len(ends) + 1):
-        if sketch.freedoms - 2 * many < 1 or sketch.freedoms - 2 * many > 2:
-            continue
-        for way in combinations(ends, many):
-            found = deepcopy(sketch)
-            found.fixed = dict.fromkeys(way)
-            told = " and ".join(names[point] for point in way)
-            found.note(f"what is fixed: {told} on the frame is a guess, as they end the chain")
-            yield found
+    for freedoms in (1, 2):
+        if sketch.freedoms > freedoms and not (sketch.freedoms - freedoms) % 2:
+            yield from _ended(sketch, (sketch.freedoms - freedoms) // 2)
     closed = [key for key, points in sketch.links.items() if len(points) > 1]
     for key in sorted(closed, key=lambda key: _level(sketch, key)):
         found = deepcopy(sketch)
@@ -131,6 +124,20 @@ def _framed(sketch: Sketch) -> Iterator[Sketch]:
         found.drives = [one for one in found.drives if one.link != key]
         told = " ".join(names[point] for point in points)
         found.note(f"what is fixed: that the link {told} is the frame is a guess")
+        yield found
+
+
+def _ended(sketch: Sketch, many: int) -> Iterator[Sketch]:
+    """With so many points on the frame that are on one link alone, first those of links with few points."""
+    names = named_points(sketch)
+    held = {point: sketch.holders(point) for point in sketch.places}
+    ends = sorted((point for point, keys in held.items() if len(keys) == 1 and keys != [FRAME]), key=lambda point: (
+        len(sketch.links[held[point][0]]), names[point]))
+    for way in combinations(ends, many):
+        found = deepcopy(sketch)
+        found.fixed |= dict.fromkeys(way)
+        told = " and ".join(names[point] for point in way)
+        found.note(f"what is fixed: {told} on the frame is a guess, as the chain ends there")
         yield found
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import count, on_paper
@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from graphplan.methods.construction import Construction
     from graphplan.output.animation import Film
     from graphplan.sheet.layout.composition import Composition
+    from graphplan.sheet.plates.display import Sheet
 
 ENDINGS = (".gif", ".svg")
 POSES, MOST_POSES = 48, 240
@@ -65,32 +66,24 @@ def _film(drawing: Construction, composition: Composition, moved: Loop, seconds:
     """The sheets of a loop, in its order; where nothing can be drawn, which is told, the mechanism alone."""
     from graphplan.accuracy.reach import constructions
     from graphplan.check.poses import checked
-    from graphplan.cycle.travel import told, travel_unit
+    from graphplan.cycle.travel import travel_unit
     from graphplan.output.animation import Film
     from graphplan.phrases import arranged, digits, unit
-    from graphplan.sheet.cycle_frames import turning, undrawn
+    from graphplan.sheet.cycle_frames import sheets
 
-    turn, guides = moved.turn, _from_given(moved.turn.guides)
-    (_, points), *others = [(one, _from_given(checked(one, turn.points, turn.guides)))
-                            for one in constructions(drawing)]
-    found = turning(drawing, composition, [0.0, *turn.travel.tolist()], points, guides, others)
-    sheets = {frame.travel: frame.sheet for frame in found.frames[1:]}
-    travel = {k: float(turn.travel[k]) for k in moved.order if k not in turn.faults}
-    if not travel:
+    turn = moved.turn
+    reached = [k for k in range(len(turn.travel)) if k not in turn.faults]
+    if not reached:
         raise Refused("--animate", "no pose of the range is reached", "another range")
-    if lost := [there for there in travel.values() if there not in sheets]:
-        messages.remark(f"the mechanism alone at {', '.join(told(drawing.scene, there, 4) for there in lost)}")
-    for k, there in travel.items():
-        if there in lost:
-            here, ways = ({name: complex(z[k]) for name, z in arrays.items()} for arrays in (turn.points, turn.guides))
-            sheets[there] = undrawn(found.composition, here, ways)
-    shown = [travel[k] for k in moved.order if k in travel]
-    each, name = travel_unit(drawing.scene)
-    pattern = "{0}°" if name == "degrees" else "{0} {1}"
-    words = (arranged(pattern, digits(there / each), unit(name)) for there in shown)
-    return Film([sheets[there] for there in shown], [composition.plans.tongue(told) for told in words], seconds)
-
-
-def _from_given(arrays: Mapping[str, Any]) -> dict[str, Any]:
-    """Places in some poses, after a first one that stands for the given pose."""
-    return {name: [z[0], *z] for name, z in arrays.items()}
+    points, guides = ({name: z[reached] for name, z in arrays.items()} for arrays in (turn.points, turn.guides))
+    ways = [(one, checked(one, points, guides)) for one in constructions(drawing)]
+    found: dict[int, tuple[Sheet, bool]] = {}
+    for k, drawn in zip(reached, sheets(composition, ways, points, guides), strict=True):
+        found[k] = drawn
+        messages.progress(f"drawn: {len(found)} of {len(reached)}" if len(found) < len(reached) else "")
+    if bare := sum(not drawn for _, drawn in found.values()):
+        messages.remark(f"the mechanism alone, as nothing can be drawn there, in {bare} of {len(found)} poses")
+    shown, (each, name) = [k for k in moved.order if k in found], travel_unit(drawing.scene)
+    words = (arranged("{0}°" if name == "degrees" else "{0} {1}", digits(float(turn.travel[k]) / each), unit(name))
+             for k in shown)
+    return Film([found[k][0] for k in shown], [composition.plans.tongue(told) for told in words], seconds)

@@ -17,7 +17,7 @@ from xml.etree.ElementTree import Element, SubElement, tostring
 
 from graphplan.output.svg import groups, rounded
 from graphplan.sheet.lettering.lettering import FONTS, Run
-from graphplan.sheet.plates.display import Item, Outline, Sheet, Text, moved, within
+from graphplan.sheet.plates.display import Sheet, Text, moved
 from graphplan.sheet.plates.pens import LETTERS, PAPER
 
 if TYPE_CHECKING:
@@ -48,19 +48,14 @@ class Film:
     seconds: float
 
     def pictures(self) -> Iterator[Sheet]:
-        """The plans alone, without frame and title block, with what is told of each."""
+        """The plans from their corner on, with what is told of each."""
         for sheet, told in zip(self.sheets, self.told, strict=True):
             rects = sheet.panels.values()
             left, top = min(rect.left for rect in rects) - MARGIN, max(rect.top for rect in rects) + MARGIN
             right, low = max(rect.right for rect in rects) + MARGIN, min(rect.bottom for rect in rects) - FOOT
-            kept = [moved(item, -left, -low) for item in sheet.items if within(item, rects) and not _titled(item)]
+            kept = [moved(item, -left, -low) for item in sheet.items]
             kept.append(Text(LETTERS, "travel", None, (right - left - MARGIN, 2.0), (Run(told),), TOLD, "end"))
             yield replace(sheet, width=right - left, height=top - low, items=tuple(kept))
-
-
-def _titled(item: Item) -> bool:
-    """Whether it is a line of the title block, which may lie along a plan."""
-    return item.layer == "paper" and not isinstance(item, Outline)
 
 
 # ---- GIF -------------------------------------------------------------------------------------------------------------

@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import cmath
 import math
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
 from graphplan.errors import ConstructionError
@@ -22,11 +22,11 @@ from graphplan.methods.panels import MECHANISM
 from graphplan.sheet.frames.title import CONSTRUCTION
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.divisions import MARGIN
-from graphplan.sheet.layout.layout import captions, framed, layout, sheet
+from graphplan.sheet.layout.layout import captions, sheet, stacked
 from graphplan.sheet.lettering.labels import placed
 from graphplan.sheet.lettering.letters import inside, of_mechanism
-from graphplan.sheet.plates import clip
-from graphplan.sheet.plates.display import Rect, Sheet, Spot
+from graphplan.sheet.plates import clip, pens
+from graphplan.sheet.plates.display import EDGE, Arrow, Item, Outline, Polyline, Rect, Sheet, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import Plans, around, grown
 from graphplan.sheet.plates.plate import Plate
@@ -99,61 +99,74 @@ def scene_in(scene: Scene, points: Mapping[str, complex], guides: Mapping[str, c
     return scene.posed({name: (points[name].real, points[name].imag) for name in scene.points}, direction)
 
 
-@dataclass(frozen=True)
-class CycleFrame:
-    """One pose of the round on paper: how far the drive has gone, in degrees, the sheet without its words, and where
-    its marks lie."""
+def sheets(composition: Composition, ways: Sequence[tuple[Construction, Places]], points: Places,
+           guides: Places) -> Iterator[tuple[Sheet, bool]]:
+    """The plans of each pose as a sheet, and whether the construction is on them: else the mechanism alone.
 
-    travel: float
-    plans: Plans
-    sheet: Sheet
-    spots: dict[int, Spot]
-
-
-@dataclass(frozen=True)
-class CycleFrames:
-    """The poses of a cycle that are drawn alike, the given one first; `lost` are the stretches of travel, ends
-    included, with those that are not."""
-
-    drawing: Construction
-    composition: Composition
-    frames: tuple[CycleFrame, ...]
-    lost: tuple[tuple[float, float], ...] = ()
-
-
-def turning(drawing: Construction, composition: Composition, travel: Sequence[float],
-            points: Places, guides: Places, others: Sequence[tuple[Construction, Places]] = ()) -> CycleFrames:
-    """The construction in the poses of a turn, the first of which is the given pose.
-
-    Reads a composed construction, the drive's travel in degrees, and where points and guides are; nan where nowhere.
-    `others` are constructions of the scene that take other forms, with where points are in poses that they serve: of
-    all that can be drawn in a pose on this sheet the first one is.
+    Reads a composed construction; constructions of its scene, each with where the points are in the poses in which it
+    is sound, of which the first that can be drawn in a pose is; and where points and guides are, in every pose.
     """
-    poses: dict[float, Posed] = {}
-    lost: list[list[int]] = []
-    for k in range(1, len(travel)):
-        drawn = (_drawn(one, places, guides, k) for one, places in ((drawing, points), *others))
-        if found := next((one for one in drawn if one and composition.views.keys() >= {*Plans(one).panels}), None):
-            poses[travel[k]] = found
-        elif lost and lost[-1][-1] == k - 1:
-            lost[-1].append(k)
+    count = len(next(iter(points.values())))
+    poses = [next(filter(None, (_drawn(one, composition, sound, guides, k) for one, sound in ways)), None)
+             for k in range(count)]
+    rows = replace(composition.arrangement, rows=())
+    links = [around([(z.real, z.imag) for z in here.values()]) for k in range(count)
+             if all(map(cmath.isfinite, (here := _at(k, points)[0]).values()))]
+    wide = _enlarged(replace(composition, arrangement=rows), around([spot for box in links for spot in box.corners]))
+    base = _roomy(wide, links, [Plans(found) for found in poses if found])
+    for k, found in enumerate(poses):
+        if found:
+            shown = replace(base, plans=replace(base.plans, drawing=found))
+            yield _sheet(shown, [*_cut_off(shown)]), True
         else:
-            lost.append([k])
-    base = _roomy(composition, [Plans(found) for found in poses.values()])
-    frames = (_frame(travel, replace(base, plans=replace(base.plans, drawing=found)))
-              for travel, found in poses.items())
-    ends = tuple((travel[part[0]], travel[part[-1]]) for part in lost)
-    return CycleFrames(drawing, base, (_frame(0.0, base), *frames), ends)
+            yield _sheet(base, _undrawn(base, *_at(k, points, guides))), False
 
 
-def _drawn(drawing: Construction, points: Places, guides: Places, k: int) -> Posed | None:
-    """A construction in the pose at a place of these arrays."""
-    here, directions = ({name: complex(z[k]) for name, z in arrays.items()} for arrays in (points, guides))
-    return posed(drawing, here, directions) if all(map(cmath.isfinite, here.values())) else None
+def _sheet(composition: Composition, items: Iterable[Item]) -> Sheet:
+    """The plans with these items, without frame, title block and words."""
+    panels = composition.arrangement.panels
+    outlines = (Outline(pens.BORDER, "paper", None, rect.corners, panel) for panel, rect in panels.items())
+    whole = sheet(composition, (), CONSTRUCTION)
+    return replace(whole, items=tuple(stacked([*outlines, *captions(composition), *items])))
 
 
-def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
-    """The composition with its windows slid so that they hold the mechanism and the vectors of as many poses as can be.
+def _drawn(drawing: Construction, composition: Composition, points: Places, guides: Places, k: int) -> Posed | None:
+    """A construction in the pose at a place of these arrays, where it can be drawn on these plans."""
+    here, directions = _at(k, points, guides)
+    found = posed(drawing, here, directions) if all(map(cmath.isfinite, here.values())) else None
+    return found if found and composition.views.keys() >= {*Plans(found).panels} else None
+
+
+def _at(k: int, *arrays: Places) -> list[dict[str, complex]]:
+    """The pose at a place of arrays."""
+    return [{name: complex(z[k]) for name, z in one.items()} for one in arrays]
+
+
+def _enlarged(composition: Composition, links: Rect) -> Composition:
+    """The composition with so large a panel for the mechanism that its links have room in all poses; the panels on its
+    right and below it make way."""
+    window, panels = composition.views[MECHANISM], composition.arrangement.panels
+    needed, own = links.times(window.scale), panels[MECHANISM]
+    wider = max(0.0, needed.width + 2 * MARGIN - window.rect.width)
+    higher = max(0.0, needed.height + 2 * MARGIN - window.rect.height)
+
+    def larger(rect: Rect) -> Rect:
+        return replace(rect, right=rect.right + wider, bottom=rect.bottom - higher)
+
+    views, rects = {str(MECHANISM): replace(window, rect=larger(window.rect))}, {str(MECHANISM): larger(own)}
+    for panel in panels.keys() - {MECHANISM}:
+        right = wider if panels[panel].left >= own.right - EDGE else 0.0
+        down = higher if panels[panel].top <= own.bottom + EDGE else 0.0
+        view = composition.views[panel]
+        views[panel] = replace(view, rect=view.rect.inset(right, -down, -right, down),
+                               origin=(view.origin[0] + right, view.origin[1] - down))
+        rects[panel] = panels[panel].inset(right, -down, -right, down)
+    return replace(composition, views={panel: views[panel] for panel in composition.views},
+                   arrangement=replace(composition.arrangement, panels={panel: rects[panel] for panel in panels}))
+
+
+def _roomy(composition: Composition, links: Sequence[Rect], poses: Sequence[Plans]) -> Composition:
+    """The composition with its windows slid so that they hold the links and the vectors of as many poses as can be.
 
     What the given pose has on paper stays on it.
     """
@@ -162,7 +175,6 @@ def _roomy(composition: Composition, poses: Sequence[Plans]) -> Composition:
         panel, window = plate.panel, plate.view
         boxes = sorted((plans.extent(panel).core for plans in poses), key=_extent)
         if panel == MECHANISM:
-            links = (around([plans.place(name) for name in plans.drawing.scene.points]) for plans in poses)
             boxes = [*sorted(links, key=_extent), *boxes]
         kept = [window.back(spot) for spot in _shown(plate)]
         views[panel] = slid(window, _gathered([around(kept), *boxes] if kept else boxes, window)) if boxes else window
@@ -189,23 +201,26 @@ def _gathered(boxes: Sequence[Rect], window: View) -> Rect:
     return whole
 
 
-def _frame(travel: float, composition: Composition) -> CycleFrame:
-    """A composed construction on its sheet."""
-    bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
-    spots = {drawn.index: drawn.at for drawn in bare.plates.steps if drawn.kind == POINT}
-    return CycleFrame(travel, bare.plans, layout(bare.plans.drawing, composition=bare), spots)
+def _cut_off(composition: Composition) -> Iterator[Item]:
+    """What is drawn on all plans; a vector that leaves its panel has no head."""
+    for plate, picture in zip(composition.plates, composition.pictures.values(), strict=True):
+        for item in picture.items:
+            if isinstance(item, Arrow) and not (plate.view.rect.holds(item.start) and plate.view.rect.holds(item.end)):
+                line = Polyline(item.pen, item.layer, item.step, (item.start, item.end))
+                yield from clip.clipped(line, plate.view.rect)
+            else:
+                yield item
 
 
-def undrawn(composition: Composition, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Sheet:
-    """The sheet of a pose in which nothing can be constructed: the mechanism alone."""
-    bare = replace(composition, arrangement=replace(composition.arrangement, rows=()))
-    window, motion = bare.views[MECHANISM], bare.plans.motion
-    mechanism = DrawnMechanism(scene_in(bare.plans.drawing.scene, points, guides), window)
+def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Mapping[str, complex]) -> list[Item]:
+    """A pose in which nothing can be constructed: the mechanism alone."""
+    window, motion = composition.views[MECHANISM], composition.plans.motion
+    mechanism = DrawnMechanism(scene_in(composition.plans.drawing.scene, points, guides), window)
     shown = [*(motion.items(window) if motion else ()), *mechanism.items()]
     items = [cut for item in shown for cut in clip.clipped(item, window.rect)]
     letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,
-                     bare.arrangement.letters)
-    return sheet(bare, [*framed(bare), *captions(bare), *items, *letters], CONSTRUCTION)
+                     composition.arrangement.letters)
+    return [*items, *letters]
 
 
 def slid(view: View, box: Rect) -> View:

@@ -19,7 +19,6 @@ from importlib.resources import files
 from typing import Any
 
 from graphplan.accuracy.reach import constructions
-from graphplan.cycle.linkage import Linkage
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT, Movement
 from graphplan.kernel.stages import staged
 from graphplan.kernel.tape.written import JAVASCRIPT
@@ -213,12 +212,6 @@ class _JsxGraphWriter(Elements):
         """The stage of each step."""
         return {step.index: k for k, (_, steps) in enumerate(_stages(self.plates)) for step in steps}
 
-    @cached_property
-    def links(self) -> dict[str, int]:
-        """The places of links in the linkage that is followed."""
-        scene = self.plates.scene
-        return Linkage(scene, tuple(1.0 for _ in scene.drives)).order
-
     # ---- marks -------------------------------------------------------------------------------------------------
 
     def _mark(self, drawn: DrawnStep) -> str:
@@ -297,7 +290,7 @@ class _JsxGraphWriter(Elements):
         point = min(points, key=lambda name: math.dist(places[name], spot))
         x, y = places[point]
         off = [] if math.dist((x, y), spot) < NEAR else [round(spot[0] - x, 4), round(spot[1] - y, 4)]
-        return [point, self.links.get(link, 0), *off] if off else [point]
+        return [point, link, *off] if off else [point]
 
     def _letter(self, letter: Letter) -> str:
         """Lettering beside its mark, or on its link; with a ring and the stroke that ties it to where it belongs."""
@@ -309,7 +302,7 @@ class _JsxGraphWriter(Elements):
             along, across = (x * u + y * v) / (u * u + v * v), (y * u - x * v) / vector.length
             at = f"() => off({', '.join(self.ends(vector))}, {along:.3f}, {across:.3f})"
         elif not mark.number and mark.name in self.plates.scene.points:
-            at = f"() => spot({_json([mark.name, self.links.get(link, 0), round(dx, 3), round(dy, 3)])})"
+            at = f"() => spot({_json([mark.name, link, round(dx, 3), round(dy, 3)])})"
         elif mark.kind == POINT:
             at = f"() => beyond({self.names[mark]}, {dx:.3f}, {dy:.3f})"
         else:

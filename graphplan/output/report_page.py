@@ -202,7 +202,7 @@ class _Report(HtmlPage):
 
 def picture(sheet: Sheet) -> str:
     """A sheet to stand in a page: without its own heading, and named by what it says."""
-    text = svg(replace(sheet, scene=""), role="img", aria_label=sheet.description)
+    text = svg(replace(sheet, scene=""), alone=False, role="img", aria_label=sheet.description)
     return text[text.index("<svg "):]
 
 

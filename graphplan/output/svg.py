@@ -1,7 +1,7 @@
-"""The display list as SVG: one group a layer, one group a drawing step with its sentence as title; svgwrite writes it.
+"""The display list as SVG 2: one group a layer, one a drawing step with its sentence as title; svgwrite writes it.
 
-Every number is rounded to a hundredth of a millimetre and nothing depends on time or memory, so the same sheet is the
-same text.
+For Inkscape these groups are layers, called as they are in the language of the sheet. Every number is rounded to a
+hundredth of a millimetre and nothing depends on time or memory, so the same sheet is the same text.
 """
 
 from __future__ import annotations
@@ -16,6 +16,7 @@ from typing import Any
 import svgwrite
 from svgwrite.text import TSpan
 
+from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import ANCHORS, DROP, FONTS, lowered, width
 from graphplan.sheet.plates.display import (
     Arc,
@@ -31,26 +32,49 @@ from graphplan.sheet.plates.display import (
     Text,
 )
 from graphplan.sheet.plates.pens import PAPER, Pen
+from graphplan.words.tongue import Tongue, tongue
 
 FINE = 4  # decimals of a radius: what is left of one moves the middle of a long arc much farther
 MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
 Element = Any  # of svgwrite, which has no types
+INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+STEP, GIVEN = said("Step"), said("Given")
+LAYERS = {  # what their groups are called
+    "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
+    "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),
+    "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"), "letters": said("Letters"),
+    "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
+}  # fmt: skip
 
 
-def svg(sheet: Sheet, **look: Any) -> str:
-    """The sheet as one SVG document, in millimetres; `look` are attributes of the whole."""
+def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
+    """The sheet as one SVG document, in millimetres; `look` are attributes of the whole.
+
+    One that is not `alone`, but a part of a page, has no identifiers and no names of layers.
+    """
     wide, high = rounded(sheet.width), rounded(sheet.height)
-    document = svgwrite.Drawing(
+    document = _Document(
         size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
-        stroke_linejoin="round", debug=False, **{"xml:lang": sheet.language}, **look)  # fmt: skip
+        stroke_linejoin="round", debug=False,
+        **({"xmlns:inkscape": INKSCAPE} if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
     document.elements.remove(document.defs)  # a sheet defines nothing
     document.set_desc(sheet.title, sheet.description)
     if sheet.scene:
         document.add(_Metadata(sheet.scene, id="scene", factory=MAKE))
     document.add(MAKE.rect((0, 0), (wide, high), fill=PAPER))
-    for _, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
+    for key, group in groups(sheet, lambda step: max(0, step + 1 - sheet.givens)):
         document.add(group)
+        if alone:
+            _call(group, key, tongue(sheet.language))
     return f'<?xml version="1.0" encoding="utf-8"?>\n{document.tostring()}\n'
+
+
+def _call(group: Element, key: str, say: Tongue) -> None:
+    """Give the group of a layer or a step its name, and an identifier."""
+    step = int(key) if key.isdecimal() else None
+    name = say(LAYERS.get(key, key)) if step is None else f"{say(STEP)} {step}" if step else say(GIVEN)
+    group.update({"inkscape:groupmode": "layer", "inkscape:label": name,
+                  "id": f"layer-{key.replace(' ', '-')}" if step is None else f"step-{step}"})
 
 
 def groups(sheet: Sheet, number: Callable[[int], int] = int) -> Iterator[tuple[str, Element]]:
@@ -90,6 +114,16 @@ def rounded(number: float, places: int = 2) -> float:
     """To 0.01 mm, or to more places, and never -0."""
     value = round(number, places) + 0.0
     return int(value) if value == int(value) else value
+
+
+class _Document(svgwrite.Drawing):  # type: ignore[misc]
+    """A document of SVG 2, which states no version: in 1.1, of which the writer is, there are no data attributes."""
+
+    def get_xml(self) -> Element:
+        made = super().get_xml()
+        for former in ("version", "baseProfile"):
+            del made.attrib[former]
+        return made
 
 
 class _Metadata(TSpan):  # type: ignore[misc]

@@ -7,10 +7,12 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from dataclasses import replace
 from functools import cache
 
 import pytest
 from sheets import SCENES, drawing_of, pages_of, sheet_of
+from svg2 import INKSCAPE, faults
 
 import graphplan as gp
 from graphplan.kernel.kinds import LINE, OPENING
@@ -32,6 +34,24 @@ def test_it_is_valid_xml_in_millimetres() -> None:
     assert (root.get("width"), root.get("height"), root.get("viewBox")) == ("297mm", "210mm", "0 0 297 210")
     assert root.findtext(f"{NS}title") == gp.load("four-bar").title
     assert "k_s" in (root.findtext(f"{NS}desc") or "")
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_page_is_svg_2(name: str) -> None:
+    """No page has an element, an attribute or a value that SVG 2 does not have there, nor two things of one name."""
+    for page in pages_of(name):
+        assert not faults(svg(page))
+
+
+def test_layers_have_names_in_the_language_of_the_sheet() -> None:
+    """Inkscape lists each layer and each step by a name and an identifier; a part of a web page has neither."""
+    sheet = replace(sheet_of("four-bar"), language="de")
+    drawn, within = (ET.fromstring(svg(sheet, alone=alone).encode()) for alone in (True, False))
+    found = {group.get("id"): group.get(f"{INKSCAPE}label") for group in drawn.findall(f"{NS}g")}
+    assert (found["step-3"], found["step-0"]) == ("Schritt 3", "Gegeben")
+    assert "layer-links" in found
+    assert all(group.get(f"{INKSCAPE}groupmode") == "layer" for group in drawn.findall(f"{NS}g"))
+    assert not [element for element in within.iter() if element.get("id", "scene") != "scene"]
 
 
 def test_it_is_the_same_every_time() -> None:

@@ -170,7 +170,7 @@ def script() -> str:
 
 def _inline(page: Sheet) -> str:
     """A sheet as SVG for the page, which has the scene elsewhere."""
-    text = svg(replace(page, scene=""), id="picture", role="img", aria_label=page.title)
+    text = svg(replace(page, scene=""), alone=False, id="picture", role="img", aria_label=page.title)
     return text[text.index("<svg") :].strip()
 
 

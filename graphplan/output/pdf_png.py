@@ -9,10 +9,10 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path as File
-from typing import Any
+from typing import Any, NamedTuple
 
 import matplotlib
 import numpy as np
@@ -41,11 +41,16 @@ from graphplan.sheet.plates.display import (
     Text,
 )
 from graphplan.sheet.plates.pens import PAPER, Pen
+from graphplan.sheet.words.texts import RESULTS
+from graphplan.words.tongue import tongue
 
 INCH = 25.4
 POINTS = 72 / INCH  # typographic points in a mm
 EM = 1000  # advances are read off at this size
 WORD = re.compile(r" *[^ ]+ *|^ +$")  # with the spaces about it, so that words stay apart for those who search
+PAPERS, ARTIFACT = "paper", "Artifact"
+AROUND = {PAPERS, "border", "ruling", "corner marks"}  # layers that are no contents
+WORDS = {"text", RESULTS, "blanks"}  # layers of words
 SETTINGS: Any = {  # whatever the reader's own settings are
     "pdf.fonttype": 42, "pdf.compression": 6, "pdf.use14corefonts": False, "pdf.inheritcolor": False,
     "text.hinting": "no_hinting", "text.antialiased": True,
@@ -55,21 +60,25 @@ SETTINGS: Any = {  # whatever the reader's own settings are
 def pdf(sheets: Sequence[Sheet], *, title: str = "", language: str = "") -> bytes:
     """The sheets as one PDF document, a page each, in true size; title and language are the first sheet's unless told.
 
-    Fails with `Refused` where a sheet has letters that the font does not.
+    It is tagged: words are paragraphs and heads, in the order in which they are drawn, each plan's ink a figure with
+    the sheet's description. Fails with `Refused` where a sheet has letters that the font does not.
     """
-    written, about = io.BytesIO(), {"Title": title or sheets[0].title, "Creator": "graphplan", "Producer": "graphplan",
-                                    "CreationDate": None}
+    written, first = io.BytesIO(), sheets[0]
+    heard = language or first.language
+    panels = dict.fromkeys(getattr(panel, "words", panel) for sheet in sheets for panel in sheet.panels)
+    about = {"Title": title or first.title, "Subject": first.description or None, "Creator": "graphplan",
+             "Keywords": ", ".join(map(tongue(heard), panels)) or None, "Producer": "graphplan", "CreationDate": None}
     make: Any = _PdfFile
     with matplotlib.rc_context(SETTINGS):
-        file = make(written, metadata=about)
-        heard = {"Lang": language or sheets[0].language, "ViewerPreferences": {"DisplayDocTitle": True}}
-        file.writeObject(file.rootObject, {"Type": Name("Catalog"), "Pages": file.pagesObject, **heard})
+        file = make(written, metadata={key: value for key, value in about.items() if value or key == "CreationDate"})
         for sheet in sheets:
             wide, high = sheet.width / INCH, sheet.height / INCH
             file.newPage(wide, high)
             renderer = RendererPdf(file, 72, high, wide)
-            _Painter(renderer).sheet(sheet)
+            _Painter(renderer).sheet(sheet, file.tag)
+            file.untag()
             renderer.finalize()
+        file.catalogue({"Lang": heard, "ViewerPreferences": {"DisplayDocTitle": True}})
         file.finalize()
         file.close()
     return written.getvalue()
@@ -89,7 +98,63 @@ def png(sheet: Sheet, dpi: float = 150) -> bytes:
 
 
 class _PdfFile(PdfFile):
-    """A document whose pictures are photographs, each as the JPEG that it is."""
+    """A tagged document; its pictures are photographs, each as the JPEG that it is."""
+
+    def __init__(self, written: Any, metadata: Any):
+        self.file: Any = self  # it has no types
+        self.tags: list[tuple[Tag, Any, list[Any]]] = []  # what is tagged, where it is told of, and its parts by page
+        self.owners: list[list[Any]] = []  # by page, what each of its parts is of
+        self.open: Tag | None = None
+        super().__init__(written, metadata=metadata)
+
+    def writeObject(self, object: Any, contents: Any) -> None:
+        """Write an object; a page says where its tags are told of."""
+        if isinstance(contents, dict) and contents.get("Type") == Name("Page"):
+            contents |= {"StructParents": len(self.owners), "Tabs": Name("S")}
+            self.owners.append([])
+            self.page = object
+        super().writeObject(object, contents)
+
+    def tag(self, item: Item, sheet: Sheet) -> None:
+        """Say what the next item is a part of: what follows on the same goes on with it."""
+        tag = _tag(item, sheet)
+        if self.open == tag:
+            return
+        self.untag()
+        if tag.kind == ARTIFACT:
+            self.file.write(b"/Artifact BMC\n")
+        else:
+            if not (self.tags and self.tags[-1][0] == tag):
+                self.tags.append((tag, self.file.reserveObject("tag"), []))
+            _, told, parts = self.tags[-1]
+            parts.append((self.page, len(self.owners[-1])))
+            self.file.write(f"/{tag.kind} <</MCID {len(self.owners[-1])}>> BDC\n".encode())
+            self.owners[-1].append(told)
+        self.open = tag
+
+    def untag(self) -> None:
+        """End what is tagged."""
+        if self.open:
+            self.file.write(b"EMC\n")
+        self.open = None
+
+    def catalogue(self, more: Mapping[str, Any]) -> None:
+        """End the pages and write the catalogue: what the document is, and the tree of its tags."""
+        file = self.file
+        file.endStream()
+        root, whole, parents = (file.reserveObject(name) for name in ("tags", "document", "parents"))
+        for tag, told, parts in self.tags:
+            marked = [{"Type": Name("MCR"), "Pg": page, "MCID": number} for page, number in parts]
+            said = {"Alt": tag.said} if tag.said else {}
+            file.writeObject(told, {"Type": Name("StructElem"), "S": Name(tag.kind), "P": whole, "K": marked, **said})
+        file.writeObject(whole, {"Type": Name("StructElem"), "S": Name("Document"), "P": root,
+                                 "K": [told for _, told, _ in self.tags]})
+        file.writeObject(parents, {"Nums": [part for page in enumerate(self.owners) for part in page]})
+        file.writeObject(root, {"Type": Name("StructTreeRoot"), "K": whole, "ParentTree": parents,
+                                "ParentTreeNextKey": len(self.owners)})
+        file.writeObject(file.rootObject, {
+            "Type": Name("Catalog"), "Pages": file.pagesObject, "MarkInfo": {"Marked": True}, "StructTreeRoot": root,
+            **more})
 
     def writeImages(self) -> None:
         """Write what stands behind the names of pictures."""
@@ -102,6 +167,24 @@ class _PdfFile(PdfFile):
                 file.outputStream(place, photograph.jpeg, extra=head)
 
 
+class Tag(NamedTuple):
+    """What items are a part of: its kind, which of these it is, and what is said of it to who cannot see it."""
+
+    kind: str
+    which: Any
+    said: str = ""
+
+
+def _tag(item: Item, sheet: Sheet) -> Tag:
+    """What an item is a part of: words of a step are one paragraph."""
+    if item.layer in AROUND or (item.layer in WORDS and not isinstance(item, Text)):
+        return Tag(ARTIFACT, sheet)
+    if item.layer in WORDS:
+        whole = isinstance(item, Text) and item.bold
+        return Tag("H1" if whole else "P", item if whole or item.step is None else item.step)
+    return Tag("Figure", sheet, sheet.description)
+
+
 class _Painter:
     """Draws items with a renderer of matplotlib: `mm` of its units are a millimetre."""
 
@@ -110,15 +193,17 @@ class _Painter:
         self.height = renderer.get_canvas_width_height()[1]
         self.pens: dict[Pen, Any] = {}
 
-    def sheet(self, sheet: Sheet) -> None:
-        """Draw a sheet on its paper, from back to front."""
+    def sheet(self, sheet: Sheet, told: Callable[[Item, Sheet], None] = lambda item, sheet: None) -> None:
+        """Draw a sheet on its paper, from back to front; each item is told of before it is drawn."""
         letters = {char for item in sheet.items if isinstance(item, Text) for run in item.runs for char in run.text}
         if missing := lacking(letters):
             raise Refused(f"{sheet.title}: lettering", f"DejaVu Sans has no {' '.join(missing)}",
                           "draw it as SVG, whose viewer brings other fonts")
         paper = Rect(0.0, 0.0, sheet.width, sheet.height).corners
+        told(Polygon(Pen(0.0), PAPERS, None, paper), sheet)
         self._stroke(Pen(0.0), Path([*paper, paper[0]], closed=True), PAPER)
         for item in sheet.items:
+            told(item, sheet)
             self.draw(item)
 
     def draw(self, item: Item) -> None:

@@ -105,7 +105,7 @@ class _PdfFile(PdfFile):
         self.tags: list[tuple[Tag, Any, list[Any]]] = []  # what is tagged, where it is told of, and its parts by page
         self.owners: list[list[Any]] = []  # by page, what each of its parts is of
         self.open: Tag | None = None
-        super().__init__(written, metadata=metadata)
+        super().__init__(written, metadata=metadata)  # type: ignore[no-untyped-call]
 
     def writeObject(self, object: Any, contents: Any) -> None:
         """Write an object; a page says where its tags are told of."""
@@ -113,7 +113,7 @@ class _PdfFile(PdfFile):
             contents |= {"StructParents": len(self.owners), "Tabs": Name("S")}
             self.owners.append([])
             self.page = object
-        super().writeObject(object, contents)
+        super().writeObject(object, contents)  # type: ignore[no-untyped-call]
 
     def tag(self, item: Item, sheet: Sheet) -> None:
         """Say what the next item is a part of: what follows on the same goes on with it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ctypes
 import hashlib
 import io
 import math
@@ -24,7 +25,8 @@ import graphplan as gp
 from graphplan.commands import main
 from graphplan.errors import Refused
 from graphplan.output.pdf_png import pdf, png
-from graphplan.sheet.layout.layout import layout
+from graphplan.sheet.layout.composition import compose
+from graphplan.sheet.layout.layout import layout, pages
 from graphplan.sheet.lettering.lettering import ADVANCE, CAPS, Run, width
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Sheet, Text
@@ -40,7 +42,7 @@ def sheet_of(name: str) -> Sheet:
 
 def lettered(*lines: str) -> Sheet:
     """A sheet with nothing but these lines of letters."""
-    texts = [Text(pens.LETTERS, "text", None, (30.0, 250.0 - 5 * k), (Run(line),), 2.5) for k, line in enumerate(lines)]
+    texts = [Text(pens.LETTERS, "text", None, (30.0, 200.0 - 5 * k), (Run(line),), 2.5) for k, line in enumerate(lines)]
     return replace(sheet_of("four-bar"), items=tuple(texts))
 
 
@@ -85,15 +87,62 @@ def test_a_pdf_has_a_page_of_true_size_for_each_sheet() -> None:
     assert b"/DisplayDocTitle true" in catalogue
 
 
+def test_a_pdf_says_what_it_is_and_what_its_parts_are() -> None:
+    """Readers find title, subject and keywords; every word is in a head or a paragraph, all ink of plans in a figure
+    that is described, and each part of a page belongs to one tag."""
+    pypdfium2 = pytest.importorskip("pypdfium2")
+    sheets = [sheet_of("four-bar"), sheet_of("double-butterfly")]
+    data = pdf(sheets)
+    document = pypdfium2.PdfDocument(data)
+    about = document.get_metadata_dict()
+    assert (about["Title"], about["Subject"]) == (sheets[0].title, sheets[0].description)
+    assert about["Keywords"].startswith("mechanism plan, N-plan")
+    assert (about["Author"], about["CreationDate"]) == ("", "")
+    assert document.is_tagged()
+    for number, sheet in enumerate(sheets):
+        whole = (page := document[number]) and pypdfium2.raw.FPDF_StructTree_GetForPage(page)
+        (root,) = tagged(pypdfium2.raw, whole)
+        figures = [alt for kind, alt, _ in root if kind == "Figure"]
+        assert figures == [sheet.description]
+        bold = sum(isinstance(item, Text) and item.bold for item in sheet.items)
+        assert sum(kind == "H1" for kind, *_ in root) == bold
+        assert sum(kind == "P" for kind, *_ in root) > 10
+        parts = [part for *_, numbers in root for part in numbers]
+        assert sorted(parts) == list(range(len(parts)))
+
+
+def tagged(raw: Any, tree: Any) -> list[list[tuple[str, str, list[int]]]]:
+    """The tags of a page below those of the document: kind, description, and numbers of their parts."""
+
+    def told(get: Any, element: Any) -> str:
+        size = get(element, None, 0)
+        buffer = (ctypes.c_char * max(size, 2))()
+        get(element, buffer, size)
+        return bytes(buffer)[:size].decode("utf-16-le").rstrip("\0")
+
+    def children(element: Any) -> list[Any]:
+        count = raw.FPDF_StructElement_CountChildren(element)
+        return [child for k in range(count) if (child := raw.FPDF_StructElement_GetChildAtIndex(element, k))]
+
+    def parts(element: Any) -> list[int]:
+        count, get = raw.FPDF_StructElement_GetMarkedContentIdCount(element), \
+            raw.FPDF_StructElement_GetMarkedContentIdAtIndex
+        return [part for k in range(count) if (part := get(element, k)) >= 0]
+
+    roots = [raw.FPDF_StructTree_GetChildAtIndex(tree, k) for k in range(raw.FPDF_StructTree_CountChildren(tree))]
+    return [[(told(raw.FPDF_StructElement_GetType, one), told(raw.FPDF_StructElement_GetAltText, one), parts(one))
+             for one in children(root)] for root in roots]
+
+
 @pytest.mark.skipif(not shutil.which("pdftotext"), reason="pdftotext is not installed")
 def test_the_letters_of_a_pdf_can_be_searched() -> None:
     """Whoever extracts the text finds the sentences of the steps, and the letters of many languages."""
-    sheet = sheet_of("four-bar")
     words = "Шарнирный четырёхзвенник", "Čebiševa mehānisms, žņļķģšū", "Mehhanismiõpetus äöü", "α′ − ω²"
-    text = " ".join(extracted(pdf([sheet, lettered(*words)])).split())
+    sheets = pages(compose(gp.construct(gp.load("four-bar"))))
+    text = " ".join(extracted(pdf([*sheets, lettered(*words)])).split())
     assert all(line in text for line in words)
     assert "Open the compasses from " in text
-    assert sheet.title in text
+    assert sheets[0].title in text
 
 
 def extracted(document: bytes) -> str:

@@ -14,13 +14,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from graphplan.commands.choices import add_choices, add_preference, add_sheet, on_paper
-from graphplan.commands.output import as_json, kind, write
+from graphplan.commands.output import STANDARD, as_json, kind, write
 from graphplan.commands.steps import data
 from graphplan.errors import Refused
 from graphplan.output import FORMATS, back_end
 
 if TYPE_CHECKING:
     from graphplan.accuracy.drafted import Drafted
+
+STYLE = "graphplan.sty"
+LATEX = "bare", "width", "overlays"  # options that LaTeX alone has a use for
+MOST = 2000.0  # mm: the widest picture
 
 __doc__ = f"""{__doc__}
 formats:
@@ -29,6 +33,8 @@ examples:
   graphplan export rosenauer-basic -o chain.ggb
   graphplan export scene.toml -o page.html --library jsxgraphcore.js
   graphplan export scene.toml -o figure.tex --format tkz-euclide --language de
+  graphplan export scene.toml -o figure.tex --bare --width 0.8
+  graphplan export scene.toml -o slides.tex --overlays
   graphplan export four-bar -o plan.c
 """
 
@@ -39,6 +45,11 @@ def options(command: argparse.ArgumentParser) -> None:
                          help="the format; without it the suffix of FILE says which")
     command.add_argument("--library", metavar="FILE",
                          help="a copy of jsxgraphcore.js that goes into the page, which is then complete in itself")
+    command.add_argument("--bare", action="store_true", help="LaTeX: the picture or the slides alone, for \\input; "
+                         f"beside FILE stands {STYLE}, the style of all pictures")
+    command.add_argument("--width", type=_width, metavar="W", help="LaTeX: how wide the picture is, in mm, or up to 1 "
+                         "as a part of \\linewidth; letters keep their size (without it that of the sheet)")
+    command.add_argument("--overlays", action="store_true", help="LaTeX: slides of beamer, each stage on its own")
     add_sheet(command)
     add_choices(command, strict=True)
     add_preference(command)
@@ -46,8 +57,12 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace) -> int:
     name = format_of(options.output, options.format)
-    more, write_out = _more(name, options.library), back_end(name)
+    more, write_out = _more(name, options), back_end(name)
     write(write_out(*READ[FORMATS[name].reads](on_paper(options)), **more), options.output)
+    if options.bare and options.output != STANDARD:
+        from graphplan.output.exports.latex import package
+
+        write(package(), str(Path(options.output).parent / STYLE))
     return 0
 
 
@@ -70,10 +85,18 @@ def format_of(output: str, named: str | None) -> str:
     return next(name for name, format in FORMATS.items() if format.suffix == suffix)
 
 
-def _more(name: str, library: str | None) -> Mapping[str, str]:
-    """What a back end reads besides the construction: the text of a library that is given."""
-    if library is None:
-        return {}
+def _more(name: str, options: argparse.Namespace) -> Mapping[str, Any]:
+    """What a back end reads besides the construction, of which it has a use for all that is given."""
+    given = {option: value for option in LATEX if (value := getattr(options, option))}
+    if given and FORMATS[name].suffix != ".tex":
+        raise Refused(f"--{next(iter(given))}", f"{name} has no use for it", "leave it out, or export LaTeX, .tex")
+    if options.width and options.overlays:
+        raise Refused(f"--width {options.width:g}", "slides are as large as the screen", "leave it out, or --overlays")
+    return {**given, **(_library(name, options.library) if options.library is not None else {})}
+
+
+def _library(name: str, library: str) -> Mapping[str, str]:
+    """The text of a library that is given."""
     if name != "jsxgraph":
         raise Refused(f"--library {library}", f"{name} has no place for it", "leave it out, or export a page, .html")
     try:
@@ -81,6 +104,16 @@ def _more(name: str, library: str | None) -> Mapping[str, str]:
     except (OSError, UnicodeDecodeError) as error:
         why = getattr(error, "strerror", None) or "this is no text"
         raise Refused(f"--library {library}", f"cannot be read ({why})", "name a copy of jsxgraphcore.js") from None
+
+
+def _width(text: str) -> float:
+    try:
+        width = float(text)
+    except ValueError:
+        width = 0.0
+    if not 0 < width <= MOST:
+        raise Refused("--width", text, f"mm up to {MOST:g}, or a part of \\linewidth up to 1")
+    return width
 
 
 def _sheet(on_sheet: Drafted) -> Any:
@@ -97,6 +130,7 @@ def _sheets(on_sheet: Drafted) -> Any:
 
 READ: dict[str, Callable[[Drafted], tuple[Any, ...]]] = {  # what back ends read
     "plates": lambda on_sheet: (on_sheet.composition.plates,),
+    "composition": lambda on_sheet: (on_sheet.composition,),
     "construction": lambda on_sheet: (on_sheet.drawing,),
     "sheet": lambda on_sheet: (_sheet(on_sheet),),
     "sheets": lambda on_sheet: (_sheets(on_sheet),),

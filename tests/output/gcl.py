@@ -62,7 +62,7 @@ class Reader:
             kinds = DRAWN.get(command, ("point", "text"))
             texts = [take() for _ in kinds]
             for kind, text in zip(kinds, texts, strict=True):
-                if kind == "point":
+                if kind in ("point", "circle"):
                     self.get(kind, text)
                 elif kind == "number":
                     self.number(text)
@@ -228,6 +228,7 @@ SHAPES: dict[str, tuple[Any, ...]] = {
     "gety": (P, lambda A: (N, A[1])),
 }
 DRAWN = {
-    "dim": (N, N), "color": (N, N, N), "linethickness": (N,), "arrowstyle": (N, N, N), "cmark": (P,),
+    "dim": (N, N), "color": (N, N, N), "linethickness": (N,), "arrowstyle": (N, N, N), "fontsize": (N,), "cmark": (P,),
+    "filltriangle": (P, P, P), "fillcircle": (C,), "drawcircle": (C,),
     "drawsegment": (P, P), "drawdashsegment": (P, P), "drawarrow": (P, P, N), "drawarc": (P, P, N),
 }  # fmt: skip

@@ -14,8 +14,10 @@ from objects import NAMES, PLACES, coordinates, drafted_plates, farthest, loose,
 from graphplan.kernel.kinds import CIRCLE, LINE, POINT
 from graphplan.kernel.program import Panel
 from graphplan.mechanism.scene import packaged
-from graphplan.output.exports.gclc import decimal, gclc
+from graphplan.output.exports.gclc import AIR, cornered, decimal, gclc
 from graphplan.output.exports.walk import identifiers
+from graphplan.sheet.lettering.letters import pictures
+from graphplan.sheet.plates.display import Text
 from graphplan.sheet.plates.drawn_step import DrawnStep
 
 
@@ -32,14 +34,14 @@ def off(mark: DrawnStep, found: tuple[float, ...]) -> float:
 @pytest.mark.parametrize("name", packaged())
 def test_every_mark_is_read_where_it_lies(name: str) -> None:
     """Every point, line, opening and circle of every packaged scene is recovered from the commands alone."""
-    _, plates = laid_out(name)
+    plates = cornered(laid_out(name)[1])
     read, names = Reader().read(gclc(plates)), identifiers(plates.drawn)
     assert max(off(mark, read.objects[names[mark]][1:]) for mark in plates.drawn) < 1e-6
 
 
 def test_compasses_alone_are_read_too() -> None:
     """The construction with compasses and straightedge alone, with its marks between plans, is recovered as well."""
-    _, plates = laid_out("slider-crank", strict=True)
+    plates = cornered(laid_out("slider-crank", strict=True)[1])
     read, names = Reader().read(gclc(plates)), identifiers(plates.drawn)
     points = [mark for mark in plates.drawn if mark.kind in (POINT, CIRCLE)]
     assert max(off(mark, read.objects[names[mark]][1:]) for mark in points) < 1e-6
@@ -49,6 +51,7 @@ def test_compasses_alone_are_read_too() -> None:
 def test_a_moved_point_moves_the_construction(name: str) -> None:
     """Another place for one point of the pose gives the construction in that pose, on the same branches."""
     drawing, plates, _ = drafted_plates(name)
+    plates = cornered(plates)
     point, at, values = moved(drawing, plates)
     names = identifiers(plates.drawn)
     put = f"point {names[point]} {' '.join(map(decimal, at))}"
@@ -63,7 +66,7 @@ def test_a_moved_point_moves_the_construction(name: str) -> None:
 def test_every_operation_is_translated(name: str, place: Callable[[int], Panel]) -> None:
     """Each operation of the table becomes commands that give its value, wherever its operands lie."""
     for program, values in programs(name):
-        plates = loose(program, values, place)
+        plates = cornered(loose(program, values, place))
         read = Reader().read(gclc(plates))
         last = plates.steps[-1]
         assert off(last, read.objects[identifiers(plates.drawn)[last]][1:]) < 1e-6
@@ -80,6 +83,25 @@ def test_every_step_is_said_with_its_conditions() -> None:
     made = f"intersec {identifiers(plates.drawn)[meet]}"
     assert f"{meet.sentence}\n% drawable unless two lines that should meet are parallel\n{made}" in source
     assert all(f"% plan: {plate.caption}\n" in source for plate in plates)
+
+
+@pytest.mark.parametrize("name", ["double-butterfly", "shaper"])
+def test_the_picture_is_full_and_its_letters_stand_as_on_the_sheet(name: str) -> None:
+    """The page ends where the plans do, plates are filled over all corners, and every letter stands where it stood."""
+    _, plates, _ = drafted_plates(name)
+    read, moved = Reader().read(gclc(plates)), cornered(plates)
+    page = next(map(float, texts) for command, *texts in read.drawn if command == "dim")
+    assert math.dist(tuple(page), (moved.box.right + AIR, moved.box.top + AIR)) < 1.5
+    assert (moved.box.left, moved.box.bottom) == pytest.approx((AIR, AIR))
+    filled = {frozenset(texts) for command, *texts in read.drawn if command == "filltriangle"}
+    names = identifiers(moved.drawn)
+    plates_of_links = [{names[moved.pose[point]] for point in points} for link, points in moved.scene.links.items()
+                       if link in moved.scene.moving and len(points) == 3 and name == "double-butterfly"]
+    assert all(corners in filled for corners in plates_of_links)
+    stood = [text.box.centre for panel in pictures(moved).values() for text in panel.items if isinstance(text, Text)]
+    stand = [read.objects[texts[0]][1:] for command, *texts in read.drawn if command == "printat"]
+    assert len(stand) == len(stood)
+    assert all(min(math.dist(one, other) for other in stand) < 0.8 for one in stood)
 
 
 def test_what_the_sheet_shows_is_drawn() -> None:

@@ -16,14 +16,15 @@ from objects import MECHANISM, NAMES, PLACES, TWO, VIEWS, loose, programs
 
 from graphplan.kernel.kinds import POINT
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.tikz import tikz
-from graphplan.output.exports.tkz import tkz_euclide
+from graphplan.output.exports.latex import standalone
+from graphplan.output.exports.tikz import TikzWriter
+from graphplan.output.exports.tkz import TkzWriter
 from graphplan.output.exports.walk import identifiers
 from graphplan.sheet.plates.plate import Plates
 
-Export = Callable[[Plates], str]
+Export = type[TikzWriter]
 POINT_MM = 2.845275590551  # TeX's points in a millimetre
-BOTH = pytest.mark.parametrize("export", [tikz, tkz_euclide])
+BOTH = pytest.mark.parametrize("writer", [TikzWriter, TkzWriter])
 MADE = re.compile(r"coordinate ?\((\w+)\)|tkzGetPoint\{(\w+)\}|tkzGetPoints\{(\w+)\}\{(\w+)\}"
                   r"|tkzDefPoint\([^)]*\)\{(\w+)\}")
 READ = re.compile(r"[(,{ ]([A-Za-z]\w*)(?=[),}$]|--)|--([A-Za-z]\w*)")
@@ -32,7 +33,8 @@ READ = re.compile(r"[(,{ ]([A-Za-z]\w*)(?=[),}$]|--)|--([A-Za-z]\w*)")
 def compiled(source: str, plates: Plates, folder: Path) -> dict[str, tuple[float, float]]:
     """The points of a plates in mm, as pdflatex tells them."""
     names = identifiers(plates.drawn)
-    points = [names[mark] for mark in plates.drawn if mark.kind == POINT and f"({names[mark]})" in source]
+    made = {name for found in MADE.findall(source) for name in found if name}
+    points = [names[mark] for mark in plates.drawn if mark.kind == POINT and names[mark] in made]
     probe = "".join(rf"\path ({id}); \pgfgetlastxy{{\X}}{{\Y}}\typeout{{AT {id} \X\space\Y}}" + "\n" for id in points)
     (folder / "figure.tex").write_text(source.replace(r"\end{tikzpicture}", probe + r"\end{tikzpicture}"))
     run = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
@@ -43,9 +45,15 @@ def compiled(source: str, plates: Plates, folder: Path) -> dict[str, tuple[float
     return {found[1]: (float(found[2]) / POINT_MM, float(found[3]) / POINT_MM) for found in told}
 
 
-def available(export: Export) -> bool:
+def written(writer: Export, plates: Plates) -> str:
+    """A document of a picture alone."""
+    packages = ("amsmath", "xfp", "tikz", *writer.packages)
+    return "\n".join(standalone(writer(plates).picture(), "en", packages))
+
+
+def available(writer: Export) -> bool:
     """Whether what an export needs is installed."""
-    package = "tkz-euclide.sty" if export is tkz_euclide else "standalone.cls"
+    package = "tkz-euclide.sty" if writer is TkzWriter else "standalone.cls"
     if shutil.which("pdflatex") is None or shutil.which("kpsewhich") is None:
         return False
     return not subprocess.run(["kpsewhich", package, "xfp.sty"], capture_output=True, check=False).returncode
@@ -53,10 +61,10 @@ def available(export: Export) -> bool:
 
 @BOTH
 @pytest.mark.parametrize("name", ["slider-crank", "jaanimets-10", "double-butterfly"])
-def test_every_step_is_said_and_nothing_used_before_it_is_made(export: Export, name: str) -> None:
+def test_every_step_is_said_and_nothing_used_before_it_is_made(writer: Export, name: str) -> None:
     """Sentences stand in order; braces are balanced; each coordinate is made before it is read, and made once."""
     _, plates = laid_out(name)
-    source = export(plates)
+    source = written(writer, plates)
     places = [source.index(f"\n% {mark.number}. {mark.sentence}\n") for mark in plates.drawn if mark.number]
     assert places == sorted(places)
     body = re.sub(r"(?<!\\)%.*", "", source[source.index(r"\begin{tikzpicture}") :])
@@ -70,18 +78,19 @@ def test_every_step_is_said_and_nothing_used_before_it_is_made(export: Export, n
         read = {one or two for one, two in READ.findall(re.sub(r"\{\$.*?\$\}", "", MADE.sub("", line)))}
         assert (read & set(made)) <= known, line
         known |= {name for found in MADE.findall(line) for name in found if name}
-    assert export(plates) == source
+    assert written(writer, plates) == source
 
 
 @BOTH
 @PLACES
 @pytest.mark.parametrize("name", NAMES)
-def test_every_operation_is_translated(export: Export, name: str, place: Callable[[int], Panel]) -> None:
+def test_every_operation_is_translated(writer: Export, name: str, place: Callable[[int], Panel]) -> None:
     """Each operation of the table gives coordinates under its sentence, a line through two points apart."""
     for program, values in programs(name):
         plates = loose(program, values, place)
         last = plates.steps[-1]
-        said = export(plates).partition(f"\n% {last.number}. {last.sentence}\n" if last.number else "tikzpicture}")[2]
+        sentence = f"\n% {last.number}. {last.sentence}\n" if last.number else "tikzpicture}"
+        said = written(writer, plates).partition(sentence)[2]
         made = {name for found in MADE.findall(said) for name in found if name}
         called = identifiers(plates.drawn)[last]
         needless = name == "line" and all(arg.panel == last.panel for arg in last.args)
@@ -89,14 +98,14 @@ def test_every_operation_is_translated(export: Export, name: str, place: Callabl
 
 
 @BOTH
-def test_what_tex_cannot_hold_is_left_out_and_told(export: Export) -> None:
+def test_what_tex_cannot_hold_is_left_out_and_told(writer: Export) -> None:
     """A mark too far out for TeX's dimensions gets no coordinate; what rests on it stands as it lies, and says so."""
     program, values = next(programs("midpoint"))
     out = VIEWS[MECHANISM].origin[0] + 6000.0, 0.0
     plates = loose(program, values, lambda index: MECHANISM if index else TWO,
                    {**VIEWS, TWO: replace(VIEWS[MECHANISM], origin=out)})  # fmt: skip
     first, last, names = plates.steps[0], plates.steps[-1], identifiers(plates.drawn)
-    source = export(plates)
+    source = written(writer, plates)
     assert f"({names[first]})" not in source
     assert "too far out for TeX's dimensions" in source
     assert re.search(rf"given as it lies: .*\n\\coordinate \({names[last]}\) at \([-\d.]+,[-\d.]+\);", source)
@@ -104,23 +113,23 @@ def test_what_tex_cannot_hold_is_left_out_and_told(export: Export) -> None:
 
 @BOTH
 @pytest.mark.parametrize("name", ["slider-crank", "ozols-10-1"])
-def test_tex_puts_every_point_where_it_lies(export: Export, name: str, tmp_path: Path) -> None:
+def test_tex_puts_every_point_where_it_lies(writer: Export, name: str, tmp_path: Path) -> None:
     """Compiled by pdflatex without an error, every point stands within a fifth of a millimetre of its place."""
-    if not available(export):
+    if not available(writer):
         pytest.skip("there is no pdflatex with what this file needs")
     _, plates = laid_out(name)
-    found, names = compiled(export(plates), plates, tmp_path), identifiers(plates.drawn)
+    found, names = compiled(written(writer, plates), plates, tmp_path), identifiers(plates.drawn)
     points = [mark for mark in plates.drawn if mark.kind == POINT]
     assert len(found) == len(points)
     assert max(math.dist(found[names[mark]], mark.at) for mark in points) < 0.2
 
 
 @BOTH
-def test_tex_takes_plans_that_reach_metres_off_the_paper(export: Export, tmp_path: Path) -> None:
+def test_tex_takes_plans_that_reach_metres_off_the_paper(writer: Export, tmp_path: Path) -> None:
     """Plans far too large for their windows are compiled without an error, with what of them TeX can hold."""
-    if not available(export):
+    if not available(writer):
         pytest.skip("there is no pdflatex with what this file needs")
     _, plates = laid_out("slider-crank", times=40.0)
-    source = export(plates)
+    source = written(writer, plates)
     assert "too far out for TeX's dimensions" in source
     assert 0 < len(compiled(source, plates, tmp_path)) < len(plates.drawn)

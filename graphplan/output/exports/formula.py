@@ -21,7 +21,6 @@ from typing import Any
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, POINT
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import Language, Writer
-from graphplan.sheet.lettering.lettering import GREEK, Run, Runs
 from graphplan.sheet.plates.drawn_step import DrawnStep
 from graphplan.sheet.plates.view import View
 
@@ -87,25 +86,3 @@ def _told(d: Symbols, kind: str, window: View, value: Any) -> list[Any]:
     if kind == POINT:
         return [*at]
     return [*at, window.scale * d.sqrt(value[-1], "not-rational", "a length is never imaginary")]
-
-
-# ---- letters in the mathematics of TeX, as GCLC and LaTeX set them, and words as LaTeX takes them -------------------
-
-SIGNS = {sign: rf"\{name} " for name, sign in GREEK.items() if name != "upsilon"} | {"′": "'", "″": "''"}
-SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
-                                                      "\\": r"\textbackslash{}"}  # fmt: skip
-
-
-def formulated(runs: Runs) -> str:
-    """Lettering as a formula: subscripts in braces, Greek letters by name."""
-    return "".join(map(_run, runs))
-
-
-def _run(run: Run) -> str:
-    said = "".join(SIGNS.get(char, char) for char in run.text).strip()
-    return f"_{{{said}}}" if run.level < 0 else said
-
-
-def spelled(words: str) -> str:
-    """Words with the characters escaped that LaTeX would take for commands."""
-    return "".join(SPECIAL.get(char, char) for char in words)

@@ -11,20 +11,24 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from decimal import Decimal
 from itertools import pairwise
 
 from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movement
 from graphplan.kernel.tape.written import Language, operations
-from graphplan.output.exports.formula import formula, formulated
+from graphplan.output.exports.formula import formula
+from graphplan.output.exports.latex import formulated, lettering, points
 from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
 from graphplan.phrases import said
+from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import CAPS
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Spot
+from graphplan.sheet.plates.display import SLIM, Circle, Rect, Spot
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.view import View
 
 COORDINATES = {POINT: ("x", "y"), LINE: ("x", "y", "dx", "dy"), OPENING: ("r",), CIRCLE: ("x", "y", "r")}
 
@@ -85,6 +89,26 @@ PROCEDURES = {
     "vector": ("P Q", "draws the vector PQ", """
   drawsegment P Q
   drawarrow P Q 1"""),
+    "beside": ("P x y X", "X is x to the right of P and y above it", """
+  getx a P
+  gety b P
+  expression c { a+x }
+  expression d { b+y }
+  point X c d"""),
+    "disc": ("C r", "fills the circle about C", """
+  getx x C
+  gety y C
+  expression a { x+r }
+  point P a y
+  circle k C P
+  fillcircle k"""),
+    "ring": ("C r", "draws the circle about C", """
+  getx x C
+  gety y C
+  expression a { x+r }
+  point P a y
+  circle k C P
+  drawcircle k"""),
     "arrow": ("P Q s t", "draws an arrow from s to t of the way from P to Q", """
   towards S P Q s
   towards T P Q t
@@ -117,12 +141,25 @@ COMMANDS = {
     Movement.CUT: "call farther {{ {0} {1} {P} {Q} {out} }}",
     Movement.ARCS_MET: "call left {{ {left} {right} {out} }}",
 }
-SIDES = "r", "rt", "t", "lt", "l", "lb", "b", "rb"  # where a letter stands off its mark, every 45 degrees
+AIR = 3.0  # mm about the picture
+SWALLOW = {pens.OPEN: 0.7}  # how deep the heads of vectors are cut in, beside their length
 
 
 def gclc(plates: Plates) -> str:
     """The construction as a GCLC source (.gcl): points, steps with their sentences, strokes and letters."""
-    return _GclcWriter(plates).text()
+    return _GclcWriter(cornered(plates)).text()
+
+
+def cornered(plates: Plates) -> Plates:
+    """The plates with their lower left corner in that of the picture."""
+    dx, dy = AIR - plates.box.left, AIR - plates.box.bottom
+
+    def there(view: View) -> View:
+        rect, (x, y) = view.rect, view.origin
+        moved = Rect(rect.left + dx, rect.bottom + dy, rect.right + dx, rect.top + dy)
+        return replace(view, rect=moved, origin=(x + dx, y + dy))
+
+    return replace(plates, views={panel: there(view) for panel, view in plates.views.items()})
 
 
 def decimal(number: float) -> str:
@@ -151,13 +188,13 @@ class _GclcWriter(Source):
 
     def text(self) -> str:
         self.made: set[str] = set()  # marks that only serve others, and coordinates that are measured
-        self.held: list[str] = []  # the pen that is taken up
+        self.held: dict[str, str] = {}  # the pen that is taken up, and the letters
         self.steps()
         for plate in self.plates:
             self.lines += ["", f"% {self.say(said('drawing: {0}', plate.caption))}"]
             self.drawing(plate)
         title, box = [f"% {line}" for line in (self.title, self.source) if line], self.plates.box
-        head = [*title, "", f"dim {decimal(math.ceil(box.right + 5))} {decimal(math.ceil(box.top + 5))}", ""]
+        head = [*title, "", f"dim {decimal(math.ceil(box.right + AIR))} {decimal(math.ceil(box.top + AIR))}", ""]
         return "\n".join([*head, *self._procedures(), *self.lines]) + "\n"
 
     def _procedures(self) -> Iterator[str]:
@@ -256,6 +293,10 @@ class _GclcWriter(Source):
     def stroke(self, stroke: Stroke) -> None:
         """Along its marks, or from one mark the way the line runs."""
         self._pen(stroke.pen)
+        if stroke.head:
+            slim = SLIM[stroke.pen.tip]
+            told = 2 * math.degrees(math.atan(1 / slim)), stroke.head * math.hypot(1, 1 / slim)
+            self._hold("arrowstyle", *map(_short, told), _short(SWALLOW.get(stroke.pen.tip, 0.0)))
         start, end, low, high = self.names[stroke.start], self.names[stroke.end], stroke.low, stroke.high
         if stroke.head and (low, high) == (0.0, 1.0):
             self.lines.append(f"call vector {{ {start} {end} }}")
@@ -273,33 +314,67 @@ class _GclcWriter(Source):
         self.lines.append(f"call swing {{ {centre} {self.names[arc.mark]} {_short(arc.before)} {_short(arc.after)} }}")
 
     def chain(self, pen: Pen, spots: Sequence[Spot], closed: bool) -> None:
-        """Nothing is filled."""
-        if not pen.width:
-            return
-        self._pen(pen)
-        names = []
-        for x, y in spots:
-            joint = self.joints.get((x, y))
-            names.append(self.names[joint] if joint else f"s_{len(self.lines)}")
-            if not joint:
-                self.lines.append(f"point {names[-1]} {_short(x)} {_short(y)}")
-        self.lines += [f"drawsegment {one} {other}" for one, other in pairwise([*names, *names[:closed]])]
+        """A figure is filled by triangles about its first corner: all are convex."""
+        names = [self._named(spot) for spot in spots]
+        if closed and pen.fill != "none":
+            self._hold("color", *map(str, pens.rgb(pen.fill)))
+            self.lines += [f"filltriangle {names[0]} {one} {other}" for one, other in pairwise(names[1:])]
+        if pen.width:
+            self._pen(pen)
+            self.lines += [f"drawsegment {one} {other}" for one, other in pairwise([*names, *names[:closed]])]
+
+    def _named(self, spot: Spot) -> str:
+        """A joint, or a point of its own."""
+        if joint := self.joints.get(spot):
+            return self.names[joint]
+        name = f"s_{len(self.lines)}"
+        self.lines.append(f"point {name} {_short(spot[0])} {_short(spot[1])}")
+        return name
+
+    def circle(self, item: Circle, joint: DrawnStep | None) -> None:
+        self._round(item.pen, self.names[joint] if joint else self._named(item.centre), item.radius)
 
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
-        self._pen(pen)
-        self.lines.append(f"cmark {self.names[mark]}")
+        self._round(pen, self.names[mark], radius)
+
+    def _round(self, pen: Pen, centre: str, radius: float) -> None:
+        """A circle, filled and drawn as the pen says."""
+        if pen.fill != "none":
+            self._hold("color", *map(str, pens.rgb(pen.fill)))
+            self.lines.append(f"call disc {{ {centre} {_short(radius)} }}")
+        if pen.width:
+            self._pen(pen)
+            self.lines.append(f"call ring {{ {centre} {_short(radius)} }}")
 
     def letter(self, letter: Letter) -> None:
-        """Letters on the side of their mark where they stand on the sheet; numbers are in the sentences alone."""
-        if letter.ringed or letter.text.pen == pens.FAINT:
-            return
-        angle = math.atan2(letter.off[1] + letter.text.size * CAPS / 2, letter.off[0])
-        side = SIDES[round(angle / (math.pi / 4)) % 8]
-        self.lines.append(f"printat_{side} {self.names[letter.mark]} {{{formulated(letter.text.runs)}}}")
+        """Where it stands on the sheet, with its leader and the circle about it."""
+        text, (x, y) = letter.text, letter.off
+        if letter.leader:
+            self._pen(pens.LEADER)
+            self.lines.append("drawsegment " + " ".join(self._beside(letter.mark, spot) for spot in letter.leader))
+        if letter.ringed:
+            self._round(pens.BALLOON, self._beside(letter.mark, letter.ringed), BALLOON * text.size)
+        place = self._beside(letter.mark, (x, y + text.size * CAPS / 2))
+        self._hold("color", *map(str, pens.rgb(text.pen.colour)))
+        self._hold("fontsize", f"{points(text.size):.0f}")
+        words = any(word.isalpha() and len(word) > 1 for run in text.runs for word in run.text.split())
+        told = rf"\mbox{{{lettering(text.runs)}}}" if words else formulated(text.runs)
+        self.lines.append(f"printat {place} {{{told}}}")
+
+    def _beside(self, mark: DrawnStep, off: Spot) -> str:
+        """A point so far off a mark."""
+        name = f"s_{len(self.lines)}"
+        self.lines.append(f"call beside {{ {self.names[mark]} {_short(off[0])} {_short(off[1])} {name} }}")
+        return name
 
     def _pen(self, pen: Pen) -> None:
-        """Width and colour, where they change."""
-        taken = [f"linethickness {decimal(pen.width)}", f"color {' '.join(map(str, pens.rgb(pen.colour)))}"]
-        if taken != self.held:
-            self.lines += taken
-            self.held = taken
+        """Width and colour."""
+        self._hold("linethickness", decimal(pen.width))
+        self._hold("color", *map(str, pens.rgb(pen.colour)))
+
+    def _hold(self, what: str, *how: str) -> None:
+        """What holds for all that follows, where it changes."""
+        told = " ".join((what, *how))
+        if told != self.held.get(what):
+            self.lines.append(told)
+            self.held[what] = told

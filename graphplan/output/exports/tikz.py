@@ -1,7 +1,7 @@
-"""The construction as a LaTeX file for TikZ: coordinates, each by calc from those before, then what is drawn.
+r"""The construction as LaTeX for TikZ: coordinates, each by calc from those before, then what is drawn.
 
 Every mark is a coordinate: a line has two, its ends; an opening lies on the x axis from the origin; a circle has its
-rightmost point. TeX reckons with five digits after the point, so roots and the meetings of lines go through \\fpeval,
+rightmost point. TeX reckons with five digits after the point, so roots and the meetings of lines go through \fpeval,
 which has sixteen. It has no dimension beyond 16383 pt, so a mark that lies very far out has no coordinate: what rests
 on it is given as it lies, and the file says so.
 """
@@ -9,59 +9,44 @@ on it is given as it lies, and the file says so.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from typing import Any
 
 from graphplan.kernel.kinds import CIRCLE, LINE, OPENING, Movement
 from graphplan.kernel.tape.written import Language, operations
-from graphplan.output.exports.formula import formula, formulated, spelled
-from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
+from graphplan.output.exports import latex
+from graphplan.output.exports.formula import formula
+from graphplan.output.exports.latex import HEADS, LETTERS, NAMES, lettering
+from graphplan.output.exports.slides import Slides, captioned
+from graphplan.output.exports.walk import REACH, Letter, Source, at_home, corners, heading, parameters, turned_back
 from graphplan.phrases import said
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.lettering.label_candidates import BALLOON
+from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Spot
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plate import Plates
+from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.plate import Plate, Plates
 
 FAR = 1900.0  # mm: three times as much, as in P + (B - A), is still less than TeX's longest dimension of 16383 pt
 
 FAR_OUT = said("too far out for TeX's dimensions: what rests on it is given as it lies")
 AS_IT_LIES = said("given as it lies: it rests on what TeX cannot hold")
-LATIN, ENCODINGS = "T1", {"ru": "T2A", "uk": "T2A"}
+BESIDE = 0.2  # mm that lettering may reach over its mark, and still stands beside it
 
-PREAMBLE = r"""\documentclass[tikz,border=4mm]{standalone}
-\usepackage{amsbsy,xfp}
-\usetikzlibrary{calc,arrows.meta}
-"""
-
-MEETING = r"""% Where two lines meet, with the sixteen digits of \fpeval: with five pgf is half a millimetre off.
-\makeatletter
-\newcommand*{\spotof}[3]{\pgf@process{#1}\edef#2{\the\pgf@x}\edef#3{\the\pgf@y}}
-\renewcommand*{\pgfpointintersectionoflines}[4]{{%
-  \spotof{#1}\xa\ya \spotof{#2}\xb\yb \spotof{#3}\xc\yc \spotof{#4}\xd\yd
-  \edef\part{\fpeval{((\xc-\xa)*(\yd-\yc)-(\yc-\ya)*(\xd-\xc))/((\xb-\xa)*(\yd-\yc)-(\yb-\ya)*(\xd-\xc))}}%
-  \global\pgf@x=\fpeval{\xa+\part*(\xb-\xa)}pt\relax \global\pgf@y=\fpeval{\ya+\part*(\yb-\ya)}pt\relax}}
-\makeatother
-"""
-
-STYLES: dict[str, Pen] = {
-    "construction": pens.THIN, "produced": pens.PRODUCED, "carried": pens.NORMAL, "locus": pens.LOCUS,
-    "compasses": pens.ARC, "leader": pens.LEADER, "joint": pens.PAIR, "dot": pens.DOT, "origin": pens.ORIGIN,
-    "bar": pens.BAR, "inside of a bar": pens.HOLLOW, "link": pens.LINK, "plate": pens.PLATE,
-    "ground line": pens.GROUND, "hatching": pens.HATCH, "stand": pens.GROUND_FILL, "sliding block": pens.BLOCK,
-    "arrowhead": pens.SOLID, "balloon": pens.BALLOON,
-    **{f"given {kind}": pen.filled("none") for kind, pen in pens.GIVEN.items()},
-    **{kind: pen.filled("none") for kind, pen in pens.VECTORS.items()},
-}  # fmt: skip
-HEADS = {pens.FILLED: "head", pens.WHITE: "white head", pens.OPEN: "open head"}
-NAMES = {pen: name for name, pen in reversed(STYLES.items())}
+# How far the foot on the way \p1 of the point that lies at \p2 is: pgf's own is a tenth of a millimetre off.
+FOOT = "".join(rf"\n{place}={{{{\fpeval{{{{(\x1*\x2+\y1*\y2)/(\x1*\x1+\y1*\y1)*\{part}1}}}}pt}}}}" + ", " * (place == 1)
+               for place, part in ((1, "x"), (2, "y")))  # fmt: skip
 
 # What makes a mark, from its operands' names; {A}, {B} are the ends of its first operand, {C}, {D} of its second.
 COMMANDS = {
     Movement.RULED: "",
     Movement.MET: r"\coordinate ({out}) at (intersection of {A}--{B} and {C}--{D});",
     Movement.HALVED: r"\coordinate ({out}) at ($({0})!0.5!({1})$);",
-    Movement.DROPPED: r"\coordinate ({out}) at ($({A})!({1})!({B})$);",
+    Movement.DROPPED: r"\path let \p1=($({B})-({A})$), \p2=($({1})-({A})$), " + FOOT + " in"
+                      "\n  " r"coordinate ({out}) at ($({A})+(\n1,\n2)$);",
     Movement.OPENED: r"\path let \p1=($({1})-({0})$) in"
                      r" coordinate ({out}) at ({{\fpeval{{sqrt(\x1*\x1+\y1*\y1)}}pt}},0pt);",
     Movement.STRUCK: r"\coordinate ({out}) at ($({0})+{k}*({1})$);",
@@ -70,10 +55,9 @@ COMMANDS = {
     Movement.LAID_OFF: r"\coordinate ({out}) at ($({2})+{k}*($({1})-({0})$)$);",
     Movement.TURNED: r"\path let \p1=($({1})-({0})$) in coordinate ({out}) at ($({2})+{k}*({{-(\y1)}},\x1)$);",
     Movement.LAID_BY_COMPONENTS: r"\coordinate ({out}) at ($({0})+({dx},{dy})$);",
-    Movement.CUT: r"\path let \p1=($({A})!({centre})!({B})$), \p2=($(\p1)-({centre})$),"
-                         "\n  " r"\p3=($({1})-({centre})$),"
-                         "\n  " r"\n1={{\fpeval{{sqrt(max(0,\x3*\x3-\x2*\x2-\y2*\y2))}}pt}} in"
-                         "\n  " r"coordinate ({out}) at ($(\p1)!{back}\n1!($(\p1)+({B})-({A})$)$);",
+    Movement.CUT: r"\path let \p1=($({B})-({A})$), \p2=($({centre})-({A})$), \p3=($({1})-({centre})$), " + FOOT
+                  + ",\n  " r"\n3={{\fpeval{{sqrt(max(0,\x3*\x3+\y3*\y3-(\n1-\x2)^2-(\n2-\y2)^2)"
+                  r"/(\x1*\x1+\y1*\y1))}}}} in" "\n  " r"coordinate ({out}) at ($({A})+(\n1,\n2){sign}\n3*(\x1,\y1)$);",
     Movement.ARCS_MET: r"\path let \p1=($({other})-({centre})$), \p2=($({0})-({centre})$), \p3=($({1})-({other})$),"
                     "\n  " r"\n1={{\fpeval{{0.5+(\x2*\x2-\x3*\x3)/(\x1*\x1+\y1*\y1)/2}}}},"
                     "\n  " r"\n2={{\fpeval{{sqrt(max(0,\x2*\x2/(\x1*\x1+\y1*\y1)-\n1*\n1))}}}} in"
@@ -81,9 +65,26 @@ COMMANDS = {
 }  # fmt: skip
 
 
-def tikz(plates: Plates) -> str:
-    """The construction as a standalone LaTeX file that draws with TikZ and its library calc."""
-    return TikzWriter(plates).text()
+def tikz(composition: Composition, **look: Any) -> str:
+    """The construction in LaTeX that draws with TikZ; see :func:`written`."""
+    return written(TikzWriter, composition, **look)
+
+
+def written(writer: type[TikzWriter], composition: Composition, *, bare: bool = False, width: float = 0.0,
+            overlays: bool = False) -> str:
+    r"""The construction by a writer: a document of its own, or `bare`, to be read by another that uses the style.
+
+    It is so many mm wide, or up to 1 so much of \\linewidth; else as large as the sheet. With `overlays` the stages are
+    on slides.
+    """
+    one, say = writer(composition.plates, composition, overlays), composition.plans.tongue
+    packages = [*latex.PACKAGES, *one.packages, *(["adjustbox"] if overlays else [])]
+    picture = one.picture(width)
+    if one.slides:
+        picture = one.slides.frame(picture)
+    if not bare:
+        picture = (latex.slides if overlays else latex.standalone)(picture, say.code, packages)
+    return "\n".join([*latex.told([one.title, one.source], say, packages, bare), *picture]) + "\n"
 
 
 def plain(number: float) -> str:
@@ -104,39 +105,80 @@ ARITHMETIC = Language(_operand, operations("sqrt(max(0,{0}))", "abs({0})", "(abs
 
 
 class TikzWriter(Source):
-    """Writes first every step, then what is drawn of it, plan by plan."""
+    """Writes first every step, then what is drawn of it, plan by plan, under the captions of a `composition`; with its
+    `overlays` each step on the slide of its stage."""
 
-    live, commands, preamble = False, COMMANDS, PREAMBLE + MEETING
+    live, commands = False, COMMANDS
+    packages: tuple[str, ...] = ()
 
-    def text(self) -> str:
+    def __init__(self, plates: Plates, composition: Composition | None = None, overlays: bool = False):
+        super().__init__(plates)
         self.lost: set[DrawnStep] = set()  # what lies where TeX cannot reckon
         self.literal: set[DrawnStep] = set()  # what is given as it lies
-        box = self.plates.box
-        self.lines += [*(f"% {line}" for line in (self.title, self.source) if line), self._preamble() + _styles(),
-                       r"\begin{document}", r"\begin{tikzpicture}[drawing]",
-                       rf"\path[use as bounding box] ({plain(box.left)},{plain(box.bottom)}) rectangle "
-                       rf"({plain(box.right)},{plain(box.top + 4)});"]  # fmt: skip
+        self.composition, self.slides = composition, Slides(composition) if composition and overlays else None
+        views = {panel: view.rect for panel, view in plates.views.items()}
+        self.panels = composition.arrangement.panels if composition else views
+
+    def picture(self, width: float = 0.0) -> list[str]:
+        r"""The picture, so many mm wide, or up to 1 so much of \linewidth."""
+        box = around([spot for rect in self.panels.values() for spot in rect.corners])
+        self.far = FAR / max(1.0, width / box.width)
+        wide = rf"{width:g}\linewidth" if width <= 1 else f"{width:g}mm"
+        key = f"graphplan={wide}/{plain(box.width)}" if width else "graphplan"
+        large = ", large sheet" if self.plates.letters == LARGE_SHEET else ""
+        self.lines += [rf"\begin{{tikzpicture}}[{key}{large}]", *self._boxes(box)]
         self.steps()
         for plate in self.plates:
-            self.lines += ["", rf"\begin{{scope}} % {plate.caption}",
-                           rf"\node[caption] at {spot((plate.view.rect.left, plate.view.rect.top + 1))} "
-                           rf"{{{spelled(plate.caption)}}};"]  # fmt: skip
+            begin = len(self.lines)
+            self.lines += [rf"\begin{{scope}} % {plate.caption}"]
+            self._caption(plate.panel)
             self.drawing(plate)
             self.lines.append(r"\end{scope}")
-        return "\n".join([*self.lines, r"\end{tikzpicture}", r"\end{document}"]) + "\n"
+            if self.slides:
+                self._only(f"{self.slides.showing(plate.panel)},{self.slides.last}", begin)
+            self.lines.insert(begin, "")
+        return [*self.lines, r"\end{tikzpicture}"]
 
-    def _preamble(self) -> str:
-        """What the file needs: with the letters of its language."""
-        code = self.say.code
-        letters = "" if code == "en" else rf"\usepackage[{ENCODINGS.get(code, LATIN)}]{{fontenc}}" "\n"
-        head, packages = self.preamble.split("\n", 1)
-        return f"{head}\n{letters}{packages}"
+    def _caption(self, panel: str) -> None:
+        """What a plan is, and its scales, from the top down in as many lines as the panel's width takes; on slides it
+        stands beside the picture, but on the last."""
+        place, begin, wide = "", len(self.lines), rf"text width={plain(self.panels[panel].width)}\graphplanmm"
+        for text in captioned(self.composition, panel) if self.composition else ():
+            place = r"([yshift=-1.2\graphplanmm]plan.south west)" if place else spot((text.at[0], text.box.top))
+            style = f"{'heading' if text.bold else 'caption'}={latex.points(text.size):g}"
+            self.lines.append(rf"\node[{style}, {wide}] (plan) at {place} {{{lettering(text.runs, words=True)}}};")
+        if self.slides:
+            self._only(str(self.slides.last), begin)
+
+    def _boxes(self, whole: Rect) -> Iterator[str]:
+        """What the picture takes up: of a slide what is drawn on its plan, of the last slide everything."""
+        boxes = {"": whole}
+        if self.slides:
+            boxes = {self.slides.showing(plate.panel): _around(self.pictured(plate)) for plate in self.plates}
+            boxes[str(self.slides.last)] = whole
+        for slides, box in boxes.items():
+            path = rf"\path[use as bounding box] {spot(box.corners[0])} rectangle {spot(box.corners[2])};"
+            yield rf"\only<{slides}>{{{path}}}" if slides else path
+
+    def _only(self, slides: str, begin: int) -> None:
+        """Let slides alone show what is written from some line on."""
+        if begin < len(self.lines):
+            self.lines[begin:] = [rf"\only<{slides}>{{%", *self.lines[begin:], "}"]
+
+    def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
+        """What is drawn in one step, from its slide on, where it is in ink as on the last; on others it is pale."""
+        begin, slide = len(self.lines), self.slides.of.get(drawn.index) if self.slides else None
+        super().movement(plate, drawn, letters)
+        if self.slides and slide and begin < len(self.lines):
+            scope = rf"\begin{{scope}}[drawn on={{{slide},{self.slides.last}}}]"
+            self.lines[begin:] = [scope, *self.lines[begin:], r"\end{scope}"]
+            self._only(f"{slide}-", begin)
 
     # ---- steps -----------------------------------------------------------------------------------------------------
 
     def step(self, drawn: DrawnStep) -> None:
         """The coordinates of a mark, as far as TeX can hold them."""
-        if _out_of_reach(drawn):
+        if _reach(drawn) > self.far:
             self.lost.add(drawn)
             self.lines.append(f"% ({self.say(FAR_OUT)})")
         elif self.lost.intersection(drawn.args):
@@ -164,8 +206,7 @@ class TikzWriter(Source):
         told = {name: plain(number) for name, number in parameters(drawn).items()}
         told |= zip("ABCD", (end for arg in drawn.args if arg.kind == LINE for end in self.ends(arg)), strict=False)
         told |= zip(("centre", "other"), (self.centre(arg) for arg in drawn.args if arg.kind == CIRCLE), strict=False)
-        back = "-" if turned_back(drawn) else ""
-        return {**told, "back": back, "sign": back or "+"}
+        return {**told, "sign": "-" if turned_back(drawn) else "+"}
 
     def ends(self, line: DrawnStep) -> tuple[str, str]:
         """Two coordinates from one of which to the other a line runs."""
@@ -192,7 +233,7 @@ class TikzWriter(Source):
             part = f"{REACH:g}/sqrt(({dx})*({dx})+({dy})*({dy}))"
             places = {"_at": (x, y), "_to": (f"{x}+({dx})*{part}", f"{y}+({dy})*{part}")}
         lets = ", ".join(rf"\p{{{name}}}=({name})" for name in read)
-        made = (rf"coordinate ({self.names[drawn]}{end}) at ({{\fpeval{{{x}}}mm}},{{\fpeval{{{y}}}mm}})"
+        made = (rf"coordinate ({self.names[drawn]}{end}) at ({{\fpeval{{{x}}}}},{{\fpeval{{{y}}}}})"
                 for end, (x, y) in places.items())
         self.lines.append("\n  ".join([rf"\path let {lets} in" if read else r"\path", *made]) + ";")
 
@@ -202,11 +243,9 @@ class TikzWriter(Source):
         names = self.ends(drawn) if drawn.kind == LINE else circle
         read.update(dict.fromkeys(names))
         (x, y), *ends = [(rf"\x{{{name}}}", rf"\y{{{name}}}") for name in names]
-        if drawn.kind == OPENING:
-            return [f"({x}/1mm)"]
-        rest = [f"(({end[0]}-{x})/1mm)" for end in ends]
-        rest += [f"(({end[1]}-{y})/1mm)" for end in ends if drawn.kind == LINE]
-        return [f"({x}/1mm)", f"({y}/1mm)", *rest]
+        lengths = [x, y, *(f"({end[0]}-{x})" for end in ends)]
+        lengths += [f"({end[1]}-{y})" for end in ends if drawn.kind == LINE]
+        return [rf"({length}/\graphplanmm)" for length in lengths[: 1 if drawn.kind == OPENING else None]]
 
     # ---- the drawing -----------------------------------------------------------------------------------------------
 
@@ -219,7 +258,7 @@ class TikzWriter(Source):
             self._path(style, map(spot, stroke.ends))
         elif stroke.in_mm:
             P, Q = self.ends(stroke.of)
-            self._path(style, (f"($({start})!{part:.4f}mm!($({start})+({Q})-({P})$)$)" for part in parts))
+            self._path(style, (rf"($({start})!{part:.4f}\graphplanmm!($({start})+({Q})-({P})$)$)" for part in parts))
         elif parts == (0.0, 1.0):
             self.segment(style, start, end)
         else:
@@ -231,7 +270,7 @@ class TikzWriter(Source):
 
     def part(self, style: str, start: str, end: str, low: float, high: float) -> None:
         """A stroke by parts of the way from one mark to another."""
-        self._path(style, (f"($({start})!{part:.4f}!({end})$)" for part in (low, high)))
+        self._path(style, (rf"($({start})!{part:.4f}!({end})$)" for part in (low, high)))
 
     def arc(self, arc: StruckArc) -> None:
         if self.lost.intersection((arc.of, arc.mark, *arc.of.args)):
@@ -252,54 +291,80 @@ class TikzWriter(Source):
     def _path(self, style: str, places: Iterable[str]) -> None:
         self.lines.append(rf"\draw[{style}] {' -- '.join(places)};")
 
+    def circle(self, item: Circle, joint: DrawnStep | None) -> None:
+        place = f"({self.names[joint]})" if joint and joint not in self.lost else spot(item.centre)
+        self.lines.append(rf"\draw[{NAMES[item.pen]}] {place} circle[radius={item.radius:g}];")
+
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
         if mark not in self.lost:
             self.lines.append(rf"\draw[{NAMES[pen]}] ({self.names[mark]}) circle[radius={radius:g}];")
 
     def letter(self, letter: Letter) -> None:
-        """Off its mark, with a leader where it stands far off."""
-        text, name = formulated(letter.text.runs), self.names[letter.mark]
-        text = rf"$\boldsymbol{{{text}}}$" if letter.text.bold else f"${text}$"
-        if letter.mark in self.lost:
-            self.lines.append(rf"\node[letter] at {spot(letter.text.at)} {{{text}}};")
-            return
+        """On that side of its mark where it stands, with a leader where it stands far off."""
+        text, name, held = letter.text, self.names[letter.mark], letter.mark not in self.lost
+        written = lettering(text.runs, text.bold)
         if letter.leader:
-            self._path("leader", (f"($({name})+{spot(end)}$)" for end in letter.leader))
+            ends = (letter.at(end) for end in letter.leader)
+            self._path("leader", (f"($({name})+{spot(off)}$)" if held else spot(at)
+                                  for off, at in zip(letter.leader, ends, strict=True)))
         if letter.ringed:
-            self.lines.append(rf"\draw[balloon] ($({name})+{spot(letter.ringed)}$) circle[radius={BALLOON:g}];")
-        self.label("number" if letter.text.pen == pens.FAINT else "letter", name, spot(letter.off), text)
+            place = f"($({name})+{spot(letter.ringed)}$)" if held else spot(letter.at(letter.ringed))
+            self.lines.append(rf"\draw[balloon] {place} circle[radius={plain(BALLOON * text.size)}];")
+        style = self._style(text)
+        if held:
+            anchor, off = _anchor(letter)
+            self.label(f"{style}, anchor={anchor}" if anchor != "base" else style, name, spot(off), written)
+        else:
+            self.lines.append(rf"\node[{style}] at {spot(letter.at(letter.off))} {{{written}}};")
+
+    def _style(self, text: Text) -> str:
+        """What a letter is of."""
+        if text.pen == pens.FAINT:
+            return "number"
+        if text.size < self.plates.letters.mark - 0.01:
+            return "small letter"
+        return LETTERS.get(text.pen.colour, "letter")
 
     def label(self, style: str, mark: str, off: str, text: str) -> None:
         """Words so far off a mark."""
         self.lines.append(rf"\node[{style}] at ($({mark})+{off}$) {{{text}}};")
 
 
-def _styles() -> str:
-    """The pens of the sheet, by name."""
-    colours = sorted({colour for pen in STYLES.values() for colour in (pen.colour, pen.fill) if colour != "none"})
-    found = [rf"\definecolor{{ink{colour[1:]}}}{{HTML}}{{{colour[1:].upper()}}}" for colour in colours]
-    found += [r"\tikzset{", "  drawing/.style={x=1mm, y=1mm, line cap=round, line join=round},",
-              "  head/.style={-{Triangle[length=#1mm, width={#1mm/3}]}, line cap=butt},",
-              "  white head/.style={-{Triangle[length=#1mm, width={#1mm/2}, open, fill=white]}, line cap=butt},",
-              "  open head/.style={-{Straight Barb[length=#1mm, width={#1mm/2}]}, line cap=butt},",
-              r"  letter/.style={anchor=base, inner sep=0pt, font=\fontsize{7}{8}\selectfont},",
-              rf"  number/.style={{letter, text=ink{pens.GREY[1:]}, font=\fontsize{{5.5}}{{6}}\selectfont}},",
-              r"  caption/.style={anchor=south west, inner sep=0pt, font=\bfseries\fontsize{9}{10}\selectfont},"]
-    for name, pen in STYLES.items():
-        dashes = " ".join(f"{'off' if i % 2 else 'on'} {part:g}mm" for i, part in enumerate(pen.dash))
-        look = [f"draw=ink{pen.colour[1:]}, line width={pen.width:g}mm" if pen.width else "draw=none"]
-        look += [f"dash pattern={dashes}"] if dashes else []
-        look += [f"fill=ink{pen.fill[1:]}"] if pen.fill != "none" else []
-        found.append(f"  {name}/.style={{{', '.join(look)}}},")
-    return "\n".join([*found, "}"])
+def _around(items: Iterable[Item]) -> Rect:
+    """The box about some items."""
+    spots: list[Spot] = []
+    for item in items:
+        match item:
+            case Text():
+                spots += item.box.corners
+            case Arrow():
+                spots += [item.start, item.end]
+            case Circle(centre=(x, y), radius=r):
+                spots += [(x - r, y - r), (x + r, y + r)]
+            case _:
+                spots += corners(item)
+    return around(spots).inset(-1.0, -1.0, -1.0, -1.0)
 
 
-def _out_of_reach(drawn: DrawnStep) -> bool:
-    """Whether a mark has a coordinate that is no dimension of TeX's."""
+def _anchor(letter: Letter) -> tuple[str, Spot]:
+    """By which of its sides lettering hangs on its mark, and how far off that side is."""
+    box, (x, y), middle = letter.text.box, letter.mark.at, letter.off
+    left, right, top = box.left - x, box.right - x, box.top - y
+    if left > -BESIDE:
+        side, across = " west", left
+    elif right < BESIDE:
+        side, across = " east", right
+    else:
+        side, across = "", middle[0]
+    return (f"north{side}", (across, top)) if top < BESIDE else (f"base{side}", (across, middle[1]))
+
+
+def _reach(drawn: DrawnStep) -> float:
+    """How far out the coordinates of a mark lie."""
     if drawn.kind == OPENING:
-        return drawn.radius > FAR
+        return drawn.radius
     at = _nearest(drawn) if drawn.kind == LINE else drawn.at
-    return max(map(abs, at)) + (drawn.radius if drawn.kind == CIRCLE else 0.0) > FAR
+    return max(map(abs, at)) + (drawn.radius if drawn.kind == CIRCLE else 0.0)
 
 
 def _nearest(line: DrawnStep) -> Spot:

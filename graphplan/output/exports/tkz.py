@@ -8,17 +8,13 @@ lies to the left on the way to the second: which of them is meant is told for th
 from __future__ import annotations
 
 import math
+from typing import Any
 
 from graphplan.kernel.kinds import Movement
 from graphplan.output.exports import tikz
 from graphplan.output.exports.walk import turned_back
+from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.plates.drawn_step import DrawnStep, StruckArc
-from graphplan.sheet.plates.plate import Plates
-
-PREAMBLE = r"""\documentclass[border=4mm]{standalone}
-\usepackage{amsbsy,xfp,tkz-euclide}
-\usetikzlibrary{calc,arrows.meta}
-"""
 
 COMMANDS = {
     Movement.MET: r"\tkzInterLL({A},{B})({C},{D}) \tkzGetPoint{{{out}}}",
@@ -31,22 +27,23 @@ COMMANDS = {
     Movement.CUT: r"\tkzInterLC({A},{B})({centre},{1}) \tkzGetPoints{{{first}}}{{{second}}}",
 }
 WHOLE = {Movement.LAID_OFF: r"\tkzDefPointBy[translation=from {0} to {1}]({2}) \tkzGetPoint{{{out}}}"}
-CLEAR = 0.05, 0.95  # how far from a circle's centre a line passes, in radii, where its crossings are told apart well
+CLEAR = 0.05, 0.7  # how far from a circle's centre a line passes, in radii, where its crossings are told apart well
 
 
-def tkz_euclide(plates: Plates) -> str:
-    """The construction as a standalone LaTeX file that draws with tkz-euclide."""
-    return _TkzWriter(plates).text()
+def tkz_euclide(composition: Composition, **look: Any) -> str:
+    """The construction in LaTeX that draws with tkz-euclide; see :func:`graphplan.output.exports.tikz.written`."""
+    return tikz.written(TkzWriter, composition, **look)
 
 
-class _TkzWriter(tikz.TikzWriter):
+class TkzWriter(tikz.TikzWriter):
     """Writes with the macros of tkz-euclide, where it has them."""
 
-    commands, whole, preamble = {**tikz.COMMANDS, **COMMANDS}, WHOLE, PREAMBLE + tikz.MEETING
+    commands, whole, packages = {**tikz.COMMANDS, **COMMANDS}, WHOLE, ("tkz-euclide",)
 
     def command(self, drawn: DrawnStep) -> str | None:
-        unclear = drawn.step.op.movement is Movement.CUT and not CLEAR[0] < abs(_passing(drawn)) < CLEAR[1]
-        return tikz.COMMANDS[Movement.CUT] if unclear else super().command(drawn)
+        movement = drawn.step.op.movement
+        unclear = movement is Movement.CUT and not CLEAR[0] < abs(_passing(drawn)) < CLEAR[1]
+        return tikz.COMMANDS[movement] if unclear else super().command(drawn)
 
     def put(self, drawn: DrawnStep) -> None:
         if drawn.free and drawn not in self.literal:

@@ -18,16 +18,17 @@ from graphplan.mechanism.model import FRAME
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import sentence_runs
-from graphplan.sheet.lettering.letters import picture
+from graphplan.sheet.lettering.letters import pictures
 from graphplan.sheet.plates import pens, symbols
 from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
 from graphplan.sheet.plates.plate import Plate, Plates
+from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 SAFE = string.ascii_letters + string.digits
-BACK, FRONT = ("plates", "ground", "links"), ("blocks", "drive", "pairs")  # layers behind the strokes, and over them
+BACK, FRONT = ("plates", MOTION, "ground", "links"), ("blocks", "drive", "pairs")  # layers behind and over the steps
 RIDING = ("plates", "links")  # layers that go where the links go
 REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks give
 
@@ -120,6 +121,10 @@ class Letter:
         at = mark.at[0] + 1.0, mark.at[1] + 1.0
         return cls(mark, Text(pens.LETTERS, "letters", None, at, sentence_runs(mark.name), 2.5))
 
+    def at(self, off: Spot) -> Spot:
+        """The spot so far off its mark."""
+        return self.mark.at[0] + off[0], self.mark.at[1] + off[1]
+
     def _from_mark(self, spot: Spot) -> Spot:
         return spot[0] - self.mark.at[0], spot[1] - self.mark.at[1]
 
@@ -144,10 +149,10 @@ class Walk:
 
     def mechanism(self, plate: Plate, *layers: str) -> Iterator[tuple[Item, tuple[Spot, ...]]]:
         """The items of some layers of the mechanism, each with its corners or its middle."""
-        for item in sorted(plate.mechanism, key=lambda item: layers.index(item.layer) if item.layer in layers else -1):
+        shown = [item for item in self.pictured(plate) if item.layer in layers and not isinstance(item, Text)]
+        for item in sorted(shown, key=lambda item: layers.index(item.layer)):
             spots = corners(item)
-            hung = all(spot in self.joints for spot in spots)
-            if item.layer in layers and (hung or not self.live or item.layer not in RIDING):
+            if all(spot in self.joints for spot in spots) or not self.live or item.layer not in RIDING:
                 yield item, spots
 
     def riding(self, plate: Plate, ways: Mapping[str, Spot]) -> Iterator[tuple[Item, Riding]]:
@@ -169,10 +174,14 @@ class Walk:
                 items = part.items
             yield from ((item, riding) for item in items)
 
+    def pictured(self, plate: Plate) -> list[Item]:
+        """What the sheet shows of a plan."""
+        return pictures(self.plates)[plate.panel].items
+
     def letters(self, plate: Plate) -> Iterator[Letter]:
         """The letters of a plan where the sheet has them, each off the mark that it hangs on."""
         before: list[Item] = []  # its leader and its ring
-        for item in picture(plate):
+        for item in self.pictured(plate):
             if isinstance(item, Text):
                 yield Letter(self._hung(plate, item), item, *before)
             before = [*before, item] if item.layer == "letters" and not isinstance(item, Text) else []
@@ -223,27 +232,34 @@ class Source(Walk):
         return found or self.commands.get(drawn.step.op.movement)
 
     def drawing(self, plate: Plate) -> None:
-        """What is drawn on one plan, from back to front."""
+        """What is drawn on one plan, from back to front, each step with its letters."""
+        letters: dict[int | None, list[Letter]] = {}
+        for letter in self.letters(plate):
+            letters.setdefault(letter.text.step, []).append(letter)
         self.items(plate, *BACK)
         for drawn in plate.steps:
-            for stroke in plate.strokes(drawn):
-                self.stroke(stroke)
-        for arc in (arc for drawn in plate.steps for arc in plate.arcs(drawn) if plate.shown(arc.mark)):
-            self.arc(arc)
-        for vector in plate.vectors:
-            self.stroke(vector)
+            self.movement(plate, drawn, letters.get(drawn.index, ()))
         self.items(plate, *FRONT)
-        for drawn in plate.steps:
-            if pen := plate.dot(drawn):
-                self.dot(drawn, pen, plate.size(drawn))
-        for letter in self.letters(plate):
+        for letter in letters.get(None, ()):
+            self.letter(letter)
+
+    def movement(self, plate: Plate, drawn: DrawnStep, letters: Iterable[Letter]) -> None:
+        """What is drawn in one step, with the vector that it completes."""
+        for stroke in (*plate.strokes(drawn), *(vector for vector in plate.vectors if vector.of is drawn)):
+            self.stroke(stroke)
+        for arc in plate.arcs(drawn):
+            if plate.shown(arc.mark):
+                self.arc(arc)
+        if pen := plate.dot(drawn):
+            self.dot(drawn, pen, plate.size(drawn))
+        for letter in letters:
             self.letter(letter)
 
     def items(self, plate: Plate, *layers: str) -> None:
         """The mechanism: what hangs on its joints, and its symbols as they lie."""
         for item, spots in self.mechanism(plate, *layers):
-            if isinstance(item, Circle) and spots[0] in self.joints:
-                self.dot(self.joints[spots[0]], item.pen, item.radius)
+            if isinstance(item, Circle):
+                self.circle(item, self.joints.get(item.centre))
             else:
                 self.chain(item.pen, spots, isinstance(item, Polygon))
 
@@ -273,8 +289,12 @@ class Source(Walk):
         """Strokes from spot to spot, which are joints or lie where they lie."""
         raise NotImplementedError
 
+    def circle(self, item: Circle, joint: DrawnStep | None) -> None:
+        """The circle of a joint, or one that lies where it lies."""
+        raise NotImplementedError
+
     def dot(self, mark: DrawnStep, pen: Pen, radius: float) -> None:
-        """The circle of a joint, or the dot of a mark."""
+        """The dot of a mark."""
         raise NotImplementedError
 
     def letter(self, letter: Letter) -> None:

@@ -34,7 +34,7 @@ from graphplan.sheet.layout.paper import (
 )
 from graphplan.sheet.layout.scales import Scales, lengths_of, ratio, round_up
 from graphplan.sheet.lettering.lettering import folded, letter_sizes, sentence_runs
-from graphplan.sheet.lettering.letters import Picture, pictured
+from graphplan.sheet.lettering.letters import Picture, pictures
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.plates.plans import Extent, Plans, around
 from graphplan.sheet.plates.plate import Plates
@@ -83,12 +83,8 @@ class Composition:
 
     @cached_property
     def pictures(self) -> dict[Panel, Picture]:
-        """The plans with their letters; those of the same windows are drawn once."""
-        windows = *self.views.values(), self.arrangement.letters
-        known: dict[Any, dict[Panel, Picture]] = self.plans.drawn
-        if windows not in known:
-            known[windows] = {plate.panel: pictured(plate) for plate in self.plates}
-        return known[windows]
+        """The plans with their letters."""
+        return pictures(self.plates)
 
     @property
     def poor(self) -> float:

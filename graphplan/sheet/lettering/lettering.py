@@ -44,6 +44,9 @@ GREEK = {
 }  # fmt: skip
 
 
+CAPITALS = frozenset(map(str.capitalize, GREEK))  # Xi is the letter, XI the eleventh corner
+
+
 @dataclass(frozen=True)
 class LetterSizes:
     """The sizes of the letters on a sheet, mm: of marks, and of words and step numbers (ISO 3098).
@@ -84,8 +87,8 @@ def name_runs(name: str) -> Runs:
     bare = name.rstrip("'")
     primes = {0: "", 1: "′", 2: "″"}.get(len(name) - len(bare), "′" * (len(name) - len(bare)))
     stem, _, index = bare.partition("_")
-    letter = GREEK.get(stem.lower(), stem)
-    letter = letter.upper() if stem[:1].isupper() and stem.lower() in GREEK else letter
+    letter = GREEK[stem.lower()] if stem in (*GREEK, *CAPITALS) else stem
+    letter = letter.upper() if stem in CAPITALS else letter
     index = re.sub(r"(?<=\d)_(?=\d)", ",", index).replace("_", "")
     return _joined((Run(letter + primes), Run(GREEK.get(index, index), -1)))
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 from graphplan.kernel.kinds import CIRCLE
-from graphplan.kernel.program import Program
+from graphplan.kernel.program import Panel, Program
 from graphplan.methods.panels import MECHANISM
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import Wish
@@ -19,7 +19,7 @@ from graphplan.sheet.plates.display import Item, Rect, Spot
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke
 from graphplan.sheet.plates.plans import around, corner
-from graphplan.sheet.plates.plate import Plate
+from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.symbols import RADIUS
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
@@ -36,6 +36,15 @@ Span = tuple[Spot, Spot]
 def picture(plate: Plate) -> list[Item]:
     """The items of a plan, with the mechanism if it is its plan, and the letters that avoid them; in no order."""
     return pictured(plate).items
+
+
+def pictures(plates: Plates) -> dict[Panel, Picture]:
+    """The plans with their letters; those of the same windows are drawn once."""
+    windows, known = (*plates.views.values(), plates.letters), plates.plans.drawn
+    if windows not in known:
+        known[windows] = {plate.panel: pictured(plate) for plate in plates}
+    found: dict[Panel, Picture] = known[windows]
+    return found
 
 
 @dataclass(frozen=True)

@@ -1,0 +1,249 @@
+r"""What LaTeX needs about a picture: the style that all pictures share, documents, slides, and lettering.
+
+A picture is an environment tikzpicture with the key `graphplan`, by which the names of the styles are known inside it
+and nowhere else. Every length in it is so many \graphplanmm, which is a millimetre unless the key has another value;
+letters alone keep their size. It is written for pdflatex, lualatex and xelatex of 2020 and later.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+
+from graphplan.kernel.stages import Equation
+from graphplan.phrases import said
+from graphplan.sheet.lettering.lettering import GREEK, LARGE_SHEET, SMALL_SHEET, Run, Runs, equation_runs
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import SLIM
+from graphplan.sheet.plates.pens import Pen
+from graphplan.words.tongue import Tongue
+
+PACKAGES, LIBRARIES = ("amsmath", "xfp", "tikz"), "calc,arrows.meta"
+STYLE = "graphplan"  # the package
+CYRILLIC = "ru", "uk"
+FONTS = "CMU Serif", "Libertinus Serif", "DejaVu Serif", "Times New Roman", "FreeSerif"  # with Cyrillic letters
+SIZES = 5, 6, 7, 8, 9, 10, 10.95, 12, 14.4, 17.28  # points: those in which every font of LaTeX comes
+POINT = 0.3514598  # mm
+BOLD = r"\bfseries"
+PALE = "opacity=0.35, text opacity=0.35"
+SLIDE = r"{\linewidth}{.76\textheight}"  # the room of a picture on a slide
+
+STYLES: dict[str, Pen] = {
+    "construction": pens.THIN, "produced": pens.PRODUCED, "carried": pens.NORMAL, "locus": pens.LOCUS,
+    "compasses": pens.ARC, "leader": pens.LEADER, "joint": pens.PAIR, "dot": pens.DOT, "origin": pens.ORIGIN,
+    "bar": pens.BAR, "inside of a bar": pens.HOLLOW, "link": pens.LINK, "plate": pens.PLATE,
+    "ground": pens.GROUND, "hatching": pens.HATCH, "stand": pens.GROUND_FILL, "sliding block": pens.BLOCK,
+    "arrowhead": pens.SOLID, "balloon": pens.BALLOON, "drive": pens.DRIVE, "path of a point": pens.PATH,
+    "end of a path": pens.PATH_END, "spot of a path": pens.PATH_DOT, "other position": pens.POSITION,
+    **{f"given {kind}": pen.filled("none") for kind, pen in pens.GIVEN.items()},
+    **{kind: pen.filled("none") for kind, pen in pens.VECTORS.items()},
+}  # fmt: skip
+HEADS = {pens.FILLED: "head", pens.WHITE: "white head", pens.OPEN: "open head"}
+NAMES = {pen: name for name, pen in reversed(STYLES.items())}
+COLOURS = {getattr(pens, name): f"graphplan{name.lower()}"
+           for name in ("INK", "GREY", "BLUE", "RED", "GREEN", "TINT", "BROWN", "VIOLET", "PAPER")}  # fmt: skip
+LETTERS = {pen.colour: f"{kind} letter" for kind, pen in reversed(pens.VECTORS.items()) if pen.colour != pens.INK}
+
+EXACTLY = r"""% Where two lines meet, with the sixteen digits of \fpeval: with five pgf is half a millimetre off.
+\makeatletter
+\newdimen\graphplanmm
+\newcommand*{\graphplanspot}[3]{\pgf@process{#1}\edef#2{\the\pgf@x}\edef#3{\the\pgf@y}}
+\newcommand*{\graphplanmeeting}[4]{{%
+  \graphplanspot{#1}\xa\ya \graphplanspot{#2}\xb\yb \graphplanspot{#3}\xc\yc \graphplanspot{#4}\xd\yd
+  \edef\part{\fpeval{((\xc-\xa)*(\yd-\yc)-(\yc-\ya)*(\xd-\xc))/((\xb-\xa)*(\yd-\yc)-(\yb-\ya)*(\xd-\xc))}}%
+  \global\pgf@x=\fpeval{\xa+\part*(\xb-\xa)}pt\relax \global\pgf@y=\fpeval{\ya+\part*(\yb-\ya)}pt\relax}}
+\makeatother
+"""
+
+
+# ---- the style -----------------------------------------------------------------------------------------------------
+
+
+def style() -> str:
+    """The colours and styles of all pictures, by what they are of."""
+    found = [rf"\definecolor{{{name}}}{{HTML}}{{{colour[1:].upper()}}}" for colour, name in COLOURS.items()]
+    found += [r"\tikzset{graphplan/.default=1mm, graphplan/.code={\graphplanmm=\fpeval{#1}pt\relax",
+              r"  \let\pgfpointintersectionoflines\graphplanmeeting \pgfkeysalso{graphplan styles}},",
+              r"  graphplan styles/.style={x=\graphplanmm, y=\graphplanmm, line cap=round, line join=round,"]
+    found += [f"  {line}," for line in (*_heads(), *_letters(), *(f"{name}/.style={{{_look(pen)}}}"
+                                                                  for name, pen in STYLES.items()))]
+    return EXACTLY + "\n".join([*found, "}}"]) + "\n"
+
+
+def package() -> str:
+    """The style as a package, to be read once by a document with many pictures."""
+    needed = [rf"\RequirePackage{{{','.join(PACKAGES)}}}", rf"\usetikzlibrary{{{LIBRARIES}}}"]
+    how = [r"% In a document, other colours: \tikzset{graphplan styles/.append style={link/.append style={red}}}"]
+    return "\n".join([*how, r"\NeedsTeXFormat{LaTeX2e}", rf"\ProvidesPackage{{{STYLE}}}", *needed, style()])
+
+
+def _look(pen: Pen) -> str:
+    dashes = " ".join(rf"{'off' if i % 2 else 'on'} {part:g}\graphplanmm" for i, part in enumerate(pen.dash))
+    look = [rf"draw={COLOURS.get(pen.colour) or _mixed(pen.colour)}, line width={pen.width:g}\graphplanmm"
+            if pen.width else "draw=none"]  # fmt: skip
+    look += [f"dash pattern={dashes}"] if dashes else []
+    look += [f"fill={COLOURS[pen.fill]}"] if pen.fill != "none" else []
+    return ", ".join(look)
+
+
+def _mixed(grey: str) -> str:
+    """A grey as so much black."""
+    return f"black!{100 - 100 * pens.rgb(grey)[0] / 255:.0f}"
+
+
+def _heads() -> Iterator[str]:
+    """The heads of vectors, so many mm long."""
+    tips = {"head": ("Triangle", pens.FILLED, ""), "white head": ("Triangle", pens.WHITE, ", open, fill=white"),
+            "open head": ("Straight Barb", pens.OPEN, "")}
+    for name, (tip, kind, more) in tips.items():
+        look = rf"length=\graphplanhead, width={{\graphplanhead*{2 / SLIM[kind]:.4f}}}{more}"
+        yield (rf"{name}/.code={{\edef\graphplanhead{{\the\dimexpr##1\graphplanmm\relax}}"
+               rf"\pgfkeysalso{{-{{{tip}[{look}]}}, line cap=butt}}}}")
+
+
+def _letters() -> Iterator[str]:
+    """The letters of marks, of links and numbers, in the sizes of small sheets and of large ones; of headings."""
+    yield "letter/.style={inner sep=0pt, outer sep=0pt, anchor=base, text depth=0pt, size of letters}"
+    yield f"number/.style={{letter, text={COLOURS[pens.GREY]}, size of numbers}}"
+    yield "small letter/.style={letter, size of numbers}"
+    for colour, name in LETTERS.items():
+        yield f"{name}/.style={{letter, text={COLOURS[colour]}}}"
+    yield rf"drawn on/.code={{\alt<##1>{{}}{{\pgfkeysalso{{{PALE}}}}}}}"  # by beamer
+    yield rf"caption/.style={{inner sep=0pt, outer sep=0pt, anchor=north west, align=left, {_font('##1')}}}"
+    yield rf"heading/.style={{caption=##1, {_font('##1', BOLD)}}}"
+    for name, sizes in (("", SMALL_SHEET), ("large sheet", LARGE_SHEET)):
+        known = [f"size of {what}/.style={{{_font(size, high=True)}}}"
+                 for what, size in (("letters", points(sizes.mark)), ("numbers", points(sizes.text)))]
+        yield f"{name}/.style={{{', '.join(known)}}}" if name else ", ".join(known)
+
+
+def _font(size: float | str, series: str = "", high: bool = False) -> str:
+    told = rf"font={series}\fontsize{{{size}}}{{{size}}}\selectfont"
+    return f"{told}, text height={0.69 * float(size):.2f}pt" if high else told
+
+
+def points(mm: float) -> float:
+    """The size of type next to one in mm."""
+    return min(SIZES, key=lambda size: abs(size - mm / POINT))
+
+
+# ---- documents -----------------------------------------------------------------------------------------------------
+
+
+def told(lines: Iterable[str], say: Tongue, packages: Sequence[str], bare: bool) -> list[str]:
+    """The first lines of a file, in comments: what it is, and what it needs."""
+    needs = said("LaTeX: packages {0}; by pdflatex, lualatex or xelatex", ", ".join(packages))
+    here = [rf"\usepackage{{{STYLE}}}"] if bare else []
+    return [f"% {line}" for text in (*lines, say(needs), *here) for line in text.splitlines()]
+
+
+def standalone(picture: Sequence[str], code: str, packages: Sequence[str]) -> list[str]:
+    """A document of a picture alone."""
+    return [r"\documentclass[border=2mm]{standalone}", *preamble(code, packages), r"\begin{document}", *picture,
+            r"\end{document}"]  # fmt: skip
+
+
+def slides(frame: Sequence[str], code: str, packages: Sequence[str]) -> list[str]:
+    """A document of slides."""
+    look = [r"\setbeamertemplate{navigation symbols}{}", r"\usefonttheme[onlymath]{serif}"]
+    return [r"\documentclass[aspectratio=169,t]{beamer}", *preamble(code, packages), *look, r"\begin{document}",
+            *frame, r"\end{document}"]  # fmt: skip
+
+
+def preamble(code: str, packages: Sequence[str]) -> list[str]:
+    """The letters of a language, the packages and the style."""
+    return [*letters(code), rf"\usepackage{{{','.join(packages)}}}", rf"\usetikzlibrary{{{LIBRARIES}}}",
+            *style().splitlines()]  # fmt: skip
+
+
+def letters(code: str) -> list[str]:
+    """The letters of a language, for each engine: of what is at hand the first font that has them."""
+    if code not in CYRILLIC:
+        return [r"\usepackage{iftex}", r"\ifPDFTeX\usepackage[T1]{fontenc}\usepackage{lmodern}\fi"]
+    tried = r"\newcommand*{\cyrillicfont}[1]{\IfFontExistsTF{#1}{\setmainfont{#1}\setsansfont{#1}" \
+            r"\renewcommand*{\cyrillicfont}[1]{}}{}}"  # fmt: skip
+    return [r"\usepackage{iftex}", r"\ifPDFTeX\usepackage[T2A]{fontenc}\else", r"  \usepackage{fontspec}", f"  {tried}",
+            *(rf"  \cyrillicfont{{{font}}}" for font in FONTS), r"\fi"]  # fmt: skip
+
+
+# ---- lettering -----------------------------------------------------------------------------------------------------
+
+LETTER = {"epsilon": "varepsilon", "phi": "varphi"}  # as they look on the sheet
+SIGNS = {sign: rf"\{LETTER.get(name, name)} " for name, sign in GREEK.items() if name != "upsilon"}
+SIGNS |= {sign: rf"\{name} " for name, sign in zip(
+    ("Gamma", "Delta", "Theta", "Lambda", "Xi", "Pi", "Sigma", "Upsilon", "Phi", "Psi", "Omega"), "ΓΔΘΛΞΠΣΥΦΨΩ",
+    strict=True)}  # fmt: skip
+SIGNS |= {"′": "'", "″": "''", "·": r"\cdot ", "°": r"^\circ ", "−": "-", "×": r"\times ", "±": r"\pm ",
+          "→": r"\to ", "≈": r"\approx ", "≠": r"\ne ", "≡": r"\equiv ", "∥": r"\parallel ", "⊥": r"\perp ",
+          "∠": r"\angle ", "½": r"\tfrac12 ", "√": r"\surd "}  # fmt: skip
+RAISED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻ⁿ", "0123456789-n")
+SPECIAL = {char: rf"\{char}" for char in "&%$#_{}"} | {"~": r"\textasciitilde{}", "^": r"\textasciicircum{}",
+                                                      "\\": r"\textbackslash{}"}  # fmt: skip
+LETTERED = r"[A-Za-zα-ωΑ-Ω]"
+NAME = re.compile(rf"(?<!\w){LETTERED}\d*(?:\(\w+\))?[′″']*(?![\w-])")
+AMONG_WORDS = re.compile(r"(?<!\w)(?:[A-Zα-ωΑ-Ω]\d*|[A-Z]{2})[′″']*(?![\w-])")  # where a letter may be a word
+LAST = re.compile(rf"(?:{LETTERED}|\w+)(?:\(\w+\))?[′″']*$")
+
+
+def formulated(runs: Runs) -> str:
+    """Lettering as a formula: subscripts in braces, Greek letters by name."""
+    return "".join(_level(run) or _formula(run.text.strip()) for run in runs)
+
+
+def lettering(runs: Runs, bold: bool = False, words: bool = False) -> str:
+    """Lettering as LaTeX sets it: names as formulas, other words, or all that have no index, as they are."""
+    found, place = "", 0
+    while place < len(runs):
+        level, after = runs[place].text if not runs[place].level else "", place + (not runs[place].level)
+        levels = []
+        while after < len(runs) and runs[after].level:
+            levels.append(_level(runs[after]))
+            after += 1
+        base = LAST.search(level) if levels else None
+        found += _words(level[: base.start()] if base else level, bold or words)
+        found += f"${_formula(base[0] if base else '')}{''.join(levels)}$" if levels else ""
+        place = after
+    return rf"\textbf{{{found}}}" if bold else found
+
+
+def equation(told: Equation) -> str:
+    """An equation with its vectors underlined as often as is known of them."""
+    found, done = "", 0
+    for start, end, times in told.underlined:
+        vector = lettering(equation_runs(told.text[start:end]))
+        found += lettering(equation_runs(told.text[done:start])) + r"\underline{" * times + vector + "}" * times
+        done = end
+    return found + lettering(equation_runs(told.text[done:]))
+
+
+def _level(run: Run) -> str:
+    """A subscript or a superscript; of a run on the base line nothing."""
+    return f"{'_' if run.level < 0 else '^'}{{{_formula(run.text.strip())}}}" if run.level else ""
+
+
+def _formula(text: str) -> str:
+    """Text inside a formula."""
+    told = re.sub("[⁰¹²³⁴-⁹⁻ⁿ]+", lambda found: f"^{{{found[0].translate(RAISED)}}}", text)
+    told = "".join(SIGNS.get(char) or SPECIAL.get(char, char) if char not in "^{}" else char for char in told)
+    return told.strip() if told.isascii() else rf"\text{{{text}}}"
+
+
+def _words(words: str, nameless: bool) -> str:
+    """Words with the names in them, if there are any, as formulas, and the characters escaped that are commands."""
+    found, done = "", 0
+    names = AMONG_WORDS if re.search(r"[^\W\d]{2}", words) else NAME
+    for name in () if nameless else names.finditer(words):
+        found += spelled(words[done : name.start()]) + f"${_formula(name[0])}$"
+        done = name.end()
+    return found + spelled(words[done:])
+
+
+def spelled(words: str) -> str:
+    """Words with the characters escaped that LaTeX would take for commands, or has in formulas alone."""
+    told = re.split("([⁰¹²³⁴-⁹⁻ⁿ]+)", words)
+    return "".join(f"${_formula(part)}$" if place % 2 else "".join(map(_character, part))
+                   for place, part in enumerate(told))  # fmt: skip
+
+
+def _character(char: str) -> str:
+    return f"${SIGNS[char]}$" if char in SIGNS else SPECIAL.get(char, char)

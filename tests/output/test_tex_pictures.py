@@ -1,0 +1,105 @@
+"""The construction in LaTeX as it looks: compiled by three engines in all languages, and laid over the sheet."""
+
+from __future__ import annotations
+
+import os
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from laid_out import laid_out
+from tex_pictures import ENGINES, HIDDEN, compiled, lacking, lettered, rendered, strokes, uncovered
+
+import graphplan as gp
+from graphplan.accuracy.drafted import drafted
+from graphplan.accuracy.pencil import pencil
+from graphplan.mechanism.scene import packaged
+from graphplan.output.exports.latex import letters, package
+from graphplan.output.exports.tikz import TikzWriter, tikz
+from graphplan.output.exports.tkz import TkzWriter, tkz_euclide
+from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.words.protocol import Protocol
+from graphplan.words import LANGUAGES
+from graphplan.words.tongue import tongue
+
+FORMATS = {"tikz": tikz, "tkz-euclide": tkz_euclide}
+NEEDED = "standalone.cls", "beamer.cls", "adjustbox.sty", "tkz-euclide.sty", "t2aenc.def", "lmodern.sty"
+EVERYTHING = bool(os.environ.get("GRAPHPLAN_TEX"))  # all scenes, engines and languages, which takes half an hour
+EACH = pytest.mark.parametrize(("kind", "name", "engine", "language"), [
+    (kind, name, ENGINES[(k + i) % 3], LANGUAGES[k % len(LANGUAGES)])
+    for k, name in enumerate(packaged()) for i, kind in enumerate(FORMATS)
+    if EVERYTHING or (name, kind) in {("slotted-link", "tikz"), ("plough-lift", "tkz-euclide"), ("triad", "tikz")}
+])  # fmt: skip
+SPOKEN = LANGUAGES if EVERYTHING else ("uk", "et")
+
+
+def composed(name: str, language: str) -> Composition:
+    """A packaged scene on its sheet in a language."""
+    return drafted(gp.construct(gp.load(name)), pencil(""), tongue=tongue(language)).composition
+
+
+@pytest.mark.parametrize("name", packaged())
+def test_every_scene_is_written_in_what_every_font_has(name: str) -> None:
+    """Both writers write every packaged scene, in English with ASCII alone beside the comments."""
+    _, plates = laid_out(name)
+    for writer in (TikzWriter, TkzWriter):
+        source = re.sub(r"(?<!\\)%.*", "", "\n".join(writer(plates).picture()))
+        assert source.isascii()
+        assert source.count(r"\begin{scope}") == len(plates.plans.panels)
+        for link in plates.scene.moving:
+            spots = {plates.pose[point].at for point in plates.scene.links[link]}
+            assert len(spots) < 3 or r"\draw[plate]" in source or r"\draw[bar]" in source
+
+
+@EACH
+def test_the_picture_is_that_of_the_sheet(kind: str, name: str, engine: str, language: str, tmp_path: Path) -> None:
+    """Compiled without a complaint, every stroke has its like on the sheet within half a millimetre, and every letter
+    stands where it stands there."""
+    if missing := lacking(engine, *NEEDED):
+        pytest.skip(f"not at hand: {missing}")
+    composition = composed(name, language)
+    source = FORMATS[kind](composition)
+    assert compiled(source, engine, tmp_path) == []
+    whole = rendered(tmp_path)
+    compiled(source.replace(r"\begin{document}", rf"{HIDDEN}\begin{{document}}"), engine, tmp_path)
+    drawn, meant = rendered(tmp_path), strokes(composition)
+    assert uncovered(meant, drawn) < 0.01
+    assert uncovered(drawn, meant) < 0.01
+    ink = whole & ~drawn
+    assert all(ink[place].any() for place in lettered(composition))
+    for place in lettered(composition):
+        ink[place] = False
+    assert ink.sum() < 0.02 * (whole & ~drawn).sum()
+
+
+@pytest.mark.parametrize("language", SPOKEN)
+def test_one_document_has_all_pictures(language: str, tmp_path: Path) -> None:
+    """Bare pictures share the style of a package, and nothing is complained of in any language by any engine."""
+    if missing := lacking("pdflatex", *NEEDED) or lacking("lualatex") or lacking("xelatex"):
+        pytest.skip(f"not at hand: {missing}")
+    (tmp_path / "graphplan.sty").write_text(package(), encoding="utf-8")
+    pages = list[str]()
+    for name in packaged() if EVERYTHING else ("four-bar", "shaper"):
+        composition = composed(name, language)
+        for k, (kind, export) in enumerate(FORMATS.items()):
+            source = export(composition, bare=True, width=0.6 * k)
+            (tmp_path / f"{name}-{kind}.tex").write_text(source, encoding="utf-8")
+            pages.append(rf"\noindent\input{{{name}-{kind}}}\newpage")
+    first = [r"\documentclass{article}", r"\usepackage[paperwidth=1220mm,paperheight=1220mm,margin=5mm]{geometry}"]
+    packages = r"\usepackage{graphplan,tkz-euclide}"
+    source = "\n".join([*first, *letters(language), packages, r"\begin{document}", *pages, r"\end{document}"])
+    assert {engine: compiled(source, engine, tmp_path) for engine in ENGINES} == {engine: [] for engine in ENGINES}
+
+
+@pytest.mark.parametrize(("engine", "language"), [("pdflatex", "ru"), ("lualatex", "de"), ("xelatex", "uk")])
+def test_slides_are_compiled(engine: str, language: str, tmp_path: Path) -> None:
+    """Every stage has its slide, between one of the mechanism and one of everything, and nothing is complained of."""
+    if missing := lacking(engine, *NEEDED):
+        pytest.skip(f"not at hand: {missing}")
+    for name in packaged() if EVERYTHING else ["five-bar"]:
+        composition = composed(name, language)
+        complaints = compiled(tikz(composition, overlays=True), engine, tmp_path)
+        assert [line for line in complaints if not re.search("Rerun|has changed", line)] == []
+        told = subprocess.run(["pdfinfo", tmp_path / "figure.pdf"], capture_output=True, text=True, check=True).stdout
+        assert f" {len(Protocol(composition.plans).passages) + 2}\n" in told[told.index("Pages:") :]

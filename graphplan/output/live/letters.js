@@ -1,13 +1,13 @@
 // Where letters stand in a pose: as on the sheet as long as that place is free, else in the best of some rings of
 // places around what they name. A letter leaves its place only for one that is clearly better, so that none flickers.
 
-const RINGS = [[0.7, 0], [1.6, 0.8], [2.8, 2], [4.5, 4], [7, 7], [10, 11]], WAYS = 16;  // gaps in mm, their prices
+const RINGS = [[0.7, 0], [1.6, 0.8], [2.8, 2], [4.5, 4], [7, 7], [10, 11], [14, 16], [20, 24]], WAYS = 16;  // gaps in mm, their prices
 const DIRECTIONS = Array.from({length: WAYS}, (_, way) =>
   [Math.cos(2 * Math.PI * way / WAYS), Math.sin(2 * Math.PI * way / WAYS)]);
 const TROUBLE = 6, BETTER = 4;  // prices: of what a letter may cover before it looks elsewhere, and what that must save
 const ROOMY = 0.4;  // mm free around the sheet's place before a letter goes back there
 const WORDS = 11;  // of a line among obstacles
-const ROUNDS = 3, SPOTS = 4;  // so often letters look around at rest, and at so many of their spots
+const ROUNDS = 6, SPOTS = 3;  // so often letters look around at rest; in motion at so many of their spots
 const AT_ONCE = 2, WAIT = 20;  // so many letters look in a pose of a motion; one that found nothing lets so many go by
 
 const overlap = (a, b, air) => Math.min(a[2], b[2]) - Math.max(a[0], b[0]) + air > 0
@@ -223,9 +223,18 @@ class Obstacles {
 
 // ---- where they stand
 
+const named = id => id.replace(/\|\d+\|(?!point |line |to )/, "||");  // by what is written: steps differ, names do not
+
 class Letters {
   constructor(data) {
-    Object.assign(this, {data, rules: data.measures, standing: new Map(), usual: new Map(), waits: new Map()});
+    Object.assign(this, {data, rules: data.measures});
+    for (const own of ["standing", "before", "usual", "waits"]) this[own] = new Map();
+  }
+
+  // letters of another construction that is drawn no more leave their places to those of the same names
+  follow(letters) {
+    this.standing.clear();
+    this.before = new Map([...letters.standing].map(([id, place]) => [named(id), place]));
   }
 
   // the place of every letter of a panel: at which of its spots, how far off, and its box; at home those of the sheet.
@@ -234,9 +243,10 @@ class Letters {
     const {name, rect} = this.data.panels[panel];
     const letters = wishes.map(wish => {
       const id = `${name}|${wish.key}`, sheet = this.data.places[id] ?? null;
-      return this.stood({wish, id, sheet}, home ? sheet : this.standing.get(id) ?? sheet, rect);
+      const place = this.standing.get(id) ?? this.before.get(named(id)) ?? sheet;
+      return this.stood({wish, id, sheet}, home ? sheet : place, rect);
     });
-    for (const letter of letters) if (!letter.box) this.moved(letter, letters, obstacles, rect);
+    for (const letter of letters) if (!letter.box) this.moved(letter, letters, obstacles, rect, SPOTS);
     if (home) for (const letter of letters) this.usual.set(letter.id, this.covered(letter, obstacles));
     else for (let round = 0; round < (rest ? ROUNDS : 1); round++)
       if (!this.improved(letters, obstacles, rect, rest)) break;
@@ -277,7 +287,7 @@ class Letters {
     const troubled = letters.filter(letter => costs.get(letter) > TROUBLE + usual(letter))
       .sort((p, q) => costs.get(q) - costs.get(p)).filter(letter => rest || this.patient(letter));
     return back + troubled.slice(0, rest ? Infinity : AT_ONCE).filter(letter => {
-      const better = this.moved(letter, letters, obstacles, rect, costs.get(letter));
+      const better = this.moved(letter, letters, obstacles, rect, rest ? Infinity : SPOTS, costs.get(letter));
       if (!better) this.waits.set(letter.id, WAIT);
       return better;
     }).length;
@@ -301,10 +311,10 @@ class Letters {
   }
 
   // whether a letter went to a place that is clearly better than where it stands
-  moved(letter, letters, obstacles, rect, cost = Infinity) {
+  moved(letter, letters, obstacles, rect, most, cost = Infinity) {
     const {wish} = letter, reach = RINGS[RINGS.length - 1][0] + wish.clear + Math.max(...wish.box) + 2;
     let best = null, least = cost - BETTER;
-    for (const at of this.tried(letter, rect)) {
+    for (const at of this.tried(letter, rect).slice(0, most)) {
       const spot = wish.spots[at], area = grown([...spot, ...spot], reach), near = obstacles.near(area);
       const others = letters.filter(other => other !== letter && other.box && overlap(other.box, area, 0));
       for (const [ring, price] of RINGS) {
@@ -329,7 +339,7 @@ class Letters {
   // of the spots of a letter where it stands, and the first ones
   tried({wish, place}, rect) {
     const there = wish.spots.map((_, at) => at).filter(at => finite(wish.spots[at]) && holds(rect, wish.spots[at]));
-    return [...new Set([...(place && there.includes(place[0]) ? [place[0]] : []), ...there])].slice(0, SPOTS);
+    return [...new Set([...(place && there.includes(place[0]) ? [place[0]] : []), ...there])];
   }
 
   // from a spot to the lower left corner of a letter so far off it

@@ -282,17 +282,22 @@ class Picture {
     for (const node of moving) node.remove();
   }
 
-  // draws a pose: the marks' values by index, points and guides by name
+  // draws a pose: the marks' values by index, points and guides by name; gives the plans whose windows slid, and those
+  // whose vectors are cut off at the edge, as their scales stay
   draw(program, values, points, guides = {}) {
     const sheet = this.sheets[program] ??= this.opened(program);
     if (sheet !== this.sheet) {
       for (const node of this.sheet?.nodes ?? []) node.remove();
+      if (this.sheet) sheet.lettering.follow(this.sheet.lettering);
       this.start.after(...sheet.nodes);
       this.sheet = sheet;
     }
     clearTimeout(this.pause);
     if (!sheet.draw(values, points, guides)) this.pause = setTimeout(() => this.settle(), PAUSE);
-    return {slid: sheet.plates.views.map((view, i) => distance(view.origin, sheet.panels[i].origin) > 0)};
+    const {views, vectorsOn} = sheet.plates, names = test => sheet.panels.filter(test).map(panel => panel.name);
+    const leaves = rect => ({shown, ends}) => shown && !ends.every(end => holds(rect, end));
+    return {slid: names((panel, i) => distance(views[i].origin, panel.origin) > 0),
+            cut: names(({rect}, i) => vectorsOn[i].some(leaves(rect)))};
   }
 
   // lets all letters look for the best places, as they do when a motion stops

@@ -240,8 +240,11 @@ class Path {
     const place = this.knots.findIndex((other) => other.travel > knot.travel);
     if (place < 0) this.knots.push(knot);
     else this.knots.splice(place, 0, knot);
+    if (this.knots.length > MANY) this.knots.splice(2 * place > MANY || place < 0 ? 0 : MANY, 1);  // many turns later
   }
 }
+
+const MANY = 1000;  // knots that are kept
 
 /** The state at a travel on the curve through these knots with their rates (Hermite, in Lagrange's form). */
 function ahead(knots, travel) {

@@ -151,8 +151,8 @@ class Motion {
     const torn = this.data.shared.find(([one, other]) => apart(points[one], points[other]) > ROUNDED * this.data.linkage.reach)
       ?? this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED);
     if (torn) return { program: this._program, values: null, why: torn[2], results: null };
-    const found = programs.map(() => null);
-    const tried = (k) => (found[k] ??= this.tried(k, points, guides));
+    const found = programs.map(() => null), ruled = {};
+    const tried = (k) => (found[k] ??= this.tried(k, points, guides, ruled));
     const serves = (k) => tried(k).apart <= this.data.same * (k < this._program ? 1 / 64 : 1);
     let program = programs.findIndex((_, k) => k <= this._program && serves(k));
     if (program < 0) program = programs.findIndex((_, k) => serves(k));
@@ -169,11 +169,12 @@ class Motion {
     return { ...results, method, check, arithmetic: "floats", steps };
   }
 
-  /** One program in this pose: the values of its marks, what the rules say, and by how much they differ. */
-  tried(k, points, guides) {
-    const { points: names, guides: ways, wanted, asked } = this.data.programs[k];
+  /** One program in this pose: the values of its marks, what the rules say, and by how much they differ; `ruled` keeps
+      what rules said for others. */
+  tried(k, points, guides, ruled) {
+    const { points: names, guides: ways, wanted, asked, rules: place } = this.data.programs[k];
     const x = [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name])];
-    const rules = this.tape.rules[k](x), values = this.tape.drawn[k](x);
+    const rules = (ruled[place] ??= this.tape.rules[place](x)), values = this.tape.drawn[k](x);
     if (typeof rules === "number") return { values: null, rules: null, why: asked.rules[rules], apart: Infinity };
     if (typeof values === "number") return { values: null, rules, why: asked.drawn[values], apart: Infinity };
     let most = 0, size = 0;

@@ -52,8 +52,10 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
     }  # fmt: skip
-    tapes = {"steps": steps, "drawn": [program.drawn for program in programs],
-             "rules": [program.rules for program in programs]}
+    rules = list(dict.fromkeys(program.rules for program in programs))  # other forms of one program share them
+    for program in programs:
+        program.data["rules"] = rules.index(program.rules)
+    tapes = {"steps": steps, "drawn": [program.drawn for program in programs], "rules": rules}
     return data, "{" + ",\n".join(f"{name}: [{', '.join(texts)}]" for name, texts in tapes.items()) + "}"
 
 

@@ -41,6 +41,25 @@ NINE = 1e-9
 FAIR = 1e-3  # of the smallest determinant: nearer to a limit everybody loses digits
 KINDS = {"points": ("velocity", "acceleration"), "links": ("omega", "alpha"),
          "slides": ("slide velocity", "slide acceleration")}
+PARALLELOGRAM = """
+title = "A parallelogram"
+[points]
+O = [0, 0]
+A = [3, 4]
+B = [13, 4]
+C = [10, 0]
+[links]
+1 = "O A"
+2 = "A B"
+3 = "B C"
+frame = "O C"
+[[drive]]
+link = "1"
+omega = 10
+[find]
+velocity = "all"
+acceleration = "all"
+"""
 NODE = """
 const found = {};
 for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
@@ -51,6 +70,9 @@ for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
   const poses = travels.map((travel) => ((motion.travel = travel), seen()));
   if (!motion.still) motion.limited = null;
   found[name] = { poses, limits: motion.limits() };
+  found[name].round = [30, 1830, -690].map((travel) => ((motion.travel = travel), motion.points()));
+  motion.travel = 300;
+  found[name].stopped = seen();
   motion.reset();
   found[name].drags = drags.map(([point, x, y]) => {
     motion.drag(point, x, y);
@@ -116,6 +138,7 @@ def constructions() -> Iterator[Construction]:
     """Those of all packaged scenes, and of random linkages that can be drawn in the given pose."""
     for name in packaged():
         yield gp.construct(gp.load(name), checked=False)
+    yield gp.construct(parse(PARALLELOGRAM, "parallelogram"), checked=False)
     for seed in range(LINKAGES):
         try:
             drawing = gp.construct(parse(random_linkages().linkage(seed).text(), f"random {seed}"), checked=False)
@@ -191,6 +214,25 @@ def test_limits() -> None:
             assert (ours is None) == (theirs is None), name
             near = 1e-7 if name in packaged() else 1e-5  # by chance a limit is one in several ways, and told worse
             assert ours is None or abs(ours - theirs) <= near * max(1.0, abs(theirs)), (name, ours, theirs)
+
+
+def test_turns() -> None:
+    """After any number of turns, either way, every point is back where it was."""
+    turning = [cases()[name] for name in packaged() if cases()[name].limits == [None, None]]
+    assert len(turning) > 10
+    for case in turning:
+        first, *others = case.found["round"]
+        for points in others:
+            gap = max(math.dist(points[name], first[name]) for name in first)
+            assert gap <= NINE * case.scene.extent, case.scene.name
+
+
+def test_change_points() -> None:
+    """A parallelogram stops where its links lie in one line, with the reason, and has no results there."""
+    found = cases()["parallelogram"].found
+    assert found["limits"] == pytest.approx([-math.degrees(math.atan2(4, 3)), 180 - math.degrees(math.atan2(4, 3))])
+    assert found["stopped"]["said"] == "links 2 and 3 are in a change point: the drive does not say how they move on"
+    assert found["stopped"]["results"] is None
 
 
 def test_drags() -> None:

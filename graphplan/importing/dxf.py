@@ -142,7 +142,7 @@ class _Drawing:
             if GROUND.search(shape.layer):
                 found.fixed |= dict.fromkeys(points)
             elif name and shape.layer in found.links:
-                found.links[shape.layer] = [*dict.fromkeys([*found.links[shape.layer], *points])]
+                found.hold(shape.layer, *points)
             else:
                 link = found.link(points, shape.layer if name else "", name[1] if name else "")
                 if DRIVES.search(shape.layer):
@@ -168,9 +168,9 @@ class _Drawing:
             key = self._put(found, pin.at)
             for shape in on:
                 corners = {self._joint(corner) for corner in shape.corners}
-                for points in found.links.values():
+                for link, points in found.links.items():
                     if corners <= {*points} and key not in points:
-                        points.append(key)
+                        found.hold(link, key)
         if GROUND.search(pin.layer) and (key := self._joint(pin.at)) in found.places:
             found.fixed[key] = None
 

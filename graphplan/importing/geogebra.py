@@ -231,7 +231,7 @@ class _Drawing:
             return
         if link := next((key for key, points in self.sketch.links.items() if {*of} <= {*points}), ""):
             self._used(label)
-            self.sketch.links[link].append(label)
+            self.sketch.hold(link, label)
 
     # ---- circles and lines -----------------------------------------------------------------------------------------
 

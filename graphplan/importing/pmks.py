@@ -291,8 +291,8 @@ def _sketch(found: Read) -> Sketch:
     for weld in found.welds:
         first, *others = [link for link in weld if link in sketch.links] or [""]
         for other in others:
-            sketch.links[first] = [*dict.fromkeys([*sketch.links[first], *sketch.links.pop(other)])]
             sketch.called.pop(other)
+            sketch.hold(first, *sketch.links.pop(other))
     for joint in found.joints:
         _sliding(sketch, joint, pistons.get(joint.key))
     sketch.drives += [drive for joint in found.joints if joint.input for drive in _drives(sketch, found, joint)]
@@ -326,7 +326,7 @@ def _sliding(sketch: Sketch, joint: Joint, twin: Joint | None) -> None:
     elif joint.kind in ("P", "RP") and len(joint.links) > 1:
         along, link = (FRAME if _is_ground([name]) else name for name in joint.links[:2])
         if joint.kind == "P" and link == FRAME:  # the guide of the first link is what stands still
-            sketch.links[along].append(joint.key)
+            sketch.hold(along, joint.key)
             sketch.guides.append(Guide(along, FRAME, joint.key, way))
         elif joint.kind == "P":
             sketch.guides.append(Guide(link, along, joint.key, way))

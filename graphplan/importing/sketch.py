@@ -88,12 +88,19 @@ class Sketch:
         Fails with `ValueError` where there are too many.
         """
         number = len(self.links)
-        if number == LARGEST or sum(map(len, self.links.values())) > MOST:
-            raise ValueError(f"it has more than {LARGEST} links, or more than {MOST} points of links")
+        if number == LARGEST:
+            raise ValueError(f"it has more than {LARGEST} links")
         while not key or key in self.links or key == FRAME:
             key, number = f"link {number}", number + 1
-        self.links[key], self.called[key] = [*dict.fromkeys(points)], name
+        self.links[key], self.called[key] = [], name
+        self.hold(key, *points)
         return key
+
+    def hold(self, link: str, *points: str) -> None:
+        """Give a link further points; fails with `ValueError` where there are too many."""
+        if sum(map(len, self.links.values())) + len(points) > MOST:
+            raise ValueError(f"its links have more than {MOST} points")
+        self.links[link] = [*dict.fromkeys([*self.links[link], *points])]
 
     def note(self, told: str) -> None:
         """Note what could not be told, once."""
@@ -263,7 +270,7 @@ def _guide(sketch: Sketch, link: str, slot: Slot) -> Guide:
     at = next((point for point in ends if point in sketch.links[slot.along]), "")
     if not at:
         at = sketch.point(f"{slot.at} on {slot.along}", sketch.places[slot.at], sketch.names[slot.at])
-        sketch.links[slot.along].append(at)
+        sketch.hold(slot.along, at)
     return Guide(slot.along, FRAME, at, slot.way)
 
 

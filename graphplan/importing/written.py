@@ -18,13 +18,14 @@ BARE = re.compile(r"[A-Za-z0-9_-]+")
 DIGITS = 14  # of a coordinate, counted from the size of the sketch
 ALPHABET = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 LARGEST = 1e12
-LONGEST = 200  # characters of a comment or title
+LONGEST = 300  # characters of a comment, a title or a source
 
 
 def scene(sketch: Sketch, source: str) -> str:
     """A sketch as the text of a scene; `source` says where it is from."""
     points, links = named_points(sketch), named_links(sketch)
-    lines = [f"title  = {text(sketch.title or 'Imported linkage')}", f"source = {text(source)}"]
+    title = sketch.title or "Imported linkage"
+    lines = [f"title  = {text(title[:LONGEST])}", f"source = {text(source[:LONGEST])}"]
     if sketch.notes:
         lines += ["", "# What could not be told from the file:", *(comment(f"- {note}") for note in sketch.notes)]
     if sketch.length:
@@ -115,16 +116,12 @@ def named_links(sketch: Sketch) -> dict[str, str]:
 
 def text(written: str) -> str:
     """A string as TOML has it, on one line."""
-    return json.dumps(_line(written), ensure_ascii=False)
+    return json.dumps(printable(" ".join(written.split())), ensure_ascii=False)
 
 
 def comment(told: str) -> str:
-    """A comment on one line."""
-    return f"# {_line(told)}"
-
-
-def _line(written: str) -> str:
-    return printable(" ".join(written.split()))[:LONGEST]
+    """A comment on one line, of a length that one reads."""
+    return f"# {printable(' '.join(told.split()))[:LONGEST]}"
 
 
 def _key(name: str) -> str:

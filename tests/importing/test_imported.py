@@ -63,6 +63,7 @@ def test_a_file_gives_the_scene_that_is_written_by_hand(name: str, tmp_path: Pat
         assert found[place] == pytest.approx(velocities, rel=1e-9, abs=1e-9), place
 
 
+TRUE = '"true"'
 TURNING = [name for name in packaged() if turning(gp.load(name))]
 REVOLUTE = [name for name in TURNING if not gp.load(name).slides]
 
@@ -196,6 +197,15 @@ def test_names_are_kept_where_they_may(tmp_path: Path) -> None:
         data = data.replace(place, f'{place} name="{name}"', 1)
     found = parse(taken(data.encode(), "a.linkage2", tmp_path), "a")
     assert [*found.points] == ["Aleft", "B_12", "B_122", "D"]
+
+
+def test_a_link_has_all_its_points(tmp_path: Path) -> None:
+    """However many they are."""
+    rows = "".join(f'<connector id="{k}" x="{k}" y="{k * k % 7}"{" anchor=" * (not k)}{TRUE * (not k)}/>'
+                   for k in range(120))
+    link = "".join(f'<connector id="{k}"/>' for k in range(120))
+    found = parse(taken(f"<linkage2>{rows}<Link>{link}</Link></linkage2>".encode(), "a.linkage2", tmp_path), "a")
+    assert len(found.links["1"]) == 120
 
 
 def bomb() -> bytes:

@@ -13,11 +13,11 @@ from typing import Any
 import numpy as np
 from matplotlib.image import imread
 
+from graphplan.output.exports.walk import extent
 from graphplan.output.pdf_png import png
 from graphplan.sheet.layout.composition import Composition
 from graphplan.sheet.layout.layout import captions, layout, stacked
 from graphplan.sheet.plates.display import Rect, Text, moved
-from graphplan.sheet.plates.plans import around
 
 ENGINES = "pdflatex", "lualatex", "xelatex"
 DPI, DARK = 127, 200  # five dots a millimetre; what is darker than this is ink
@@ -52,8 +52,8 @@ def rendered(folder: Path) -> Ink:
 
 def paper(composition: Composition) -> Rect:
     """What of the sheet a picture shows, with the border of the document about it."""
-    box = around([spot for rect in composition.arrangement.panels.values() for spot in rect.corners])
-    return box.inset(-2.0, -2.0, -2.0, -2.0)
+    drawn = (item for picture in composition.pictures.values() for item in picture.items)
+    return extent([*drawn, *captions(composition)]).inset(-2.0, -2.0, -2.0, -2.0)
 
 
 def strokes(composition: Composition) -> Ink:

@@ -19,7 +19,7 @@ from graphplan.kernel.kinds import CIRCLE, FAILURES, LINE, OPENING, POINT, Movem
 from graphplan.kernel.tape.written import Language, operations
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import formulated, lettering, points
-from graphplan.output.exports.walk import REACH, Letter, Source, at_home, heading, parameters, turned_back
+from graphplan.output.exports.walk import REACH, Letter, Source, at_home, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import CAPS
@@ -141,7 +141,7 @@ COMMANDS = {
     Movement.CUT: "call farther {{ {0} {1} {P} {Q} {out} }}",
     Movement.ARCS_MET: "call left {{ {left} {right} {out} }}",
 }
-AIR = 3.0  # mm about the picture
+AIR, NOTHING = 8.0, 1e-6  # mm: about the picture, with room for letters; what is no shift
 SWALLOW = {pens.OPEN: 0.7}  # how deep the heads of vectors are cut in, beside their length
 
 
@@ -150,9 +150,17 @@ def gclc(plates: Plates) -> str:
     return _GclcWriter(cornered(plates)).text()
 
 
+def _strokes(plates: Plates) -> Rect:
+    """The box about all that is drawn but letters."""
+    return extent(item for plate in plates for item in (*plate.items(), *plate.mechanism))
+
+
 def cornered(plates: Plates) -> Plates:
-    """The plates with their lower left corner in that of the picture."""
-    dx, dy = AIR - plates.box.left, AIR - plates.box.bottom
+    """The plates with what is drawn on them, and air for its letters, in the lower left corner of the picture."""
+    box = _strokes(plates)
+    dx, dy = AIR - box.left, AIR - box.bottom
+    if max(abs(dx), abs(dy)) < NOTHING:
+        return plates
 
     def there(view: View) -> View:
         rect, (x, y) = view.rect, view.origin
@@ -193,7 +201,7 @@ class _GclcWriter(Source):
         for plate in self.plates:
             self.lines += ["", f"% {self.say(said('drawing: {0}', plate.caption))}"]
             self.drawing(plate)
-        title, box = [f"% {line}" for line in (self.title, self.source) if line], self.plates.box
+        title, box = [f"% {line}" for line in (self.title, self.source) if line], _strokes(self.plates)
         head = [*title, "", f"dim {decimal(math.ceil(box.right + AIR))} {decimal(math.ceil(box.top + AIR))}", ""]
         return "\n".join([*head, *self._procedures(), *self.lines]) + "\n"
 

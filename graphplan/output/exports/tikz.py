@@ -18,16 +18,16 @@ from graphplan.output.exports import latex
 from graphplan.output.exports.formula import formula
 from graphplan.output.exports.latex import HEADS, LETTERS, NAMES, lettering
 from graphplan.output.exports.slides import Slides, captioned
-from graphplan.output.exports.walk import REACH, Letter, Source, at_home, corners, heading, parameters, turned_back
+from graphplan.output.exports.walk import REACH, Letter, Source, at_home, extent, heading, parameters, turned_back
 from graphplan.phrases import said
 from graphplan.sheet.layout.composition import Composition
+from graphplan.sheet.layout.layout import captions
 from graphplan.sheet.lettering.label_candidates import BALLOON
 from graphplan.sheet.lettering.lettering import LARGE_SHEET
 from graphplan.sheet.plates import pens
-from graphplan.sheet.plates.display import Arrow, Circle, Item, Rect, Spot, Text
+from graphplan.sheet.plates.display import Circle, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
-from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.plate import Plate, Plates
 
 FAR = 1900.0  # mm: three times as much, as in P + (B - A), is still less than TeX's longest dimension of 16383 pt
@@ -121,7 +121,8 @@ class TikzWriter(Source):
 
     def picture(self, width: float = 0.0) -> list[str]:
         r"""The picture, so many mm wide, or up to 1 so much of \linewidth."""
-        box = around([spot for rect in self.panels.values() for spot in rect.corners])
+        words = captions(self.composition) if self.composition else ()
+        box = extent([*(item for plate in self.plates for item in self.pictured(plate)), *words])
         self.far = FAR / max(1.0, width / box.width)
         wide = rf"{width:g}\linewidth" if width <= 1 else f"{width:g}mm"
         key = f"graphplan={wide}/{plain(box.width)}" if width else "graphplan"
@@ -154,7 +155,7 @@ class TikzWriter(Source):
         """What the picture takes up: of a slide what is drawn on its plan, of the last slide everything."""
         boxes = {"": whole}
         if self.slides:
-            boxes = {self.slides.showing(plate.panel): _around(self.pictured(plate)) for plate in self.plates}
+            boxes = {self.slides.showing(plate.panel): extent(self.pictured(plate)) for plate in self.plates}
             boxes[str(self.slides.last)] = whole
         for slides, box in boxes.items():
             path = rf"\path[use as bounding box] {spot(box.corners[0])} rectangle {spot(box.corners[2])};"
@@ -328,22 +329,6 @@ class TikzWriter(Source):
     def label(self, style: str, mark: str, off: str, text: str) -> None:
         """Words so far off a mark."""
         self.lines.append(rf"\node[{style}] at ($({mark})+{off}$) {{{text}}};")
-
-
-def _around(items: Iterable[Item]) -> Rect:
-    """The box about some items."""
-    spots: list[Spot] = []
-    for item in items:
-        match item:
-            case Text():
-                spots += item.box.corners
-            case Arrow():
-                spots += [item.start, item.end]
-            case Circle(centre=(x, y), radius=r):
-                spots += [(x - r, y - r), (x + r, y + r)]
-            case _:
-                spots += corners(item)
-    return around(spots).inset(-1.0, -1.0, -1.0, -1.0)
 
 
 def _anchor(letter: Letter) -> tuple[str, Spot]:

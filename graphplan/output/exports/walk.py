@@ -20,10 +20,11 @@ from graphplan.phrases import said
 from graphplan.sheet.lettering.lettering import sentence_runs
 from graphplan.sheet.lettering.letters import pictures
 from graphplan.sheet.plates import pens, symbols
-from graphplan.sheet.plates.display import Arc, Circle, Item, Polygon, Polyline, Spot, Text
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import Figure, Guide, Rail
 from graphplan.sheet.plates.drawn_step import DrawnStep, Stroke, StruckArc
 from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
@@ -349,3 +350,19 @@ def corners(item: Item) -> tuple[Spot, ...]:
     if isinstance(item, Polyline | Polygon):
         return item.spots
     return item.spots() if isinstance(item, Arc) else (item.centre,) if isinstance(item, Circle) else ()
+
+
+def extent(items: Iterable[Item]) -> Rect:
+    """The box about some items, with a millimetre of air."""
+    spots: list[Spot] = []
+    for item in items:
+        match item:
+            case Text():
+                spots += item.box.corners
+            case Arrow():
+                spots += [item.start, item.end]
+            case Circle(centre=(x, y), radius=r):
+                spots += [(x - r, y - r), (x + r, y + r)]
+            case _:
+                spots += corners(item)
+    return around(spots).inset(-1.0, -1.0, -1.0, -1.0)

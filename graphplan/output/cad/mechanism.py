@@ -23,7 +23,7 @@ from graphplan.sheet.plates.display import Item, Polyline, Rect, Spot, Text
 from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.plans import around
 from graphplan.sheet.plates.plate import Plates
-from graphplan.sheet.plates.symbols import GUIDE, NEAR, off
+from graphplan.sheet.plates.symbols import GUIDE, LONG, NEAR, off
 from graphplan.sheet.plates.traced_motion import outline
 from graphplan.sheet.plates.view import View
 
@@ -73,11 +73,12 @@ class FullSize:
 
     def _letters(self) -> Iterator[Text]:
         """The names of points, each where the links at it leave most room."""
-        size = SMALL_SHEET.mark
+        size, seats = SMALL_SHEET.mark, [self.drawn.seat(slide) for slide in self.plates.scene.slides]
         for (x, y), (runs, _) in self.drawn.letters().items():
             way = self._free((x, y))
             half = width(runs, size) / 2, CAPS * size / 2
-            far = min(CLEAR + part / abs(side) for part, side in zip(half, (way.real, way.imag), strict=True) if side)
+            clear = CLEAR + (LONG if any(math.dist(seat, (x, y)) < NEAR for seat in seats) else 0.0)
+            far = min(clear + part / abs(side) for part, side in zip(half, (way.real, way.imag), strict=True) if side)
             at = x + far * way.real, y + far * way.imag - half[1]
             yield Text(pens.LETTERS, f"{FULL_SIZE} names", None, at, runs, size, "middle")
 

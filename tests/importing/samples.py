@@ -98,10 +98,10 @@ LINKAGE = """<linkage2>
  <Link id="2"><connector id="2"/><connector id="3"/></Link><Link id="3"><connector id="0"/><connector id="3"/></Link>
 </linkage2>"""
 SLOTTED = """<linkage2>
- <connector x="0" y="0" id="0"/><connector x="50" y="45" id="1"/><connector x="200" y="0" id="2"/>
- <connector anchor="true" x="60" y="0" id="3" slider="true"><slidelimit id="0"/><slidelimit id="2"/></connector>
- <connector anchor="true" x="140" y="0" id="4" slider="true"><slidelimit id="0"/><slidelimit id="2"/></connector>
- <connector anchor="true" input="true" rpm="-15" x="300" y="50" id="5"/><connector x="300" y="90" id="6"/>
+ <connector x="0" y="0" id="0"/><connector x="70" y="64" id="1"/><connector x="250" y="0" id="2"/>
+ <connector anchor="true" x="85" y="0" id="3" slider="true"><slidelimit id="0"/><slidelimit id="2"/></connector>
+ <connector anchor="true" x="175" y="0" id="4" slider="true"><slidelimit id="0"/><slidelimit id="2"/></connector>
+ <connector anchor="true" input="true" rpm="-15" x="340" y="30" id="5"/><connector x="360" y="75" id="6"/>
  <Link id="0"><connector id="0"/><connector id="1"/><connector id="2"/></Link>
  <Link id="1"><connector id="3"/></Link><Link id="2"><connector id="4"/></Link>
  <Link id="3"><connector id="5"/><connector id="6"/></Link><Link id="4"><connector id="1"/><connector id="6"/></Link>
@@ -213,10 +213,10 @@ SAMPLES: dict[str, tuple[bytes, str]] = {
     "slotted.linkage2": (SLOTTED.encode(), """
         [points]
         A = [0, 0]
-        B = [50, 45]
-        C = [200, 0]
-        F = [300, 50]
-        G = [300, 90]
+        B = [70, 64]
+        C = [250, 0]
+        F = [340, 30]
+        G = [360, 75]
         [links]
         1 = "A B C"
         2 = "F G"

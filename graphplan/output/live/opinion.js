@@ -20,12 +20,12 @@ class Opinion {
     const sliding = (link, along, place) => less(velocity(link, place), velocity(along, place));
     const along = (slide) => this.ray(slide, lies, points, guides);
     const check = { velocity: this.apart(results, "velocity", "omega", points, {
-      moves: velocity, turns: (link) => lies[7 * link + 6], slides: sliding, along }) };
+      moves: velocity, turns: (link) => lies[7 * link + 6], slides: sliding, along, least: this.least(lies) }) };
     if (results.friction) results.friction.efficiency = this.efficiency(results, lies, points);
     if (!changes) return check;
     const acceleration = (link, place) => this.bends(lies, changes, link, place);
     check.acceleration = this.apart(results, "acceleration", "alpha", points, {
-      moves: acceleration, turns: (link) => changes[7 * link + 6], along,
+      moves: acceleration, turns: (link) => changes[7 * link + 6], along, least: this.least(changes),
       slides: (link, along, place) => {
         const [u, v] = sliding(link, along, place), twice = 2 * lies[7 * along + 6];
         return less(less(acceleration(link, place), acceleration(along, place)), [-twice * v, twice * u]);
@@ -89,9 +89,14 @@ class Opinion {
     return rough <= ROUGH * size ? found : null;
   }
 
+  /** What is next to nothing of the fastest that links move, or of how that changes. */
+  least(rates) {
+    return LITTLE * this.reach * rates.reduce((most, rate, i) => (i % 7 < 4 ? most : Math.max(most, Math.abs(rate))), 0);
+  }
+
   /** The largest difference of results of a kind, beside the largest of them; turnings count at the reach. */
   apart(results, kind, turning, points, own) {
-    let gap = 0, size = 0;
+    let gap = 0, size = own.least;
     const enter = ([x, y], [u, v]) => {
       gap = Math.max(gap, Math.hypot(x - u, y - v));
       size = Math.max(size, Math.hypot(u, v));
@@ -119,8 +124,10 @@ class Opinion {
     let worst = 0;
     for (const k of this.rates.keys()) {
       const lies = this.linkage.moving(knot, this.rates.map((_, i) => (i === k ? 1 : 0)));
-      const terms = this.powers([...this.loads(points, acceleration, changes), ...this.balanced(results)], lies, points);
-      const size = Math.max(...terms.map(Math.abs));
+      const loads = [...this.loads(points, acceleration, changes), ...this.balanced(results)];
+      const terms = this.powers(loads, lies, points), least = this.least(lies);
+      const sizes = loads.map(({ force, moment }) => (force ? Math.hypot(...force) : Math.abs(moment) / this.reach) * least);
+      const size = Math.max(...terms.map(Math.abs), ...sizes);
       if (size) worst = Math.max(worst, Math.abs(terms.reduce((sum, term) => sum + term, 0)) / size);
     }
     return worst;
@@ -161,6 +168,7 @@ class Opinion {
 }
 
 const IDLE = 1e-12;  // of the power with friction: without it there is nothing but rounding
+const LITTLE = 2 ** -20;  // of what is large: beside less nothing is compared
 const ROUGH = 2 ** -10;  // by how much two differences may differ, of the largest
 
 function less(one, two) {

@@ -296,6 +296,9 @@ def largest(truth: Any, key: str) -> float:
 def test_second_opinion() -> None:
     """The linkage's own rates and powers agree with the construction, wherever the solver does."""
     for name, case in cases().items():
+        for drag, pose in zip(case.drags, case.found["drags"], strict=True):
+            check = pose["results"]["check"] if pose["results"] and name in packaged() else {}
+            assert max(check.values(), default=0.0) <= 1e-5, (name, drag, check)
         checks = {pose["travel"]: pose["results"]["check"] for pose in case.found["poses"] if pose["results"]}
         told = sum("acceleration" in check for check in checks.values())
         assert told >= 0.8 * len(checks) or name not in packaged(), name  # chance links hardly move, all near a limit

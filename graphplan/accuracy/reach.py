@@ -232,6 +232,20 @@ def missed(drawing: Construction, poses: Reached) -> tuple[dict[int, Missed], Ar
     return found, _alike(drawing, poses, values)
 
 
+def put_right(drawing: Construction, poses: Reached, wrong: Mapping[int, Missed]) -> list[Any]:
+    """The drawn steps' values in all poses, the marks of some compounds by their rule."""
+    drawn, given, domain, values = drawing.drawn, _given(drawing.drawn, poses), Arrays(), list[Any]()
+    with np.errstate(all="ignore"):
+        for step in drawn.steps:
+            other = given.get(step.name) or given.get(step.index)
+            one = wrong.get(step.index)
+            by = one.compound.step if one else step
+            params = {**by.params, **other} if other else by.params
+            value = domain.whole(by.op.rule(domain, *[values[arg] for arg in by.args], **params))
+            values.append(tuple(-part for part in value) if one and one.against else value)
+    return values
+
+
 def _sense(drawing: Construction, compound: Compound) -> int:
     """Whether a compound's rule gives its drawn mark in the given pose: 1, or -1 for a line that runs against it."""
     step = compound.step

@@ -11,15 +11,18 @@ import io
 import math
 import zipfile
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
+from graphplan.accuracy.reach import Missed, holding
 from graphplan.cycle.relations import Written, relations
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
-from graphplan.output.exports.ggb_commands import labels, letters, number, written
+from graphplan.methods.construction import Compound
+from graphplan.output.exports.ggb_commands import labels, letters, number, ruled, written
 from graphplan.output.exports.ggb_linkage import ROW, Linkage
 from graphplan.output.exports.ggb_xml import CURVES, LINKS, POINTS, VECTORS, Objects, empty, lettered, quoted, spot
 from graphplan.output.exports.walk import Elements, Letter, Riding, corners
@@ -40,8 +43,17 @@ RATES = {"velocity", "acceleration"}  # quantities that are called by their poin
 
 
 def geogebra(plates: Plates) -> bytes:
-    """The construction as a .ggb file, the same bytes in every run."""
-    root = _GeoGebraWriter(plates).document()
+    """The construction as a .ggb file, the same bytes in every run.
+
+    Where the pose's own forms fail in other poses, marks are by the rule; where that is not enough, the construction is
+    one that is drawn in another pose.
+    """
+    drawing, wrong = holding(plates.plans.drawing) if plates.scene.links else (plates.plans.drawing, {})
+    other = plates if drawing is plates.plans.drawing else Plates(
+        replace(plates.plans, drawing=drawing), plates.views, plates.letters)
+    if {*other.plans.panels} != {*plates.plans.panels}:
+        other, wrong = plates, {}
+    root = _GeoGebraWriter(other, plates, wrong).document()
     indent(root, " ")
     document = '<?xml version="1.0" encoding="utf-8"?>\n' + tostring(root, encoding="unicode") + "\n"
     packed = io.BytesIO()
@@ -69,8 +81,11 @@ class _GeoGebraWriter(Elements):
     part, along = "Translate[{0}, {part} * Vector[{0}, {1}]]", "Translate[{0}, {part} * UnitVector[{2}]]"
     number = staticmethod(number)
 
-    def __init__(self, plates: Plates):
+    def __init__(self, plates: Plates, given: Plates, wrong: Mapping[int, Missed]):
+        """Reads the plates of the construction, those of the given pose, and the compounds that are by their rule."""
         super().__init__(plates)
+        self.given, self.wrong = given, wrong
+        self.joints = {point.at: point for point in reversed(given.pose.values())}
         self.objects, box = Objects(self.title), plates.box
         self.size = min((WIDE - COLUMN) / box.width, (HIGH - ROWS) / box.height) * 0.97  # pixels for a mm
         self.by_name = {name: self.names[drawn] for name, drawn in plates.pose.items()}
@@ -113,7 +128,7 @@ class _GeoGebraWriter(Elements):
         """The linkage and what is drawn of it, then step by step; strokes as soon as their marks are there."""
         self._boxes()
         self._pose()
-        for plate in self.plates:
+        for plate in self.given:
             self._mechanism(plate)
             self._caption(plate)
         self._walked(said("The mechanism as it is given; nothing is drawn yet."), 0)
@@ -175,28 +190,31 @@ class _GeoGebraWriter(Elements):
 
     def _pose(self) -> None:
         """The linkage; where it cannot be followed, its points as they are given."""
-        pose, found = self.plates.pose, relations(self.plates.scene, next(iter(self.plates)).view)
+        pose, given = self.plates.pose, self.given.pose
+        found = relations(self.given.scene, next(iter(self.given)).view)
         free = found.free if found else []
         self.ways = found.ways if found else {}
         if found:
-            self.placed = Linkage(found, self.objects, self.by_name).enter(lambda name: self._point(pose[name]))
+            linkage = Linkage(found, self.objects, self.by_name)
+            self.placed = linkage.enter(lambda name: self._point(pose[name], given[name].at))
         for name, drawn in pose.items():
             if name not in free:
                 if found:
                     self.objects.expression(self.names[drawn], "({}, {})".format(*self.placed.points[name]),
                                             type="point")
-                element = self._point(drawn)
+                element = self._point(drawn, given[name].at)
                 empty(element, "fixed", val=not found)
 
-    def _point(self, drawn: DrawnStep) -> Element:
-        """A mark's element."""
+    def _point(self, drawn: DrawnStep, at: Spot | None = None) -> Element:
+        """A mark's element, at its place in the given pose."""
         label, point = self.names[drawn], drawn.kind == POINT
         letter = self._letter_of(drawn) if point else None
         shown = bool(letter) or (point and drawn.view.rect.holds(drawn.at))
         pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
         element = self.objects.element(TYPES[drawn.kind], label, shown, bool(letter), pen, POINTS if point else CURVES)
         if point:
-            empty(element, "coords", x=drawn.at[0], y=drawn.at[1], z=1.0)
+            x, y = at or drawn.at
+            empty(element, "coords", x=x, y=y, z=1.0)
             empty(element, "pointSize", val=3 if drawn.name else 1)
             empty(element, "pointStyle", val=0)
         if drawn.kind == OPENING:
@@ -230,7 +248,11 @@ class _GeoGebraWriter(Elements):
 
     def _mark(self, drawn: DrawnStep) -> None:
         if not drawn.free:
-            terms, name, inputs = written(drawn, self.names, self.placed.guides)
+            wrong = self.wrong.get(drawn.index)
+            if wrong:
+                terms, name, inputs = ruled(self._whole(drawn, wrong.compound), self.names, wrong.against)
+            else:
+                terms, name, inputs = written(drawn, self.names, self.placed.guides)
             for term, text in terms:
                 self.objects.numeric(term, text)
             if name:
@@ -238,6 +260,11 @@ class _GeoGebraWriter(Elements):
             else:
                 self.objects.expression(self.names[drawn], inputs[0], type=TYPES[drawn.kind])
         self._point(drawn)
+
+    def _whole(self, drawn: DrawnStep, compound: Compound) -> DrawnStep:
+        """The mark of a compound as one step from what the compound reads."""
+        step = compound.step
+        return replace(drawn, step=step, args=tuple(self.plates.steps[arg] for arg in step.args))
 
     # ---- what is seen of them ----------------------------------------------------------------------------------
 
@@ -294,11 +321,11 @@ class _GeoGebraWriter(Elements):
     def _riding(self, at: Spot, part: Riding) -> str:
         """A corner on its joint, else carried by what it rides on; or as it lies."""
         if at in self.joints and part.points:
-            return self.names[self.joints[at]]
+            return self.by_name[self.joints[at].name]
         if not part.points:
             return spot(*at)
-        point = min(part.points, key=lambda name: math.dist(self.plates.pose[name].at, at))
-        carrier, name = self.plates.pose[point], self.by_name[point]
+        point = min(part.points, key=lambda name: math.dist(self.given.pose[name].at, at))
+        carrier, name = self.given.pose[point], self.by_name[point]
         x, y = (number(round(one - other, 6)) for one, other in zip(at, carrier.at, strict=True))
         if part.link not in self.placed.turns:
             return f"{name} + ({x}, {y})"

@@ -82,10 +82,16 @@ def written(drawn: DrawnStep, labels: Mapping[DrawnStep, str],
         if movement is Movement.GUIDED and (guide := guides.get(" along ".join(drawn.step.links))):
             told["dx"], told["dy"] = guide
         return (), name, [text.format(*(labels[arg] for arg in drawn.args), **told) for text in inputs]
+    return ruled(drawn, labels)
+
+
+def ruled(drawn: DrawnStep, labels: Mapping[DrawnStep, str], against: bool = False) -> tuple[Terms, str, list[str]]:
+    """The same by the formula of the rule; of a line, turned round where it is drawn `against` its rule."""
     read = [_coordinates(arg, labels) for arg in drawn.args]
     found = formula(drawn, read, LANGUAGE, f"number{drawn.index}n", DEEPEST)
     name, texts = RESULTS[drawn.kind]
-    return found.terms, name, [text.format(*found.results) for text in texts]
+    results = [f"(-{text})" if against and place > 1 else text for place, text in enumerate(found.results)]
+    return found.terms, name, [text.format(*results) for text in texts]
 
 
 def _circle(circle: DrawnStep, labels: Mapping[DrawnStep, str]) -> tuple[str, str]:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 import math
 import re
+import shutil
+import subprocess
 from collections.abc import Callable
+from pathlib import Path
 
 import pytest
 from gcl import Reader
@@ -127,3 +130,17 @@ def test_numbers_have_no_exponents() -> None:
     assert decimal(-1.5e-7) == "-0.00000015"
     assert not re.search(r"\d[eE][-+]?\d", re.sub(r"%.*", "", source))
     assert gclc(plates) == source
+
+
+def test_gclc_itself_draws_it(tmp_path: Path) -> None:
+    """The program reads a source without an error, and draws as many filled triangles and letters as it has."""
+    if shutil.which("gclc") is None:
+        pytest.skip("there is no gclc")
+    source = gclc(laid_out("double-butterfly")[1])
+    (tmp_path / "figure.gcl").write_text(source, encoding="utf-8")
+    run = ["gclc", "figure.gcl", "figure.svg", "-svg"]
+    done = subprocess.run(run, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    assert "successfully processed" in done.stdout
+    drawn = (tmp_path / "figure.svg").read_text(encoding="utf-8")
+    assert drawn.count("<!-- Filling triangle") == source.count("\nfilltriangle ")
+    assert drawn.count("<text") >= source.count("\nprintat ")

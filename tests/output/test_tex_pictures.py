@@ -27,7 +27,7 @@ FORMATS = {"tikz": tikz, "tkz-euclide": tkz_euclide}
 NEEDED = "standalone.cls", "beamer.cls", "adjustbox.sty", "tkz-euclide.sty", "t2aenc.def", "lmodern.sty"
 EVERYTHING = bool(os.environ.get("GRAPHPLAN_TEX"))  # all scenes, engines and languages, which takes half an hour
 EACH = pytest.mark.parametrize(("kind", "name", "engine", "language"), [
-    (kind, name, ENGINES[(k + i) % 3], LANGUAGES[k % len(LANGUAGES)])
+    (kind, name, ENGINES[(k + k // len(LANGUAGES) + i) % 3], LANGUAGES[k % len(LANGUAGES)])
     for k, name in enumerate(packaged()) for i, kind in enumerate(FORMATS)
     if EVERYTHING or (name, kind) in {("slotted-link", "tikz"), ("plough-lift", "tkz-euclide"), ("triad", "tikz")}
 ])  # fmt: skip

@@ -37,7 +37,7 @@ def compiled(source: str, engine: str, folder: Path) -> list[str]:
     """What an engine complains of; the document is figure.pdf in a folder."""
     (folder / "figure.tex").write_text(source, encoding="utf-8")
     run = [engine, "-interaction=nonstopmode", "-halt-on-error", "figure.tex"]
-    subprocess.run(run, cwd=folder, capture_output=True, timeout=300, check=False)
+    subprocess.run(run, cwd=folder, capture_output=True, timeout=1800, check=False)
     return COMPLAINTS.findall((folder / "figure.log").read_text(errors="replace"))
 
 

@@ -365,7 +365,7 @@ class _GclcWriter(Source):
         place = self._beside(letter.mark, (x, y + text.size * CAPS / 2))
         self._hold("color", *map(str, pens.rgb(text.pen.colour)))
         self._hold("fontsize", f"{points(text.size):.0f}")
-        words = any(word.isalpha() and len(word) > 1 for run in text.runs for word in run.text.split())
+        words = any(word.isalpha() and word[1:].islower() for run in text.runs for word in run.text.split())
         told = rf"\mbox{{{lettering(text.runs)}}}" if words else formulated(text.runs)
         self.lines.append(f"printat {place} {{{told}}}")
 

@@ -2,6 +2,7 @@
 
 const POINT = "point", LINE = "line", CIRCLE = "circle";
 const MECHANISM = 0;  // the place of its panel
+const EDGES = 4;  // mm that what is held in a window keeps off its sides, where it does on the sheet
 
 const distance = (p, q) => Math.hypot(q[0] - p[0], q[1] - p[1]);
 const between = (p, q, t) => [p[0] + t * (q[0] - p[0]), p[1] + t * (q[1] - p[1])];
@@ -51,7 +52,8 @@ function slid(panel, spots, scale = panel.scale) {
   const view = new View(panel.rect, scale, panel.origin), box = [Infinity, Infinity, -Infinity, -Infinity];
   for (const spot of spots.map(spot => view.at(spot)).filter(finite))
     for (const axis of [0, 1]) {
-      const room = panel.rect[axis + 2] - panel.rect[axis], low = box[axis], high = box[axis + 2];
+      const edges = Math.min(panel.free[axis], EDGES) + Math.min(panel.free[axis + 2], EDGES);
+      const room = panel.rect[axis + 2] - panel.rect[axis] - edges, low = box[axis], high = box[axis + 2];
       box[axis] = Math.min(low, high < low ? spot[axis] : Math.max(spot[axis], high - room));
       box[axis + 2] = Math.max(high, high < low ? spot[axis] : Math.min(spot[axis], low + room));
     }

@@ -29,7 +29,8 @@ if TYPE_CHECKING:
 
 ENDINGS = (".html",)
 CHOICES = "plans", "methods", "languages"
-USUAL = "plans,languages"
+AGAIN = 2  # further constructions for the poses of a plan or method that is not the page's own: each takes its time
+FEW = 2  # constructions for the poses of a page: their words in all languages are small, and quickly told
 PLANS = "polar", "orthogonal"
 
 
@@ -43,9 +44,9 @@ def options(command: argparse.ArgumentParser) -> None:
 
 def add_offer(command: argparse.ArgumentParser) -> None:
     """The option that says what may be chosen on the page."""
-    command.add_argument("--choices", type=_choices, default=_choices(USUAL), metavar="WHAT",
-                         help=f"what may be chosen on the page: {', '.join(CHOICES)}, some languages such as de,lv, "
-                         f"or none (default {USUAL})")
+    command.add_argument("--choices", type=_choices, metavar="WHAT",
+                         help=f"what may be chosen on the page: {', '.join(CHOICES)}, some languages such as de,lv, or "
+                         "none; without it plans, and besides its own English, or where that is small all languages")
 
 
 def _choices(text: str) -> frozenset[str]:
@@ -66,9 +67,11 @@ def page(options: argparse.Namespace, *, steps_first: bool = False, shared: str 
     """The page of a scene; `steps_first` it is opened at the first step; with a `shared` script it leaves that out."""
     from graphplan.output.live.page import live
 
-    scene, own = given(options), presented(options).sheet.language or "en"
-    others = [code for code in LANGUAGES if code != own and code in options.choices]
-    return live([*_variants(options)], [own, *others], scene.title, steps_first=steps_first, shared=shared)
+    scene, own, variants = given(options), presented(options).sheet.language or "en", [*_variants(options)]
+    few = len(variants[0].compositions) <= FEW
+    offered = options.choices if options.choices is not None else LANGUAGES if few else ("en",)
+    languages = [own, *(code for code in LANGUAGES if code != own and code in offered)]
+    return live(variants, languages, scene.title, steps_first=steps_first, shared=shared)
 
 
 def _variants(options: argparse.Namespace) -> Iterator[Variant]:
@@ -91,7 +94,8 @@ def _variants(options: argparse.Namespace) -> Iterator[Variant]:
         known.append(steps)
         with suppress(*(() if first else (Refused,))):
             composition = compose(drawing, protocol="none")
-            yield Variant(PLANS[drawing.turned], method, on_one_sheet(composition, _others(drawing)))
+            others = _others(drawing)
+            yield Variant(PLANS[drawing.turned], method, on_one_sheet(composition, others if first else others[:AGAIN]))
 
 
 def _others(drawing: Construction) -> list[Construction]:
@@ -103,10 +107,10 @@ def _others(drawing: Construction) -> list[Construction]:
 
 def _ways(options: argparse.Namespace) -> Iterator[tuple[str, str]]:
     """Plan and method by their options: as they are given, and what else is wanted."""
-    plan, method = options.plan, options.method
+    plan, method, offered = options.plan, options.method, options.choices or ("plans",) * (options.choices is None)
     forces = ",".join(part for part in plan.split(",") if part not in PLANS)
-    plans = [plan, *(",".join(filter(None, (one, forces))) for one in PLANS)] if "plans" in options.choices else [plan]
-    methods = [method, *METHODS] if "methods" in options.choices else [method]
+    plans = [plan, *(",".join(filter(None, (one, forces))) for one in PLANS)] if "plans" in offered else [plan]
+    methods = [method, *METHODS] if "methods" in offered else [method]
     yield from dict.fromkeys((plan, method) for plan in plans for method in methods)
 
 

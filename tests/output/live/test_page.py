@@ -433,7 +433,7 @@ def test_results_and_words_are_python_s_in_other_poses(browser: Any) -> None:
             assert speed in unescape(told)
 
 
-@pytest.mark.parametrize("name", packaged() if "GRAPHPLAN_LIVE" in os.environ else ("triad-loaded", "alt-eight-link"))
+@pytest.mark.parametrize("name", packaged() if "GRAPHPLAN_LIVE" in os.environ else ("triad-loaded", "shaper"))
 def test_pages_of_packaged_scenes_move(browser: Any, name: str) -> None:
     """Between its limits a mechanism moves and its points are dragged, and nobody complains."""
     with opened(browser, page_of("live", name, "--choices", "none")) as page:
@@ -464,7 +464,7 @@ def test_a_shared_script_serves_from_the_disk(browser: Any, tmp_path: Path) -> N
 
 def test_a_limit_stops_it_with_its_reason(browser: Any) -> None:
     """A rocker that runs reaches its limit, rests and says why, and runs back the next time."""
-    path = page_of("live", "alt-eight-link", "--choices", "none")
+    path = page_of("live", "triad-loaded", "--choices", "none")
     with opened(browser, path, reduced_motion="no-preference") as page:
         low, high = page.evaluate("graphplan.limits()")
         end = high if high is not None else low

@@ -38,6 +38,7 @@ FINE = 4  # decimals of a radius: what is left of one moves the middle of a long
 MAKE = svgwrite.Drawing(debug=False)  # makes elements and leaves out their validation, which takes ten times as long
 Element = Any  # of svgwrite, which has no types
 INKSCAPE = "http://www.inkscape.org/namespaces/inkscape"
+ALONE = {"xmlns:inkscape": INKSCAPE, "xml:space": "preserve"}  # Inkscape leaves out spaces between levels of letters
 STEP, GIVEN = said("Step"), said("Given")
 LAYERS = {  # what their groups are called
     "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
@@ -56,7 +57,7 @@ def svg(sheet: Sheet, *, alone: bool = True, **look: Any) -> str:
     document = _Document(
         size=(f"{wide}mm", f"{high}mm"), viewBox=f"0 0 {wide} {high}", font_family=FONTS, stroke_linecap="round",
         stroke_linejoin="round", debug=False,
-        **({"xmlns:inkscape": INKSCAPE} if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
+        **(ALONE if alone else {}), **{"xml:lang": sheet.language}, **look)  # fmt: skip
     document.elements.remove(document.defs)  # a sheet defines nothing
     document.set_desc(sheet.title, sheet.description)
     if sheet.scene:

@@ -26,7 +26,8 @@ LAYER = {f"{INKSCAPE}groupmode": "layer", f"{INKSCAPE}label": ANY}
 DESCRIBED, SHAPES = {"title", "desc"}, {"rect", "polyline", "polygon", "circle", "path", "text", "image"}
 ELEMENTS = {  # what may stand in each, and its attributes; in those of words stand letters
     "svg": ({*DESCRIBED, *SHAPES, "metadata", "g"}, {"width": f"{NUMBER}mm", "height": f"{NUMBER}mm",
-                                                     "viewBox": rf"0 0 {NUMBER} {NUMBER}", **PAINT, **LETTERS}),
+                                                     "viewBox": rf"0 0 {NUMBER} {NUMBER}", **PAINT, **LETTERS,
+                                                     f"{XML}space": "preserve"}),
     "g": ({*DESCRIBED, *SHAPES, "g"}, DATA | LAYER),
     "rect": (DESCRIBED, {**dict.fromkeys(("x", "y", "width", "height"), NUMBER), **PAINT, **DATA}),
     "polyline": (DESCRIBED, {"points": NUMBERS, **PAINT}),

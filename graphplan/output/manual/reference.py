@@ -51,7 +51,7 @@ def _keys() -> Table:
     rows = ((row.level, (_text(row.key) if row.level == FORM else _code(row.key), _text(row.takes), _text(row.words)))
             for row in keys())
     return said("Keys of a scene"), said("All tables and keys of a scene file."), (
-        said("Key"), said("Takes"), said("What it says")), rows
+        said("Table or key"), said("Takes"), said("What it says")), rows
 
 
 def _pairs() -> Table:
@@ -118,4 +118,4 @@ def _results(results: Mapping[str, Mapping[str, object]]) -> Table:
 
     caption = said("What is printed as JSON, table by table; ? marks what may be left out, [] a list, {{}} a table by "
                    "name.")
-    return said("Results"), caption, (said("Key"), said("Takes"), said("What it says")), rows()
+    return said("Results"), caption, (said("Table or key"), said("Takes"), said("What it says")), rows()

@@ -15,9 +15,12 @@ from dataclasses import replace
 from fractions import Fraction
 from functools import cached_property
 from itertools import pairwise
+from typing import Any
 from xml.etree.ElementTree import Element, SubElement, indent, tostring
 
-from graphplan.accuracy.reach import Missed, holding
+import numpy as np
+
+from graphplan.accuracy.reach import Missed, Reached, holding, put_right
 from graphplan.cycle.relations import Written, relations
 from graphplan.kernel.kinds import LINE, OPENING, POINT
 from graphplan.kernel.program import Panel
@@ -213,7 +216,7 @@ class _GeoGebraWriter(Elements):
         pen = pens.ARC if not point else pens.PAIR if not drawn.number else pens.ORIGIN if drawn.free else pens.DOT
         element = self.objects.element(TYPES[drawn.kind], label, shown, bool(letter), pen, POINTS if point else CURVES)
         if point:
-            x, y = at or drawn.at
+            x, y = at or self._stated(drawn)
             empty(element, "coords", x=x, y=y, z=1.0)
             empty(element, "pointSize", val=3 if drawn.name else 1)
             empty(element, "pointStyle", val=0)
@@ -245,6 +248,22 @@ class _GeoGebraWriter(Elements):
                 found.setdefault(letter.mark, letter)
         return {drawn: found.get(drawn) or Letter.beside(drawn) for drawn in self.plates.drawn
                 if drawn.name and drawn.kind == POINT}
+
+    def _stated(self, drawn: DrawnStep) -> Spot:
+        """Where a mark lies in the given pose, for readers that take a file as it stands."""
+        if self.plates is self.given or not drawn.number:
+            return drawn.at
+        x, y = (float(np.ravel(part)[0]) for part in self._in_given_pose[drawn.index][:2])
+        return drawn.view((x, y)) if math.isfinite(x) and math.isfinite(y) else drawn.at
+
+    @cached_property
+    def _in_given_pose(self) -> list[Any]:
+        """The values of the drawn steps in the given pose, where they are drawn in another one."""
+        scene = self.given.scene
+        points = {name: np.array([complex(float(x), float(y))]) for name, (x, y) in scene.points.items()}
+        guides = {one.name: np.array([complex(*map(float, one.direction))]) for one in scene.slides
+                  if one.through is None}
+        return put_right(self.plates.plans.drawing, Reached(points, guides), self.wrong)
 
     def _mark(self, drawn: DrawnStep) -> None:
         if not drawn.free:

@@ -124,6 +124,7 @@ class _Site:
 
         if self.options.language:
             scene = replace(scene, sheet=replace(scene.sheet, language=self.options.language))
+        scene = replace(scene, title=tongue(scene.sheet.language).title(scene.title))
         found = report(scene)
         on_sheet = drafted(found.drawing, Pencil(), check=found.check, tongue=tongue(scene.sheet.language))
         words = protocol(on_sheet)

@@ -225,19 +225,21 @@ def made_by(movement: Movement) -> Primitive:
     return next(op for op in TABLE.values() if op.movement is movement)
 
 
-FAILURES: dict[str, tuple[Said, str]] = {
-    "points-coincide": (said("two points that should give a direction coincide"), "move one of them, or ask for less"),
-    "lines-parallel": (said("two lines that should meet are parallel"), "--method trial, or let the form be chosen"),
-    "no-direction": (said("a given direction has no length"), "give another direction"),
-    "circles-miss": (said("two circles do not meet"), "check the lengths"),
-    "circles-concentric": (said("two circles have the same centre"), "check the centres"),
-    "line-misses-circle": (said("the line does not meet the circle"), "check the lengths"),
+FAILURES: dict[str, tuple[Said, Said]] = {
+    "points-coincide": (said("two points that should give a direction coincide"),
+                        said("move one of them, or ask for less")),
+    "lines-parallel": (said("two lines that should meet are parallel"),
+                       said("--method trial, or let the form be chosen")),
+    "no-direction": (said("a given direction has no length"), said("give another direction")),
+    "circles-miss": (said("two circles do not meet"), said("check the lengths")),
+    "circles-concentric": (said("two circles have the same centre"), said("check the centres")),
+    "line-misses-circle": (said("the line does not meet the circle"), said("check the lengths")),
     "locus-undetermined": (said("the link's pole lies in the point, so its loci do not determine it"),
-                           "another pose: this one is singular"),
+                           said("another pose: this one is singular")),
     "couple-alone": (said("a force is zero, so it cannot take up a couple"),
-                     "leave the couple beside it (--inertia couple)"),
-    "trials-agree": (said("both trial figures miss by the same amount"), "another pose: this one is singular"),
-    "not-rational": (said("a root is irrational"), "leave out --exact"),
+                     said("leave the couple beside it (--inertia couple)")),
+    "trials-agree": (said("both trial figures miss by the same amount"), said("another pose: this one is singular")),
+    "not-rational": (said("a root is irrational"), said("leave out --exact")),
 }
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from graphplan.errors import Refused
+from graphplan.phrases import Said, said
 
 
 class Format(NamedTuple):
@@ -17,7 +18,7 @@ class Format(NamedTuple):
     """
 
     suffix: str
-    told: str
+    told: Said
     module: str
     function: str
     reads: str
@@ -25,18 +26,20 @@ class Format(NamedTuple):
 
 
 FORMATS = {
-    "ggb": Format(".ggb", "GeoGebra, 4.0 and later", "exports.geogebra", "geogebra", "plates"),
-    "jsxgraph": Format(".html", "a web page of JSXGraph elements", "exports.jsxgraph", "jsxgraph", "plates"),
-    "gcl": Format(".gcl", "GCLC, the language of constructions", "exports.gclc", "gclc", "plates"),
-    "tikz": Format(".tex", "LaTeX with TikZ", "exports.tikz", "tikz", "composition"),
-    "tkz-euclide": Format(".tex", "LaTeX with tkz-euclide, by --format", "exports.tkz", "tkz_euclide", "composition"),
-    "c": Format(".c", "the numbers in C99, over arrays of poses", "exports.code", "c", "construction"),
-    "js": Format(".js", "the numbers in JavaScript, in one pose or many", "exports.code", "javascript", "construction"),
-    "json": Format(".json", "the steps as data", "", "", "steps"),
-    "svg": Format(".svg", "the sheet as SVG", "svg", "svg", "sheet"),
-    "pdf": Format(".pdf", "the sheet as PDF, in true size", "pdf_png", "pdf", "sheets"),
-    "png": Format(".png", "the sheet as a picture", "pdf_png", "png", "sheet"),
-    "dxf": Format(".dxf", "the mechanism 1:1 and the sheet, for CAD", "dxf", "dxf", "sheets on plates", "dxf"),
+    "ggb": Format(".ggb", said("GeoGebra, 4.0 and later"), "exports.geogebra", "geogebra", "plates"),
+    "jsxgraph": Format(".html", said("a web page of JSXGraph elements"), "exports.jsxgraph", "jsxgraph", "plates"),
+    "gcl": Format(".gcl", said("GCLC, the language of constructions"), "exports.gclc", "gclc", "plates"),
+    "tikz": Format(".tex", said("LaTeX with TikZ"), "exports.tikz", "tikz", "composition"),
+    "tkz-euclide": Format(".tex", said("LaTeX with tkz-euclide, by --format"), "exports.tkz", "tkz_euclide",
+                          "composition"),
+    "c": Format(".c", said("the numbers in C99, over arrays of poses"), "exports.code", "c", "construction"),
+    "js": Format(".js", said("the numbers in JavaScript, in one pose or many"), "exports.code", "javascript",
+                 "construction"),
+    "json": Format(".json", said("the steps as data"), "", "", "steps"),
+    "svg": Format(".svg", said("the sheet as SVG"), "svg", "svg", "sheet"),
+    "pdf": Format(".pdf", said("the sheet as PDF, in true size"), "pdf_png", "pdf", "sheets"),
+    "png": Format(".png", said("the sheet as a picture"), "pdf_png", "png", "sheet"),
+    "dxf": Format(".dxf", said("the mechanism 1:1 and the sheet, for CAD"), "dxf", "dxf", "sheets on plates", "dxf"),
 }
 
 

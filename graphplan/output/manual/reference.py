@@ -6,24 +6,26 @@ English, as the program itself prints them.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from html import escape
 from importlib import import_module
 
 from graphplan.kernel import TABLE
-from graphplan.kernel.kinds import FAILURES, LINE, Primitive
+from graphplan.kernel.kinds import FAILURES, LINE, PENCIL, Primitive
 from graphplan.marking.judge.score import KINDS
 from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import FORM, keys
 from graphplan.output.manual.site import REFERENCE, SitePage, coded
 from graphplan.output.report_page import HtmlCell
-from graphplan.phrases import Said, said
+from graphplan.phrases import Said, phrase, said
+from graphplan.sheet.words.task import INSTRUMENTS
 from graphplan.words.tongue import Tongue
 
 Table = tuple[Said, Said, Sequence[Said], Iterator[tuple[str, Sequence[HtmlCell]]]]
 """The title of a table, its caption, the heads of its columns, and its rows, each with its class."""
 
 ANYTHING = {"point": "ABCDEFG", LINE: "abcdefg", "opening": "rs", "circle": "kl"}  # letters of operands, by kind
+HANDS = INSTRUMENTS | {PENCIL: phrase("pencil")}
 
 
 def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, object]], tongue: Tongue) -> str:
@@ -41,6 +43,11 @@ def reference(commands: Mapping[str, str], results: Mapping[str, Mapping[str, ob
 
 def _code(text: str) -> HtmlCell:
     return HtmlCell("<br>".join(f"<code>{escape(part)}</code>" for part in text.split("` or `")))
+
+
+def _names(names: Iterable[str]) -> str:
+    """Names of the program, each as code."""
+    return ", ".join(f"`{name}`" for name in names)
 
 
 def _text(text: object) -> HtmlCell:
@@ -71,13 +78,14 @@ def _primitives(page: SitePage) -> Table:
     """Each operation of the drawing board as it is spoken, its instrument, what may fail, its forms and its source."""
     def more(op: Primitive) -> Iterator[str]:
         if op.forms:
-            yield page.tongue(said("forms: {0}", ", ".join(op.forms)))
+            yield page.tongue(said("forms: {0}", _names(op.forms)))
         if op.fails:
-            yield page.tongue(said("may fail: {0}", ", ".join(op.fails)))
+            yield page.tongue(said("may fail: {0}", _names(op.fails)))
         if op.source:
             yield page.tongue(said("source: {0}", op.source))
 
-    rows = (("", (_code(op.name), _text(page.tongue(_spoken(op))), _text(op.instrument), _text("; ".join(more(op)))))
+    rows = (("", (_code(op.name), _text(page.tongue(_spoken(op))), _text(page.tongue(HANDS[op.instrument]())),
+                  _text("; ".join(more(op)))))
             for op in TABLE.values())
     return said("Primitives"), said("What can be drawn: every step of a construction is one of these."), (
         said("Primitive"), said("As it is spoken"), said("Instrument"), said("More")), rows
@@ -88,11 +96,12 @@ def _spoken(op: Primitive) -> Said:
     letters = {kind: iter(names) for kind, names in ANYTHING.items()}
     read = [next(letters[kind]) for kind in op.reads]
     made = {"point": "X", LINE: "x"}.get(op.gives) or next(letters[op.gives])
-    return op.spoken(read, out=made, **{name: name for name in op.params})
+    return op.spoken(read, out=made, **{name: f"`{name}`" for name in op.params})
 
 
 def _failures(page: SitePage) -> Table:
-    rows = (("", (_code(code), _text(page.tongue(why)), _text(remedy))) for code, (why, remedy) in FAILURES.items())
+    rows = (("", (_code(code), _text(page.tongue(why)), _text(page.tongue(remedy))))
+            for code, (why, remedy) in FAILURES.items())
     return said("Failures"), said("Why a step cannot be drawn in a pose, and what helps."), (
         said("Failure"), said("What it says"), said("What helps")), rows
 

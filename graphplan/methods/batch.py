@@ -17,11 +17,13 @@ from graphplan.methods.executors import crew
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
 from graphplan.methods.results import Given
+from graphplan.phrases import Said, said
 
 Coordinates = dict[str | int, dict[str, Any]]
 Results = dict[str, dict[str, Any]]
 Faults = dict[int, str]
 Progress = Callable[[int, int], None]
+ROUNDED = 1e-9  # of the extent: points that are no further apart coincide
 STRETCH = 1 << 16  # poses between two reports of progress, and to one worker at a time
 
 
@@ -61,7 +63,26 @@ def batch(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str
         faults.update((place.start + pose, why) for pose, why in wrong.items())
         if progress:
             progress(place.stop, n)
+    _torn(construction, points, results, faults)
     return Poses(construction.scene, n, results, faults)
+
+
+def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, faults: Faults) -> None:
+    """Take the results of poses in which points lie apart on whose coincidence the program relies."""
+    places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
+    close = ROUNDED * max((abs(z - next(iter(places.values()))) for z in places.values()), default=0.0)
+    for one, other in construction.relied:
+        gap = np.abs(_poses(points.get(one, places[one])) - _poses(points.get(other, places[other])))
+        for pose in np.flatnonzero(gap > close).tolist():
+            faults.setdefault(pose, apart(one, other))
+            for named in results.values():
+                for z in named.values():
+                    z[pose] = np.nan
+
+
+def apart(one: str, other: str) -> Said:
+    """Why a construction does not hold in a pose in which these points lie apart."""
+    return said("points {0} and {1} coincide in the scene and lie apart here: one mark cannot serve both", one, other)
 
 
 def _wanted(construction: Recorded, n: int, only: Collection[str] | None) -> Results:

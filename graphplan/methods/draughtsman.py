@@ -49,6 +49,7 @@ class Draughtsman:
     def __init__(self, scene: Scene, planner: Planner, style: Style):
         self.scene, self.net, self.polar = scene, planner.net, style.polar
         self.board = Board()
+        self.net.relied.clear()
         self.pose = Pose(self.board, scene, self.net.shared)
         self.tempo = tempo(scene)
         self.moves = planner.moves
@@ -72,7 +73,8 @@ class Draughtsman:
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
-                            ways=tuple(_ways(self.moves)), notes=[*redundancies(self.scene)])
+                            relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
+                            notes=[*redundancies(self.scene)])
 
     @property
     def _accelerated(self) -> bool:

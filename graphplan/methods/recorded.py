@@ -38,7 +38,8 @@ class Recorded:
     """The program of a scene, and what is read from it.
 
     `program` holds compounds, each with the value rule that is good in every pose. The drawn velocities are in the
-    scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force.
+    scale of `tempo`, quarter `turned` or not; forces are `phi` lengths long for each unit of force. Where two points
+    that are `relied` on lie apart, the program holds no more.
     """
 
     scene: Scene
@@ -47,6 +48,7 @@ class Recorded:
     readings: tuple[Reading, ...]
     turned: bool
     phi: Number = 1
+    relied: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def shared(self) -> dict[str, str]:

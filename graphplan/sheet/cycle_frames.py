@@ -53,8 +53,11 @@ class Posed(Construction):
 def posed(construction: Construction, points: Mapping[str, complex], guides: Mapping[str, complex]) -> Posed | None:
     """The construction with its points, and the guides that ride on links, elsewhere.
 
-    None where the pose is singular, or its drawing takes other forms than that of the given pose.
+    None where the pose is singular, its drawing takes other forms than that of the given pose, or points lie apart on
+    whose coincidence it relies.
     """
+    if any(points[one] != points[other] for one, other in construction.relied):
+        return None
     drawn, program = (given_in(steps, points, guides) for steps in (construction.drawn, construction.program))
     try:
         values = evaluate(construction.drawn, Floats(), drawn)

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from linkages import scenes
 
+import graphplan as gp
+from graphplan.check.poses import checked
 from graphplan.cycle import follow
 from graphplan.mechanism.model import Scene
 
@@ -45,3 +47,17 @@ def test_a_pose_to_which_one_step_does_not_lead_is_walked_to(seed: int) -> None:
     turn = follow(next(scenes(seed, orders=1)), 48)
     assert not turn.faults
     assert math.isclose(turn.travel[2], math.radians(15))
+
+
+@pytest.mark.parametrize("seed", [3, 27])
+def test_no_pose_is_drawn_by_points_that_coincide_in_another(seed: int) -> None:
+    """A program that relies on two points in one spot gives nothing where they lie apart, and says so: all that it
+    gives agrees with the solver."""
+    scene = next(scenes(seed, orders=1))
+    drawing, turn = gp.construct(scene), follow(scene, 9, (0, 40))
+    poses = drawing.evaluate(turn.points, turn.guides)
+    given = np.all([np.isfinite(z) for z in poses.velocity.values()], axis=0)
+    agreed = np.all([np.isfinite(z) for z in checked(drawing, turn.points, turn.guides).values()], axis=0)
+    assert drawing.relied
+    assert given.tolist() == agreed.tolist()
+    assert all("coincide in the scene and lie apart here" in why for why in poses.faults.values())

@@ -156,7 +156,7 @@ class Normal(MotionPlan):
         base = self.pose.points[joint] if weld.to == FRAME else self._driven_seat(weld, joint)
         omega = sum(w.sign * self.tempo.rate(w.drive.rate) for w in chain if not w.drive.slides)
         A, X = self.pose.points[joint], self.pose.points[point]
-        if self.net.spot(point) == self.net.spot(joint) or not omega:
+        if not omega or self.net.coincide(point, joint):
             return base
         if omega * omega == 1 and base is A:
             return X
@@ -180,7 +180,7 @@ class Normal(MotionPlan):
         anchor = self.anchors[link]
         if point == self.net.place(anchor.point, link)[0]:
             return self.board.named(self._anchored(link, anchor), self.figure_name(link, point))
-        if self.net.still(link) or self.net.spot(point) == self.net.spot(anchor.point):
+        if self.net.still(link) or self.net.coincide(point, anchor.point):
             return self.figure(link, anchor.point)
         mark = self._scaled(link, anchor.point, point)
         return self.board.named(mark, self.figure_name(link, point))

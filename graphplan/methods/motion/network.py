@@ -87,6 +87,7 @@ class Network:
         own = ordered_links(scene)
         first: dict[object, str] = {}
         self._spots = {point: first.setdefault(scene.points[point], point) for point in ordered_points(scene)}
+        self.relied: dict[tuple[str, str], None] = {}
         self.names = self._names(own)
         self.links = {link: tuple(dict.fromkeys(map(self.name, points))) for link, points in own.items()}
         if any(not drive.slides and drive.links[1] == FRAME for drive in scene.drives):
@@ -127,6 +128,14 @@ class Network:
     def spot(self, point: str) -> str:
         """The first of all points that lie where this one does in this pose; an auxiliary point is its own."""
         return self._spots.get(point, point)
+
+    def coincide(self, one: str, other: str) -> bool:
+        """Whether two points lie in one spot; what is drawn by that holds in no pose in which they lie apart."""
+        if self.spot(one) != self.spot(other):
+            return False
+        if self.name(one) != self.name(other):
+            self.relied[one, other] = None
+        return True
 
     @property
     def shared(self) -> dict[str, str]:

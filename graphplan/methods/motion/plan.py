@@ -303,7 +303,7 @@ class MotionPlan:
 
     def _as_turned(self, body: str, like: str, A: BodyPoint, X: BodyPoint, at: Mark) -> Mark:
         """`at` moved by the image of AX in a body that turns as `like` does, but for a known difference."""
-        if self.net.spot(A[0]) == self.net.spot(X[0]):
+        if self.net.coincide(A[0], X[0]):
             return at
         base = self.point(A), self.point(X)
         if like == self.net.ground:

@@ -148,9 +148,9 @@ class Motion {
   drawn() {
     const points = this.points(), guides = this.guides(), programs = this.data.programs;
     const way = (name) => (([x, y]) => [x / Math.hypot(x, y), y / Math.hypot(x, y)])(guides[name] ?? this.data.guides[name]);
-    const torn = this.data.shared.find(([one, other]) => apart(points[one], points[other]) > ROUNDED * this.data.linkage.reach)
-      ?? this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED);
-    if (torn) return { program: this._program, values: null, why: torn[2], results: null };
+    const torn = this.torn(this.data.shared, points)
+      || this.data.lined.find(([one, other]) => apart(way(one), way(other)) > ROUNDED)?.[2];
+    if (torn) return { program: this._program, values: null, why: torn, results: null };
     const found = programs.map(() => null), ruled = {};
     const tried = (k) => (found[k] ??= this.tried(k, points, guides, ruled));
     const serves = (k) => tried(k).apart <= this.data.same * (k < this._program ? 1 / 64 : 1);
@@ -160,6 +160,11 @@ class Motion {
     if (program >= 0) this._program = program;
     const drawn = { program: this._program, values: program < 0 ? null : values, why: program < 0 ? why : "" };
     return { ...drawn, results: this.stop || !rules ? null : this.checked(rules.results, points, guides) };
+  }
+
+  /** Why nothing holds of what relies on some points to coincide, where two of them lie apart; else nothing. */
+  torn(pairs, points) {
+    return pairs.find(([one, other]) => apart(points[one], points[other]) > ROUNDED * this.data.linkage.reach)?.[2] ?? "";
   }
 
   /** Results with how they were found, and by how much the linkage's own opinion differs. */
@@ -172,7 +177,9 @@ class Motion {
   /** One program in this pose: the values of its marks, what the rules say, and by how much they differ; `ruled` keeps
       what rules said for others. */
   tried(k, points, guides, ruled) {
-    const { points: names, guides: ways, wanted, asked, rules: place } = this.data.programs[k];
+    const { points: names, guides: ways, wanted, asked, relied, rules: place } = this.data.programs[k];
+    const torn = this.torn(relied, points);
+    if (torn) return { values: null, rules: null, why: torn, apart: Infinity };
     const x = [...names.flatMap((name) => points[name]), ...ways.flatMap((name) => guides[name] ?? this.data.guides[name])];
     const rules = (ruled[place] ??= this.tape.rules[place](x)), values = this.tape.drawn[k](x);
     if (typeof rules === "number") return { values: null, rules: null, why: asked.rules[rules], apart: Infinity };

@@ -23,6 +23,7 @@ from graphplan.errors import Refused
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.units import inertia, metre, weight
+from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
 from graphplan.output.live.tapes import Data, PosedTapes, arrow
 from graphplan.phrases import said
@@ -43,9 +44,7 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
     data = {
         "points": {name: [*map(float, at)] for name, at in scene.points.items()},
         "guides": {slide.name: [*map(float, slide.direction)] for slide in scene.slides},
-        "under": under(scene), "shared": [[point, at, said(
-            "points {0} and {1} coincide in the scene and lie apart here: one mark cannot serve both", point, at)]
-            for point, at in drawings[0].shared.items()],
+        "under": under(scene), "shared": [[point, at, apart(point, at)] for point, at in drawings[0].shared.items()],
         "lined": [[one, other, said("guides {0} and {1} are drawn as one line, and turn apart here", one, other)]
                   for one, other in _lined(scene)],
         "scene": _plain(tomllib.loads(scene.text)), "placed": [*_placed(scene)],

@@ -16,6 +16,7 @@ from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.kernel.tape.record import Symbol, Symbols, Tape
 from graphplan.kernel.tape.written import JAVASCRIPT, Writer, asked_of
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.methods.batch import apart
 from graphplan.methods.construction import Construction
 
 SOLVED = ("check", "bounds", "arithmetic", "method", "steps")
@@ -106,6 +107,7 @@ class PosedTapes:
         self.data = {
             "points": self.points, "guides": self.guides, "wanted": [i for i, _ in self.wanted],
             "asked": {"drawn": self._reasons(drawing.drawn, drawn), "rules": self._reasons(drawing.program, rules)},
+            "relied": [[one, other, apart(one, other)] for one, other in drawing.relied],
             "title": scene.title, "method": drawing.method, "steps": steps,
         }  # fmt: skip
 

@@ -130,6 +130,11 @@ class LivePage:
         return [[Texts(one.plans, one.scales) for one in variant.compositions] for variant in self.variants]
 
     @cached_property
+    def _places(self) -> list[pictures.Places]:
+        """Where the letters of each variant stand, as long as its first construction is drawn; in all languages."""
+        return [pictures.letter_places(one.compositions[0]) for one in self.variants]
+
+    @cached_property
     def _told(self) -> dict[tuple[int, str], Data]:
         return {}
 
@@ -140,7 +145,8 @@ class LivePage:
             still = [*framed(compositions[0]), *captions(compositions[0])]
             self._told[number, say.code] = {
                 "title": say.title(self.title), "svg": _inline(sheet(compositions[0], still, CONSTRUCTION)),
-                "pictures": [pictures.picture(one) for one in compositions],
+                "pictures": [pictures.picture(one, {} if k else self._places[number])
+                             for k, one in enumerate(compositions)],
                 "programs": [texts.told(say) for texts in self._texts[number]],
                 "said": {text: say(text) for text in sayings(self._motions[number][0])},
             }  # fmt: skip

@@ -8,7 +8,7 @@ mechanism.js, letters.js), with the same measures, which are told as well; it wr
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from functools import cached_property
 from importlib.resources import files
 from typing import Any
@@ -71,9 +71,21 @@ def scripts() -> str:
     return f'"use strict";\nconst Picture = (() => {{\n{chr(10).join(texts)}\nreturn Picture;\n}})();\n'
 
 
-def picture(composition: Composition) -> Data:
-    """One construction on its sheet, as data for JSON; y runs up, and places are in lists that the data have."""
-    return _Teller(composition).told()
+Places = Mapping[str, tuple[int, float, float, bool]]
+
+
+def picture(composition: Composition, places: Places | None = None) -> Data:
+    """One construction on its sheet, as data for JSON; y runs up, and places are in lists that the data have.
+
+    Its letters stand where they do on its sheet, or at these places; those that have none find theirs on the page.
+    """
+    teller = _Teller(composition)
+    return teller.told() | {"places": teller.places() if places is None else places}
+
+
+def letter_places(composition: Composition) -> Places:
+    """Where the letters of a construction stand on its sheet, in whatever language it is told."""
+    return _Teller(composition).places()
 
 
 class _Teller:
@@ -103,7 +115,7 @@ class _Teller:
             "pairs": list(map(self.points.index, self.mechanism.pairs)),
             "joints": [self._lettering(sentence_runs(name, (name,))) for name in self.points],
             "numbers": [self._link_number(wish) for wish in self.mechanism.wishes()],
-            "places": dict(self._places()), "uses": {name: self.pen(pen) for name, pen in PENS.items()},
+            "uses": {name: self.pen(pen) for name, pen in PENS.items()},
         }  # fmt: skip
         return found | {"pens": [{"look": _attributes(pen), "colour": pen.colour, "width": pen.width, "tip": pen.tip}
                                  for pen in self.pens]}  # fmt: skip
@@ -224,6 +236,10 @@ class _Teller:
         spots = [self._off(spot, self.scene.links[link]) for spot in wish.spots]
         return {"label": wish.label, "letter": self._lettering(wish.runs, size=wish.size), "clear": wish.clear,
                 "free": wish.free, "frame": self._turning(link), "spots": spots}
+
+    def places(self) -> Places:
+        """Where the letters stand, by what they are known by."""
+        return dict(self._places())
 
     def _places(self) -> Iterator[tuple[str, tuple[int, float, float, bool]]]:
         """Where each letter stands on the sheet: at which of its spots, how far off, and whether a leader ties it.

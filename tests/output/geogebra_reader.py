@@ -56,6 +56,8 @@ def _cross(u: complex, v: complex) -> float:
 
 
 def _intersect(k: Ray, l: Ray) -> complex:
+    if not _cross(k.along, l.along):
+        return complex(math.nan, math.nan)  # undefined, as GeoGebra has it
     return k.at + _cross(l.at - k.at, l.along) / _cross(k.along, l.along) * k.along
 
 

@@ -26,8 +26,9 @@ from graphplan.sheet.cycle_frames import posed
 from graphplan.sheet.plates.plate import Plates
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("google-chrome")
-FOLDERS = [*os.environ.get("NODE_PATH", "").split(os.pathsep), "/opt/js/node_modules", "/usr/lib/node_modules"]
-DRAGS = 9  # of each packaged scene
+FOLDERS = [*os.environ.get("NODE_PATH", "").split(os.pathsep), "/usr/local/lib/node_modules", "/usr/lib/node_modules"]
+DRAGS = 9  # of each scene
+SCENES = packaged() if os.environ.get("GRAPHPLAN_JSXGRAPH") else ["five-bar", "open-chain", "plough-lift", "triad"]
 CLOSE = 1e-6  # of the paper
 SEEN = "figure.board.objectsList.filter(one => one.evalVisProp('visible') === true).length"
 MARKS = """kinds => Object.fromEntries(Object.entries(kinds).map(([id, kind]) => {
@@ -102,7 +103,7 @@ def test_every_operation(opened: Callable[[str], Any], place: Callable[[int], Pa
             assert gap(mark, found[names[mark]]) < 1e-9, mark.step.op.name
 
 
-@pytest.mark.parametrize("name", packaged())
+@pytest.mark.parametrize("name", SCENES)
 def test_a_drag_breaks_nothing(opened: Callable[[str], Any], name: str) -> None:
     """Joints dragged by chance: links stay rigid, every mark is where the program has it in that pose, and one of the
     constructions is shown where any of them can be drawn, but at limits, where nothing is to be drawn."""

@@ -353,7 +353,7 @@ def corners(item: Item) -> tuple[Spot, ...]:
 
 
 def extent(items: Iterable[Item]) -> Rect:
-    """The box about some items, with a millimetre of air."""
+    """The box about some items, with a millimetre of air; about nothing that at the origin."""
     spots: list[Spot] = []
     for item in items:
         match item:
@@ -365,4 +365,4 @@ def extent(items: Iterable[Item]) -> Rect:
                 spots += [(x - r, y - r), (x + r, y + r)]
             case _:
                 spots += corners(item)
-    return around(spots).inset(-1.0, -1.0, -1.0, -1.0)
+    return around(spots or [(0.0, 0.0)]).inset(-1.0, -1.0, -1.0, -1.0)

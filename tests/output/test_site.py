@@ -71,6 +71,8 @@ def test_the_site_speaks_the_language_that_is_asked_for(tmp_path: Path) -> None:
     assert main(["gallery", str(tmp_path), "four-bar", "--brief", "--language", "de", "-q"]) == 0
     assert '<html lang="de">' in text(tmp_path / "index.html")
     assert "Mechanismus" in text(tmp_path / "four-bar.txt") or "Getriebe" in text(tmp_path / "four-bar.txt")
+    assert "<title>Viergelenkgetriebe mit Koppelpunkt" in text(tmp_path / "four-bar.svg")
+    assert "<td>Bleistift</td>" in text(tmp_path / "reference.html")
 
 
 @pytest.mark.parametrize("lessons", TUTORIALS.values(), ids=lambda told: told.__name__)

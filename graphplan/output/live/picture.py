@@ -98,7 +98,7 @@ class _Teller:
         self.points = list(self.scene.points)
         self.panels = list(self.plates.plans.panels)
         self.mechanism = self.plates[MECHANISM].drawn_mechanism
-        self.titles = list(Protocol(composition.plans, composition.scales).sentences)
+        self.titles = list(map(composition.plans.tongue, Protocol(composition.plans, composition.scales).sentences))
 
     def told(self) -> Data:
         """Everything, but what does not move."""

@@ -346,6 +346,8 @@ def test_choices_of_plan_and_language_keep_the_pose(steps: Page) -> None:
     steps.select_option("#language", "de")
     steps.wait_for_function("document.documentElement.lang === 'de'")
     assert steps.inner_text("#steps") == "Schritte"
+    assert steps.get_attribute("main", "aria-label") == "Blatt"
+    assert "Markiere O" in steps.evaluate("document.querySelector('#picture [data-step] title').textContent")
     assert "," in steps.inner_text("#tables")
     assert steps.evaluate("graphplan.travel") == pytest.approx(25, abs=1e-9)
     steps.select_option("#language", "en")

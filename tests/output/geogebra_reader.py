@@ -38,6 +38,16 @@ class Vector(NamedTuple):
         return Vector(-self.z)
 
 
+class Undefined(complex):
+    """What there is not in a pose, of whatever kind: all that hangs on it is undefined, too."""
+
+    @property
+    def z(self) -> Undefined:
+        return self
+
+    at = along = radius = z
+
+
 def _z(spot: Any) -> complex:
     return complex(*spot) if type(spot) is tuple else spot
 
@@ -56,8 +66,6 @@ def _cross(u: complex, v: complex) -> float:
 
 
 def _intersect(k: Ray, l: Ray) -> complex:
-    if not _cross(k.along, l.along):
-        return complex(math.nan, math.nan)  # undefined, as GeoGebra has it
     return k.at + _cross(l.at - k.at, l.along) / _cross(k.along, l.along) * k.along
 
 
@@ -133,4 +141,7 @@ def _value(text: str, values: Mapping[str, Any]) -> Any:
     source = text.replace("[", "(").replace("]", ")").replace("^", "**").replace("°", f"*{math.pi / 180!r}")
     source = WORD.sub(lambda word: word[0] if source[word.end():word.end() + 1] == "(" else f"V[{word[0]!r}]", source)
     tree = ast.fix_missing_locations(Spots().visit(ast.parse(source, mode="eval")))
-    return eval(compile(tree, "<ggb>", "eval"), {"V": values, "complex": complex, **COMMANDS})
+    try:
+        return eval(compile(tree, "<ggb>", "eval"), {"V": values, "complex": complex, **COMMANDS})
+    except ZeroDivisionError:
+        return Undefined(complex(math.nan, math.nan))

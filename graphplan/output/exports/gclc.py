@@ -151,8 +151,9 @@ def gclc(plates: Plates) -> str:
 
 
 def _strokes(plates: Plates) -> Rect:
-    """The box about all that is drawn but letters."""
-    return extent(item for plate in plates for item in (*plate.items(), *plate.mechanism))
+    """The box about all that is drawn but letters; where nothing is, about the panels."""
+    drawn = [item for plate in plates for item in (*plate.items(), *plate.mechanism)]
+    return extent(drawn) if drawn else plates.box
 
 
 def cornered(plates: Plates) -> Plates:

@@ -19,7 +19,7 @@ from graphplan.mechanism import pairs
 from graphplan.mechanism.schema import KEY, keys
 from graphplan.output.manual.tutorial import TUTORIALS, Lesson
 
-SCENES = ("four-bar", "triad-loaded")
+SCENES = ("four-bar", "five-bar")
 
 
 @pytest.fixture(scope="module")

@@ -39,6 +39,13 @@ class Choosing {
 
 const page = new Page();
 
+// the name of a point, which the scene must have
+function known(name) {
+  const names = Object.keys(page.motion.points());
+  if (!names.includes(name)) throw new RangeError(`the scene has no point ${name}, but ${names.join(", ")}`);
+  return name;
+}
+
 window.graphplan = {
   ready: page.choose(0, page.language).catch(error => {
     by("said").textContent = page.say("old");
@@ -50,10 +57,13 @@ window.graphplan = {
   points: () => page.motion.points(),
   results: () => page.motion.results(),
   screen(name) {
-    const at = new DOMPoint(...page.picture.place(name)).matrixTransform(page.svg.getScreenCTM());
+    const at = new DOMPoint(...page.picture.place(known(name))).matrixTransform(page.svg.getScreenCTM());
     return [at.x, at.y];
   },
-  drag(name, x, y) { page.moving.drag(name, x, y); },
+  drag(name, x, y) {
+    if (![x, y].every(Number.isFinite)) throw new RangeError(`a point is dragged to two numbers, not to ${x}, ${y}`);
+    page.moving.drag(known(name), x, y);
+  },
   get steps() { return page.count; },
   get step() { return page.place; },
   set step(value) { page.stepping.go(Number(value)); },

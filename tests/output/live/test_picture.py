@@ -9,7 +9,6 @@ import cmath
 import json
 import math
 import os
-import shutil
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cached_property
@@ -17,6 +16,7 @@ from itertools import combinations, islice, pairwise
 from typing import Any
 
 import pytest
+from pages import chromium
 
 import graphplan as gp
 from graphplan.cycle import follow
@@ -36,7 +36,6 @@ from graphplan.sheet.plates.drawn_step import LAYER
 from graphplan.sheet.plates.plans import Plans
 from graphplan.sheet.plates.plate import Plates
 
-CHROMIUM = next(filter(None, map(shutil.which, ("chromium", "chromium-browser", "google-chrome"))), None)
 SAMPLE = "slider-crank", "shaper", "jaanimets-10", "double-butterfly"
 SCENES = packaged()[: int(os.environ["GRAPHPLAN_PICTURES"])] if "GRAPHPLAN_PICTURES" in os.environ else SAMPLE
 POSES = 12  # of a turn
@@ -191,13 +190,8 @@ def whole(groups: Strokes, panels: Mapping[str, Rect], height: float) -> Strokes
 @pytest.fixture(scope="module")
 def browser() -> Iterator[Any]:
     """A browser without a window."""
-    api = pytest.importorskip("playwright.sync_api")
-    if CHROMIUM is None:
-        pytest.skip("no Chromium is installed")
-    with api.sync_playwright() as play:
-        running = play.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox"])
+    with chromium() as running:
         yield running
-        running.close()
 
 
 @pytest.fixture(scope="module", params=SCENES)

@@ -15,8 +15,9 @@ import numpy as np
 
 from graphplan.check.poses import Round, gaps, sound
 from graphplan.check.trusted import construct
-from graphplan.cycle import Turn, follow
-from graphplan.cycle.curves import Curve, followed
+from graphplan.cycle.centrodes import Centrodes, rolling
+from graphplan.cycle.curves import Curve, passed
+from graphplan.cycle.turn import Turn, followed
 from graphplan.errors import ConstructionError, GraphplanError, Refused, SingularPose
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.construct import construct as unchecked
@@ -49,12 +50,16 @@ class Cycle:
     gaps: dict[str, Any]
     otherwise: dict[int, str] = field(default_factory=dict)
     wrong: tuple[int, ...] = ()
+    centrodes: dict[str, Centrodes] = field(default_factory=dict)
 
     @property
     def asked(self) -> dict[str, Any]:
-        """Where the points are of which velocities or accelerations are asked for."""
-        find = self.scene.find
-        return {p: self.turn.points[p] for p in self.scene.points if p in {*find.velocity, *find.acceleration}}
+        """Where the points are of which velocities, accelerations or paths are asked for; then the centrodes."""
+        find, paths = self.scene.find, self.scene.sheet.curves
+        points = {p: self.turn.points[p] for p in self.scene.points
+                  if p in {*find.velocity, *find.acceleration, *paths}}
+        return points | {f"{kind} centrode {links}": places for links, found in self.centrodes.items()
+                         for kind, places in zip(("fixed", "moving"), found, strict=True)}
 
     @property
     def check(self) -> dict[str, float]:
@@ -74,12 +79,13 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
         return lambda done, of: progress(what, done, of) if progress else None
 
     drawing = _construct(scene, method=method, plan=plan, inertia=inertia)
-    turn = follow(scene, positions, span, lambda part: told("positions")(round(part * positions), positions),
-                  machine)
+    motion, travel = followed(scene, positions, span,
+                              lambda part: told("positions")(round(part * positions), positions))
+    turn = motion.turn(travel, machine)
     left = Round.reached(scene, turn.points, turn.guides)
     kinds = (*MOTION, *([FORCES] if scene.loads else []))
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
-                  {kind: np.full(positions, np.nan) for kind in kinds})
+                  {kind: np.full(positions, np.nan) for kind in kinds}, centrodes=rolling(motion, travel))
     for name, other in _forms(drawing, method, plan, inertia):
         if not left.places.size:
             break
@@ -176,7 +182,7 @@ def curves(found: Cycle, wanted: Sequence[Quantity]) -> list[Curve]:
     drive = found.scene.drives[0]
     period = TURN if found.turn.closed and not found.faults else None
     unit = found.scene.units.length if drive.slides else "rad"
-    return [followed(quantity.label, quantity.unit, found.turn.travel, float(drive.rate), *_ordinates(found, quantity),
+    return [passed(quantity.label, quantity.unit, found.turn.travel, float(drive.rate), *_ordinates(found, quantity),
                      period=period, travel_unit=unit) for quantity in wanted]
 
 

@@ -38,7 +38,7 @@ def asked(options: argparse.Namespace) -> None:
     for name in ("seconds", "width"):
         if getattr(options, name) and not options.animate:
             raise Refused(f"--{name}", "there is no animation", "add --animate FILE.gif, or leave it out")
-    if options.positions is None and (options.output or options.plot or not options.animate):
+    if options.positions is None and (options.output or options.plot or not (options.animate or options.paths)):
         raise Refused("--positions", "it is not said how many poses are wanted", "such as --positions 36")
     poses, width = options.positions or POSES, options.width or WIDTH
     if options.animate and poses > MOST_POSES:

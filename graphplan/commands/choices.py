@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import replace
+from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
 from graphplan.accuracy import PREFERENCES
@@ -56,7 +57,7 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
     add("--rounds", type=count("--rounds", 1, MOST_ROUNDS), metavar="N",
         help="draw N rounds of the friction iteration; without it until the forces no longer change")
     command.set_defaults(strict=False, prefer="", pencil=None, paper=None, frame=None, language="", protocol="auto",
-                         curves="", faint=None)
+                         curves="", centrodes="", faint=None)
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
 
@@ -83,12 +84,19 @@ def add_sheet(command: argparse.ArgumentParser, *, positions: bool = True) -> No
     command.add_argument("--protocol", choices=PROTOCOLS, default="auto", help="where the words stand: aside, in "
                          "columns beside the plans; on pages of their own; nowhere; or aside where the plans keep "
                          "most of the page, else on pages (auto, the default)")
-    command.add_argument("--curves", metavar="POINTS",
-                         help="the paths of these points over the motion, such as M,C, or of all")
+    add_curves(command)
     if positions:
         command.add_argument("--positions", type=count("--positions", 1, MOST_POSITIONS), metavar="N", dest="faint",
                              help="so many positions of the mechanism in faint lines")
     add_language(command)
+
+
+def add_curves(command: argparse.ArgumentParser) -> None:
+    """The options that name the curves of the motion."""
+    add = command.add_argument
+    add("--curves", metavar="POINTS", help="the paths of these points over the motion, such as M,C, or of all")
+    add("--centrodes", metavar="LINKS", help='the fixed and the moving centrodes of these links, each with the link '
+        'that it moves on, such as "2 frame,2 3"')
 
 
 def add_pencil(command: argparse.ArgumentParser) -> None:
@@ -132,6 +140,8 @@ def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
     if options.curves:
         said["curves"] = _movable(scene, options.curves)
+    if options.centrodes:
+        said["centrodes"] = _rolling(scene, options.centrodes)
     if options.faint:
         said["positions"] = options.faint
     sheet = replace(scene.sheet, **said)
@@ -185,4 +195,17 @@ def _movable(scene: Scene, text: str) -> tuple[str, ...]:
         if point not in movable:
             why = f"{point} does not move" if point in scene.points else f"there is no point {point}"
             raise Refused(f"--curves {text}", why, perhaps(point, movable, "point"))
+    return tuple(dict.fromkeys(wanted))
+
+
+def _rolling(scene: Scene, text: str) -> tuple[str, ...]:
+    """The pairs of links of an option, all of which the scene has; all those on the frame, if it is "all"."""
+    if text == "all":
+        return tuple(f"{link} {FRAME}" for link in scene.moving)
+    known = [f"{link} {on}" for link, on in permutations((FRAME, *scene.moving), 2)]
+    wanted = [" ".join(part.split()) for part in text.split(",")]
+    for links in wanted:
+        if links not in known:
+            why = f"there are no two links {links}" if links else "no links are named"
+            raise Refused(f"--centrodes {text}", why, perhaps(links, known, "pair of links"))
     return tuple(dict.fromkeys(wanted))

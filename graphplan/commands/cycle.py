@@ -2,7 +2,8 @@
 
 Poses are followed from the given one without a jump to another branch; those that cannot be reached or are
 singular stand on standard error and in the table, each with its place and reason. The table is comma-separated
-text, or an archive of arrays (.npz). The plot shows displacement, velocity and acceleration, with graphical
+text, an archive of arrays (.npz), or JSON. Paths of points and centrodes of links are tabled too, and drawn with the
+mechanism alone. The plot shows displacement, velocity and acceleration, with graphical
 differentiation and integration compared with the plans. An animation shows the mechanism with its construction in
 motion: a full turn, or there and back between limits.
 
@@ -11,6 +12,7 @@ examples:
   graphplan cycle jaanimets-10 --positions 360 -o forces.csv --plot rocker.svg --of 3
   graphplan cycle plough-lift --positions 50 --from 0 --to 80 -o lift.npz
   graphplan cycle four-bar --animate four-bar.gif
+  graphplan cycle four-bar --positions 90 --curves M --centrodes "2 frame" --paths curves.svg -o curves.json
   graphplan cycle plough-lift --animate lift.svg --positions 60 --seconds 10
 """
 
@@ -22,14 +24,14 @@ from itertools import groupby
 from typing import TYPE_CHECKING
 
 from graphplan.commands import animate
-from graphplan.commands.choices import add_choices, add_language, count, presented
+from graphplan.commands.choices import add_choices, add_curves, add_language, count, presented
 from graphplan.commands.output import Messages, apart, error, kind, write
 from graphplan.errors import Refused
 
 if TYPE_CHECKING:
     from graphplan.check.cycle import Cycle
 
-ENDINGS, PLOT_ENDINGS = (".csv", ".npz"), (".svg",)
+ENDINGS, PLOT_ENDINGS = (".csv", ".npz", ".json"), (".svg",)
 NOTHING_REACHED = 3
 
 
@@ -40,7 +42,9 @@ def options(command: argparse.ArgumentParser) -> None:
     add("--from", type=float, dest="start", metavar="A",
         help="a range of the first drive's travel from the given pose, in degrees or lengths; without it one full turn")
     add("--to", type=float, dest="end", metavar="B", help="the end of the range, which is a pose too")
-    add("-o", "--output", metavar="FILE", help=".csv or .npz; without it comma-separated text on standard output")
+    add("-o", "--output", metavar="FILE", help=".csv, .npz or .json; else comma-separated text on standard output")
+    add_curves(command)
+    add("--paths", metavar="FILE.svg", help="the mechanism with the paths and centrodes that are asked for")
     add("--plot", metavar="FILE.svg", help="kinematic diagrams")
     add("--of", action="append", default=[], metavar="NAME",
         help="what to plot: a link (its angle), a slide, or a point's coordinate such as B.x; up to four times")
@@ -62,13 +66,16 @@ def run(options: argparse.Namespace) -> int:
         raise Refused("--strips", "there is no plot to divide", "add --plot FILE.svg")
     ending = kind(options.output, ENDINGS, "table")
     kind(options.plot, PLOT_ENDINGS, "plot", "--plot")
+    kind(options.paths, PLOT_ENDINGS, "drawing", "--paths")
     animate.asked(options)
-    apart(options.output, options.plot, options.animate)
+    apart(options.output, options.plot, options.animate, options.paths)
     span = None if options.start is None else (options.start, options.end)
+    if options.paths:
+        write(_paths(options), options.paths)
     if options.animate:
         animate.run(options, span)
-        if not (options.output or options.plot):
-            return 0
+    if (options.animate or options.paths) and not (options.output or options.plot):
+        return 0
     scene = presented(options)
     workers = int(options.workers) if options.workers.lstrip("-").isdigit() else options.workers
     wanted = quantities(scene, options.of) if options.plot else ()
@@ -93,12 +100,34 @@ def run(options: argparse.Namespace) -> int:
     return NOTHING_REACHED if len(found.faults) == options.positions else 0
 
 
+def _paths(options: argparse.Namespace) -> str:
+    """The mechanism with its paths and centrodes as SVG text: a sheet on which nothing is constructed."""
+    from dataclasses import replace
+
+    from graphplan.cycle.traced import traced
+    from graphplan.methods.construct import construct
+    from graphplan.output.svg import svg
+    from graphplan.sheet.layout.composition import compose
+    from graphplan.sheet.layout.layout import layout
+    from graphplan.words.tongue import tongue
+
+    scene = presented(options)
+    if not (scene.sheet.curves or scene.sheet.centrodes):
+        raise Refused("--paths", "it is not said whose", 'such as --curves M, or --centrodes "2 frame"')
+    nothing = replace(scene.find, velocity=(), acceleration=(), links=(), slides=(), reactions=())
+    drawing = construct(replace(scene, find=nothing, loads=None))
+    composition = compose(drawing, tongue=tongue(scene.sheet.language), protocol="none", motion=traced(scene))
+    return svg(layout(drawing, composition=composition))
+
+
 def _table(found: Cycle, ending: str) -> str | bytes:
     """The table of all poses as a file of this kind."""
     from graphplan.output import tables as columns
 
     parts = found.scene, found.turn.travel, found.asked, found.results, found.faults
-    return columns.archive(*parts) if ending == ".npz" else columns.text(*parts)
+    if ending == ".npz":
+        return columns.archive(*parts)
+    return columns.json(*parts) if ending == ".json" else columns.text(*parts)
 
 
 def _say(found: Cycle, messages: Messages) -> None:

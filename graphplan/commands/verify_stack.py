@@ -35,8 +35,9 @@ from graphplan.phrases import said
 from graphplan.words.tongue import Tongue, tongue
 
 FAULT = "fault"  # in the place of what is found of a page
+# Options, as they are kept.
 OF_THE_SHEETS = {"method": str, "plan": str, "inertia": str, "rounds": int, "paper": str, "language": str,
-                 "frame": str, "protocol": str, "curves": str, "faint": int}  # options, as they are kept
+                 "frame": str, "protocol": str, "curves": str, "centrodes": str, "faint": int}
 
 
 def run(options: argparse.Namespace) -> int:

@@ -95,7 +95,7 @@ class Curve:
         return found
 
 
-def followed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
+def passed(name: str, unit: str, travel: Reals, rate: float, s: Reals, v: Reals, a: Reals, *,
              period: float | None = None, travel_unit: str = "rad") -> Curve:
     """The curve of positions that a drive passes at a constant rate.
 

@@ -83,6 +83,16 @@ def _substituted(pivots: Sequence[tuple[int, Row]], side: int) -> list[Any]:
     return [found[column] for column in range(len(pivots))]
 
 
+def rates_of(link: Body, rates: Sequence[Any]) -> Iterator[Any]:
+    """How a link's base moves along x and along y by the travel, and how it turns, where the unknowns change so."""
+    base = link.moves
+    for moves in ({k: x for k, (x, _) in base.items()}, {k: y for k, (_, y) in base.items()}, link.spin):
+        rate: Any = moves.get(TRAVEL, 0.0)
+        for k in moves.keys() - {TRAVEL}:
+            rate = rate + (rates[k] if moves[k] is None else rates[k] * moves[k])
+        yield rate
+
+
 def corrected(layout: Layout, state: Sequence[Any], corrections: Sequence[Any]) -> list[Any]:
     """The state less the corrections; an angle is turned back by Cayley's formula, right to second order."""
     found = list(state)
@@ -153,13 +163,8 @@ class _Record:
         return *self.closed[i].base, *(self.closed[i].turn or (1.0, 0.0))
 
     def moves(self, i: int) -> Iterator[Any]:
-        """How its base moves along x and along y, and how it turns."""
-        base, spin = self.links[i].moves, self.links[i].spin
-        for moves in ({k: x for k, (x, _) in base.items()}, {k: y for k, (_, y) in base.items()}, spin):
-            rate: Any = moves.get(TRAVEL, 0.0)
-            for k in moves.keys() - {TRAVEL}:
-                rate = rate + (self.step.rates[k] if moves[k] is None else self.step.rates[k] * moves[k])
-            yield rate
+        """How it moves."""
+        return rates_of(self.links[i], self.step.rates)
 
 
 def recorded(layout: Layout) -> tuple[Tape, list[int], Any]:

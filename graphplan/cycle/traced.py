@@ -3,17 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import combinations
 
 import numpy as np
 
+from graphplan.cycle.centrodes import branches
 from graphplan.cycle.linkage import Array
 from graphplan.cycle.loop import whole_motion
+from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import Refused
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.phrases import said
 from graphplan.sheet.plates.display import Spot
-from graphplan.sheet.plates.traced_motion import PointPath, TracedMotion
+from graphplan.sheet.plates.traced_motion import Centrode, PointPath, TracedMotion
 
 FINE = 720  # spots of a path
+AWAY = 4.0  # of the mechanism's half extent: so far from its middle a centrode is drawn
+STILL = 1e-9  # of that: a pole that moves by less stays in its place
 
 
 def traced(scene: Scene) -> TracedMotion | None:
@@ -24,20 +30,23 @@ def traced(scene: Scene) -> TracedMotion | None:
     between limits both ends are positions. None where nothing is asked for. Fails with `Refused` where the mechanism
     cannot be followed.
     """
-    wanted, count = scene.sheet.curves, scene.sheet.positions
-    if not (wanted or count):
+    wanted, count, rolling = scene.sheet.curves, scene.sheet.positions, scene.sheet.centrodes
+    if not (wanted or count or rolling):
         return None
     try:
         motion = whole_motion(scene)
     except Refused as refused:
-        raise Refused(f"sheet.{'curves' if wanted else 'positions'}", refused.why, "leave it out") from None
+        key = "curves" if wanted else "centrodes" if rolling else "positions"
+        raise Refused(f"sheet.{key}", refused.why, "leave it out") from None
     low, high = (float(motion.path.travel[end]) for end in (0, -1))
     fine, even = _between(low, high), np.linspace(low, high, count, endpoint=not motion.whole)
     turn = motion.turn(np.concatenate([fine, even]))
     stops = motion.path.lower is not None, motion.path.upper is not None
     paths = [path for name in wanted for path in _paths(name, turn.points[name][: fine.size], stops)]
     reached = np.flatnonzero(np.all([np.isfinite(z[fine.size :]) for z in turn.points.values()], axis=0)) + fine.size
-    return TracedMotion(tuple(paths), tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached))
+    positions = tuple({name: _spot(z[k]) for name, z in turn.points.items()} for k in reached)
+    centrodes = tuple(one for links in rolling for one in _centrodes(motion, links, fine))
+    return TracedMotion(tuple(paths), positions, centrodes)
 
 
 def _between(low: float, high: float) -> Array:
@@ -53,6 +62,38 @@ def _paths(name: str, places: Array, stops: tuple[bool, bool]) -> Iterator[Point
         if part.size > 1:
             ends = bool(stops[0] and part[0] == 0), bool(stops[1] and part[-1] == places.size - 1)
             yield PointPath(name, tuple(map(_spot, places[part])), ends)
+
+
+def _centrodes(motion: RangeOfMotion, links: str, travel: Array) -> Iterator[Centrode]:
+    """The fixed and the moving centrode of a link and one that it moves on."""
+    link, on = links.split()
+    places = np.array([*motion.linkage.places.values()])
+    middle = complex(np.ptp(places.real) / 2 + places.real.min(), np.ptp(places.imag) / 2 + places.imag.min())
+    far = AWAY * float(np.abs(places - middle).max())
+    found = branches(motion, link, on, travel, middle, far)
+    if found is None:
+        why = said("links {0} and {1} turn alike: their pole stays at infinity", link, on)
+        raise Refused("sheet.centrodes", why, "leave it out")
+    for own, parts in zip((on, link), found, strict=True):
+        spots = tuple(tuple(map(_spot, _whole(part, far))) for part in parts)
+        yield Centrode(links, own == link, spots, own, () if own == FRAME else tuple(_carriers(motion, own)))
+
+
+def _carriers(motion: RangeOfMotion, link: str) -> Iterator[tuple[str, Spot]]:
+    """A point of a link, and of it, or of one that turns alike, the two that lie farthest apart; as they are given."""
+    places, alike = motion.linkage.places, [link]
+    for one in alike:
+        alike += {other for slide in motion.scene.slides if slide.turns_alike and one in slide.links
+                  for other in slide.links} - {*alike}
+    pin = motion.linkage.points(link)[0]
+    bars = (ends for one in alike for ends in combinations(motion.linkage.points(one), 2))
+    bar = max(bars, key=lambda ends: abs(places[ends[1]] - places[ends[0]]), default=())
+    yield from ((name, _spot(places[name])) for name in (pin, *bar))
+
+
+def _whole(part: Array, far: float) -> Array:
+    """A branch; one spot of it where the pole stays in one place."""
+    return part[:1] if np.abs(part - part[0]).max() < STILL * far else part
 
 
 def _spot(place: complex) -> Spot:

@@ -8,7 +8,7 @@ even where the links could be put together again. A pose at a limit is taken whe
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import partial
 
@@ -19,6 +19,7 @@ from graphplan.cycle.dyads import Failure
 from graphplan.cycle.groups import Group
 from graphplan.cycle.linkage import Array, Linkage, number
 from graphplan.cycle.positions import Placing
+from graphplan.cycle.rates import Moved, moved
 from graphplan.cycle.travel import TURN, closes, paces, told, travel_unit, travels
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.methods.motion.network import Network
@@ -55,10 +56,17 @@ def follow(scene: Scene, positions: int, span: tuple[float, float] | None = None
     `compiled`, they are placed by machine code, where numba is installed.
     Fails with :class:`Refused` where no drive leads, and with :class:`SceneError` where the drives leave links loose.
     """
+    motion, travel = followed(scene, positions, span, progress)
+    return motion.turn(travel, compiled)
+
+
+def followed(scene: Scene, positions: int, span: tuple[float, float] | None = None,
+             progress: Progress | None = None) -> tuple[RangeOfMotion, Array]:
+    """The scene's motion as far as these poses ask for, and the travels at which they are; as :func:`follow` has it."""
     travel = travels(scene, positions, span)
     closed = span is None and closes(scene, paces(scene))
     ends = min(0.0, float(travel.min())), TURN if closed else max(0.0, float(travel.max()))
-    return RangeOfMotion(scene, *ends, closed, progress).turn(travel, compiled)
+    return RangeOfMotion(scene, *ends, closed, progress), travel
 
 
 class RangeOfMotion:
@@ -83,10 +91,25 @@ class RangeOfMotion:
 
     def turn(self, travel: Array, compiled: bool = False) -> Turn:
         """The poses at these travels, an array of shape (n,) in any order."""
-        scene, path = self.scene, self.path
-        course = Course(scene, path, travel, self.closed)
+        scene = self.scene
         slides = [slide for slide in scene.slides if slide.through is None and slide.along != FRAME]
-        placing = Placing(self.linkage, self.groups, len(travel), [slide.along for slide in slides])
+        course, placing = self._placed(travel, [slide.along for slide in slides], compiled)
+        points = {name: placing.points[name] for name in scene.points}
+        guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
+        points |= {name: points[at] for name, at in under(scene).items()}
+        back = self.closed and _comes_back(self.path, self.groups)
+        return Turn(travel, points, guides, course.faults(placing.failures), back)
+
+    def moved(self, travel: Array) -> dict[str, Moved]:
+        """How every link lies and moves at these travels; nan where the pose is not reached."""
+        course, placing = self._placed(travel, self.linkage.links[1:], compiled=False)
+        return moved(self.linkage, self.groups, course.at, placing.points, placing.turns)
+
+    def _placed(self, travel: Array, turning: Iterable[str], compiled: bool) -> tuple[Course, Placing]:
+        """The points, and the turns of some links, at these travels."""
+        path = self.path
+        course = Course(self.scene, path, travel, self.closed)
+        placing = Placing(self.linkage, self.groups, len(travel), turning)
         placing.follow(path, course.at, np.flatnonzero(course.reached & ~course.knots), compiled)
         placing.retry(partial(self._continuation.state, path), course.at)
         knots = np.flatnonzero(course.knots)
@@ -97,11 +120,7 @@ class RangeOfMotion:
             lost[at] = True
         for array in (*placing.points.values(), *placing.turns.values()):
             array[lost] = complex(np.nan, np.nan)
-        points = {name: placing.points[name] for name in scene.points}
-        guides = {slide.name: number(*slide.direction) * placing.turns[slide.along] for slide in slides}
-        points |= {name: points[at] for name, at in under(scene).items()}
-        back = self.closed and _comes_back(path, self.groups)
-        return Turn(travel, points, guides, course.faults(placing.failures), back)
+        return course, placing
 
 
 def _comes_back(path: Path, groups: Sequence[Group]) -> bool:

@@ -163,6 +163,7 @@ class Presentation:
     multiples: dict[str, Fraction] = field(default_factory=dict)
     convention: str = "real"
     curves: tuple[str, ...] = ()
+    centrodes: tuple[str, ...] = ()
     positions: int = 0
     student: str = ""
     variant: str = ""

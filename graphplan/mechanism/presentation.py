@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterator
 from fractions import Fraction
+from itertools import permutations
 
 from graphplan.mechanism.fields import Field, Kind, Named, Names, Row, Table
 from graphplan.mechanism.items import Item, described, perhaps
 from graphplan.mechanism.model import Presentation
 from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.pairs.pair import FRAME
 from graphplan.mechanism.units import METRES
 from graphplan.mechanism.values import DISTANCE, POINT, TEXT, asked, choice
 from graphplan.words import LANGUAGES
@@ -52,6 +55,11 @@ def _stands_still(point: object, item: Item, names: Names) -> bool:
     if still:
         item.fault(f"{point} does not move", "a point of moving links only")
     return still
+
+
+def _on_another(names: Names) -> Iterator[str]:
+    """Each link with each other one, by name."""
+    return (f"{link} {on}" for link, on in permutations((FRAME, *names.moving), 2))
 
 
 def _count(item: Item, names: Names) -> int | None:
@@ -105,6 +113,11 @@ SHEET = Table("the sheet", (
     Field("curves", 'the points whose paths over the motion are drawn on the mechanism plan, or "all"',
           asked("point", '["M"]', lambda names: names.points, lambda names: names.movable, after=("points", "links"),
                 entry=POINT, wrong=_stands_still)),
+    Field("centrodes", "of which links, each with the link that it moves on, the fixed and the moving centrodes are "
+          'drawn there; or "all", those of all links on the frame',
+          asked("pair of links", '["2 frame"]', lambda names: [*_on_another(names)],
+                lambda names: tuple(f"{link} {FRAME}" for link in names.moving), many="pairs of links",
+                after=("links",))),
     Field("positions", "how many positions of the mechanism are drawn there in faint lines, at equal travels",
           Kind("whole number", _count, {"type": "integer", "minimum": 1, "maximum": MOST_POSITIONS})),
 ), _presentation)

@@ -1,8 +1,9 @@
-"""Results over many poses as columns: comma-separated text, or numpy's archive of arrays."""
+"""Results over many poses as columns: comma-separated text, JSON, or numpy's archive of arrays."""
 
 from __future__ import annotations
 
 import io
+import json as notation
 from collections.abc import Iterator, Mapping
 from typing import Any
 
@@ -50,11 +51,37 @@ def archive(scene: Scene, travel: Any, points: Mapping[str, Any], results: Resul
     return file.getvalue()
 
 
+def json(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results, faults: Mapping[int, str]) -> str:
+    """JSON: `travel`, `points` and each kind of result by name as lists, vectors as [x, y]; null where there is none.
+
+    `faults` says why, by the pose's place.
+    """
+    named = {"points": points, **{kind: named for kind, named in results.items() if named}}
+    found = {"title": scene.title, "units": {"length": scene.units.length, "travel": _travel(scene, travel)[0]},
+             "travel": _travel(scene, travel)[1].tolist(),
+             **{kind: {name: [*_listed(z)] for name, z in arrays.items()} for kind, arrays in named.items()},
+             "faults": {str(pose): why for pose, why in faults.items()}}
+    return notation.dumps(found, ensure_ascii=False) + "\n"
+
+
+def _listed(z: Any) -> Iterator[Any]:
+    """The numbers of an array, or its vectors."""
+    for number in z.tolist():
+        if number != number:
+            yield None
+        else:
+            yield [number.real, number.imag] if isinstance(number, complex) else number
+
+
+def _travel(scene: Scene, travel: Any) -> tuple[str, Any]:
+    """The drive's travel, and its unit."""
+    return (LENGTH.unit(scene.units), travel) if scene.drives[0].slides else ("deg", np.degrees(travel))
+
+
 def _columns(scene: Scene, travel: Any, points: Mapping[str, Any], results: Results) -> Iterator[tuple[str, Any]]:
     """Each column with its heading, such as `A.vx [mm/s]`."""
-    sliding = scene.drives[0].slides
-    long = LENGTH.unit(scene.units)
-    yield f"travel [{long if sliding else 'deg'}]", travel if sliding else np.degrees(travel)
+    long, (unit, gone) = LENGTH.unit(scene.units), _travel(scene, travel)
+    yield f"travel [{unit}]", gone
     for name, z in points.items():
         yield from _parts(f"{name}.", z, f"[{long}]")
     for kind, named in results.items():

@@ -218,8 +218,9 @@ def _cut_off(composition: Composition) -> Iterator[Item]:
 def _undrawn(composition: Composition, points: Mapping[str, complex], guides: Mapping[str, complex]) -> list[Item]:
     """A pose in which nothing can be constructed: the mechanism alone."""
     window, motion = composition.views[MECHANISM], composition.plans.motion
-    mechanism = DrawnMechanism(scene_in(composition.plans.drawing.scene, points, guides), window)
-    shown = [*(motion.items(window) if motion else ()), *mechanism.items()]
+    scene = scene_in(composition.plans.drawing.scene, points, guides)
+    mechanism = DrawnMechanism(scene, window)
+    shown = [*(motion.items(window, scene) if motion else ()), *mechanism.items()]
     items = [cut for item in shown for cut in clip.clipped(item, window.rect)]
     letters = placed([*inside(of_mechanism(mechanism), window.rect)], items, [*mechanism.shown.values()], window.rect,
                      composition.arrangement.letters)

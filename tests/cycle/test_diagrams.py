@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from graphplan import construct, load
-from graphplan.cycle.curves import Curve, followed
+from graphplan.cycle.curves import Curve, passed
 from graphplan.cycle.diagram_program import Found, axes, by_chords, by_tangents, integrate
 from graphplan.cycle.diagrams import Diagram, diagram
 from graphplan.errors import Refused
@@ -164,7 +164,7 @@ def test_a_followed_turn_is_closed(rate: float) -> None:
     travel = np.arange(48) * (2 * np.pi / 48)
     psi = np.angle(np.exp(1j * (travel + np.sin(travel) / 3)))
     v, a = rate * (1 + np.cos(travel) / 3), -(rate**2) * np.sin(travel) / 3
-    curve = followed("psi_2", "rad", travel, rate, psi, v, a, period=2 * np.pi)
+    curve = passed("psi_2", "rad", travel, rate, psi, v, a, period=2 * np.pi)
     assert curve.closed
     assert len(curve.time) == 49
     assert curve.s[-1] - curve.s[0] == pytest.approx(np.copysign(2 * np.pi, rate))

@@ -164,7 +164,11 @@ class Walk:
         if plate.panel != MECHANISM:
             return
         motion = self.plates.plans.motion
-        yield from ((item, Riding()) for item in (motion.items(plate.view) if motion else ()))
+        if motion:
+            yield from ((item, Riding()) for item in motion.path_items(plate.view))
+            for one in motion.centrodes:
+                riding = Riding(tuple(name for name, _ in one.given[:1]), one.on)
+                yield from ((item, riding) for item in one.items(plate.view, self.plates.scene))
         mechanism = plate.drawn_mechanism
         for part in mechanism.parts():
             riding = _riding(part)

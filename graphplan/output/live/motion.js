@@ -108,6 +108,26 @@ class Motion {
     return [reach * u - w * (sin * x + cos * y), reach * v + w * (cos * x - sin * y)];
   }
 
+  /** The pole of a link on another at a knot: where it is, where that is on each of them (from its base, as it was given),
+      and which way the link turns on the other; null where they turn alike. */
+  pole(link, on, { lies }) {
+    const { links, reach, origin } = this.data.linkage, [one, other] = [link, on].map((name) => 7 * links[name]);
+    const [a, b, , , u, v, w] = lies.subarray(one, one + 7), [c, d, , , s, t, q] = lies.subarray(other, other + 7);
+    const turning = w - q, x = a - (v - t - q * (a - c)) / turning, y = b + (u - s + q * (b - d)) / turning;
+    if (!Number.isFinite(x) || !Number.isFinite(y)) return null;
+    const back = (k) => {
+      const [e, f, cos, sin] = lies.subarray(k, k + 4);
+      return [cos * (x - e) + sin * (y - f), cos * (y - f) - sin * (x - e)];
+    };
+    return { at: [origin[0] + reach * x, origin[1] + reach * y], on: [back(one), back(other)], sense: Math.sign(turning) };
+  }
+
+  /** Where a place on a link (from its base, as it was given, in reaches) is when the links lie so. */
+  placed(link, [x, y], lies) {
+    const { links, reach, origin } = this.data.linkage, k = 7 * links[link], [a, b, cos, sin] = lies.subarray(k, k + 4);
+    return [origin[0] + reach * (a + cos * x - sin * y), origin[1] + reach * (b + sin * x + cos * y)];
+  }
+
   /** The directions of the guides that ride on links, {slide: [x, y]}. */
   guides() {
     const found = {};

@@ -50,6 +50,7 @@ def motion(drawings: Sequence[Construction]) -> tuple[Data, str]:
         "scene": _plain(tomllib.loads(scene.text)), "placed": [*_placed(scene)],
         "lines": [balance.direction and [*map(float, balance.direction)] for balance in scene.loads.balances]
         if scene.loads else [], "same": SAME, "linkage": linkage, "programs": [program.data for program in programs],
+        "rolling": [*rolling(scene)],
     }  # fmt: skip
     rules = list(dict.fromkeys(program.rules for program in programs))  # other forms of one program share them
     for program in programs:
@@ -69,6 +70,14 @@ def _placed(scene: Scene) -> Iterator[str]:
     """The points that a scene must have whose points are given by coordinates: others only served to place them."""
     through = {name for slide in scene.slides for name in slide.through or ()}
     return (name for name, links in scene.links_of.items() if links or name in through)
+
+
+def rolling(scene: Scene) -> Iterator[list[str]]:
+    """The links, each with one that it moves on, whose centrodes may be shown: all that the frame neither pins nor
+    guides, and those that the sheet asks for."""
+    bound = {link for pair in scene.binding if pair.binds > 1 and FRAME in pair.links for link in pair.links}
+    free = [f"{link} {FRAME}" for link in scene.moving if link not in bound]
+    return (names.split() for names in dict.fromkeys([*free, *scene.sheet.centrodes]))
 
 
 def script() -> str:

@@ -99,7 +99,7 @@ class LivePage:
             "words": {code: {name: tongue(code)(word) for name, word in WORDS.items()} for code in self.languages},
             "signs": {code: {chr(sign): mark for sign, mark in tongue(code).signs.items()} for code in self.languages},
             "units": {code: tongue(code)(unit(own.drawing.scene.units.length)) for code in self.languages},
-            "curves": list(own.drawing.scene.sheet.curves),
+            "curves": list(own.drawing.scene.sheet.curves), "centrodes": list(own.drawing.scene.sheet.centrodes),
             "stepsFirst": self.steps_first,
         }  # fmt: skip
 

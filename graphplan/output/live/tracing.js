@@ -1,4 +1,4 @@
-// ---- paths of points over the motion, and of the ends of vectors, which from one pole are hodographs
+// ---- paths of points over the motion, of the ends of vectors, which from one pole are hodographs, and of poles: centrodes
 
 const COLOURS = ["#c2410c", "#0b63b0", "#15803d", "#7e22ce", "#a16207", "#be185d", "#0f766e", "#4d4d4d"];
 const POSES = 180, TOGETHER = 12;  // of a path, and how many of them between two frames
@@ -16,10 +16,11 @@ function lettered(words) {
 
 class Tracing {
   constructor(page) {
-    Object.assign(this, {page, chosen: new Set(page.data.curves.map(name => `path ${name}`)), found: null});
+    const {curves, centrodes} = page.data, keys = [...curves.map(name => `path ${name}`), ...centrodes.map(pair => `pole ${pair}`)];
+    Object.assign(this, {page, chosen: new Set(keys), found: null});
   }
 
-  // what may be traced: the points that move, and the vectors that are drawn
+  // what may be traced: the points that move, the vectors that are drawn, and the poles that are no pins
   take() {
     const {page} = this, {linkage} = page.motion.data, box = by("paths");
     box.replaceChildren();
@@ -29,7 +30,9 @@ class Tracing {
     const paths = Object.keys(linkage.owned).filter(name => !shared.has(name));
     this.all = [...paths.map(name => ({key: `path ${name}`, words: page.say("path", name), point: name, panel: 0})),
       ...page.drawn.vectors.filter(({name}) => name).map(({name, end, start, panel}) => ({key: name, end, start, panel,
-        words: page.say(page.drawn.turned ? "ends" : "hodograph", name)}))];
+        words: page.say(page.drawn.turned ? "ends" : "hodograph", name)})),
+      ...page.motion.data.rolling.map(([link, on]) => ({key: `pole ${link} ${on}`, pair: [link, on], panel: 0,
+        words: page.say("centrodes", on === "frame" ? link : `${link} / ${on}`)}))];
     this.all.forEach((one, i) => {
       const label = document.createElement("label"), input = document.createElement("input"), line = document.createElement("i");
       one.colour = COLOURS[i % COLOURS.length];
@@ -67,7 +70,7 @@ class Tracing {
       for (let i = 0; i < TOGETHER && found.length <= POSES; i++) {
         other.travel = from + (to - from) * found.length / POSES;
         const values = other.program === page.program ? other.values() : null;
-        found.push({points: other.points(), values});
+        found.push({points: other.points(), values, knot: other.knot});
       }
       this.drawn = null;
       if (found.length <= POSES) this.walking = setTimeout(some);
@@ -80,23 +83,35 @@ class Tracing {
     if (!this.all || !this.chosen.size && !this.layer.hasChildNodes()) return;
     this.forget();
     if (this.chosen.size && !this.found) return this.walk();
-    const windows = this.page.picture.windows, key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale])]);
+    const windows = this.page.picture.windows, shown = this.all.filter(one => this.chosen.has(one.key));
+    const rolling = shown.some(one => one.pair) && [...this.page.motion.knot.lies];
+    const key = JSON.stringify([[...this.chosen], windows.map(one => [one.origin, one.scale]), rolling, this.found.length]);
     if (this.drawn === key) return;
     this.drawn = key;
-    this.layer.replaceChildren(...this.all.filter(one => this.chosen.has(one.key)).map(one => this.path(one, windows[one.panel])));
+    this.layer.replaceChildren(...shown.flatMap(one => this.paths(one).map(path => this.path(one, path, windows[one.panel]))));
   }
 
-  path({point, end, panel, colour}, view) {
+  // the places of what is traced, one path or two, and what each is called; none where there is none
+  paths({point, end, pair}) {
+    if (!pair) return [{name: point ?? end, places: this.found.map(({points, values}) => (point ? points[point] : values?.[end]))}];
+    const {motion} = this.page, {lies} = motion.knot, poles = this.found.map(({knot}) => motion.pole(...pair, knot));
+    const whole = poles.map((pole, i) => pole && (!poles[i - 1] || pole.sense === poles[i - 1].sense
+      || Math.hypot(...pole.at.map((x, k) => x - poles[i - 1].at[k])) < motion.data.linkage.reach));  // not through infinity
+    return [["fixed", pair[1]], ["moving", pair[0]]].map(([kind, link], k) => ({
+      name: `${kind} centrode ${pair.join(" ")}`, kind,
+      places: poles.map((pole, i) => whole[i] && motion.placed(link, pole.on[1 - k], lies))}));
+  }
+
+  path({panel, colour}, {name, places, kind = ""}, view) {
     const {sheet} = this.page.picture;
     let told = "", pen = "M";
-    for (const {points, values} of this.found) {
-      const place = point ? points[point] : values?.[end];
+    for (const place of places) {
       if (!place || !place.every(Number.isFinite)) { pen = "M"; continue; }
       const [x, y] = view.at(place);
       told += `${pen}${x.toFixed(2)} ${(sheet.height - y).toFixed(2)}`;
       pen = "L";
     }
     return made("path", {d: told || "M0 0", stroke: colour, "clip-path": `url(#${sheet.clip}-${panel})`,
-      "data-trace": point ?? end});
+      class: kind, "data-trace": name});
   }
 }

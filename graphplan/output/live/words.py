@@ -21,6 +21,7 @@ WORDS: dict[str, Said] = {
     "print": said("Print"), "copy": said("Copy as a scene"), "copied": said("The scene is copied."),
     "take": said("The scene in this pose, to be copied from here:"), "close": said("Close"),
     "curves": said("Paths and hodographs"), "path": said("Path of {0}", "%"),
+    "centrodes": said("Centrodes of {0}", "%"),
     "hodograph": said("Hodograph of {0}", "%"), "ends": said("Ends of {0}", "%"),
     "readings": said("Measured on the sheet"), "forms": said("Method and forms"),
     "limits": said("from {0} to {1}", "%1", "%2"), "round": said("all around"),

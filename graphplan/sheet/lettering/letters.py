@@ -94,13 +94,17 @@ def of_mechanism(mechanism: DrawnMechanism) -> Iterator[Wish]:
 
 
 def _path_letters(plate: Plate) -> Iterator[Wish]:
-    """Whose path a curve is, where most room is beside it."""
+    """Whose path or centrode a curve is, where most room is beside it."""
     motion = plate.plans.motion
-    for path in motion.paths if motion else ():
-        spots = tuple(map(plate.view, path.spots[:: len(path.spots) // PATH_PLACES + 1]))
-        runs = sentence_runs(plate.plans.tongue(said("path of {0}", path.point)), (path.point,))
-        yield Wish(runs, spots, 0.6, True, pens.FAINT, label=f"path {path.point}", free=True,
-                   layer=MOTION)
+    if not motion:
+        return
+    curves = [(said("path of {0}", path.point), path.point, path.spots, f"path {path.point}") for path in motion.paths]
+    curves += [(one.words, "", sum(one.branches, ()), f"{'moving' if one.moving else 'fixed'} centrode {one.links}")
+               for one in motion.centrodes if one.branches]
+    for words, name, spots, label in curves:
+        some = tuple(map(plate.view, spots[:: len(spots) // PATH_PLACES + 1]))
+        runs = sentence_runs(plate.plans.tongue(words), (name,))
+        yield Wish(runs, some, 0.6, True, pens.FAINT, label=label, free=True, layer=MOTION)
 
 
 @dataclass(frozen=True)

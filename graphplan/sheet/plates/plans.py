@@ -161,7 +161,7 @@ class Plans:
             box = around([(box.left, box.bottom)])
         if self.motion and panel == MECHANISM:
             box = self._with_paths(box, self.motion)
-            nice += [*self.motion.path_ends, *self.motion.position_ends]
+            nice += [*self.motion.path_ends, *self.motion.position_ends, *self.motion.centrode_ends]
         extra = sorted((_beyond(box, spot), spot) for spot in marks if all(map(math.isfinite, spot)))
         return Extent(box, tuple(spot for far, spot in extra if far > tiny), tuple(nice))
 

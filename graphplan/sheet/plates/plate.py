@@ -148,7 +148,7 @@ class Plate:
         if self.panel != MECHANISM:
             return []
         motion = self.plans.motion
-        shown = [*(motion.items(self.view) if motion else ()), *self.drawn_mechanism.items()]
+        shown = [*(motion.items(self.view, self.plates.scene) if motion else ()), *self.drawn_mechanism.items()]
         return [cut for item in shown for cut in clip.clipped(item, self.view.rect)]
 
     def positions(self, letters: Iterable[Item]) -> Iterator[Item]:

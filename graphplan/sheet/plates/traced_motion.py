@@ -1,4 +1,4 @@
-"""The motion of a mechanism on its plan: the paths of points, and where its links stand on the way."""
+"""The motion of a mechanism on its plan: the paths of points, centrodes, and where its links stand on the way."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
-from graphplan.mechanism.model import Scene
+from graphplan.mechanism.model import FRAME, Scene
+from graphplan.phrases import Said, said
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Circle, Item, Polyline, Spot
 from graphplan.sheet.plates.symbols import hull, off, places, straight, unit
@@ -33,16 +34,70 @@ class PointPath:
 
 
 @dataclass(frozen=True)
+class Centrode:
+    """The fixed or the moving centrode of `links` (such as `2 frame`, the first of which moves on the other), branch by
+    branch, spot by spot in lengths of the scene; one that is a mere point is one spot.
+
+    It rides on the link `on`: it has a point of that, and turns as two points do, if any. `given` are their places.
+    """
+
+    links: str
+    moving: bool
+    branches: tuple[tuple[Spot, ...], ...]
+    on: str
+    given: tuple[tuple[str, Spot], ...] = ()
+
+    @property
+    def words(self) -> Said:
+        """What stands beside it."""
+        link, on = self.links.split()
+        if on == FRAME:
+            return said("moving centrode of {0}", link) if self.moving else said("fixed centrode of {0}", link)
+        return (said("moving centrode of {0} on {1}", link, on) if self.moving
+                else said("fixed centrode of {0} on {1}", link, on))
+
+    def items(self, view: View, scene: Scene) -> Iterator[Item]:
+        """Its branches in the pose of a scene; the moving one has dashes."""
+        carried = self._carried(scene)
+        for branch in self.branches:
+            spots = [view(carried(spot)) for spot in branch]
+            if len(spots) > 1:
+                yield Polyline(pens.MOVING_CENTRODE if self.moving else pens.FIXED_CENTRODE, LAYER, None, once(spots))
+            else:
+                yield Circle(pens.PATH_DOT, LAYER, None, spots[0], 2 * DOT)
+
+    def _carried(self, scene: Scene) -> Callable[[Spot], Spot]:
+        """Where its link takes its spots."""
+        if not self.given:
+            return lambda spot: spot
+        was = [complex(*at) for _, at in self.given]
+        now = [complex(*map(float, scene.points[name])) for name, _ in self.given]
+        turn = (now[-1] - now[-2]) / (was[-1] - was[-2]) if len(was) > 1 else 1.0
+
+        def carried(spot: Spot) -> Spot:
+            place = now[0] + turn * (complex(*spot) - was[0])
+            return place.real, place.imag
+
+        return carried
+
+
+@dataclass(frozen=True)
 class TracedMotion:
-    """Paths of points, and positions of the mechanism: the places of all points in each."""
+    """Paths of points, centrodes, and positions of the mechanism: the places of all points in each."""
 
     paths: tuple[PointPath, ...]
     positions: tuple[Mapping[str, Spot], ...]
+    centrodes: tuple[Centrode, ...] = ()
 
     @property
     def path_ends(self) -> tuple[Spot, ...]:
         """The corners of the box of all paths."""
         return _corners([spot for path in self.paths for spot in path.spots])
+
+    @property
+    def centrode_ends(self) -> tuple[Spot, ...]:
+        """The corners of the box of all centrodes."""
+        return _corners([spot for one in self.centrodes for branch in one.branches for spot in branch])
 
     @property
     def position_ends(self) -> tuple[Spot, ...]:
@@ -56,7 +111,13 @@ class TracedMotion:
                 spots = [view(position[name]) for name in scene.links[link]]
                 yield from (Polyline(pens.POSITION, LAYER, None, chain) for chain in outline(spots))
 
-    def items(self, view: View) -> Iterator[Item]:
+    def items(self, view: View, scene: Scene) -> Iterator[Item]:
+        """The centrodes in the pose of a scene, and what stays where it is."""
+        for one in self.centrodes:
+            yield from one.items(view, scene)
+        yield from self.path_items(view)
+
+    def path_items(self, view: View) -> Iterator[Item]:
         """The paths, a dot on them for each position, and a stroke across their ends where the motion stops."""
         for path in self.paths:
             chain = path.chain(view)

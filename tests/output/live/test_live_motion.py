@@ -27,12 +27,13 @@ import graphplan as gp
 from graphplan.check.cycle import cycle
 from graphplan.check.json_results import data as printed
 from graphplan.check.trusted import report
+from graphplan.cycle.centrodes import centrodes
 from graphplan.cycle.turn import RangeOfMotion
 from graphplan.errors import GraphplanError, Refused
 from graphplan.mechanism.model import FRAME
 from graphplan.mechanism.scene import packaged, parse
 from graphplan.methods.construction import Construction
-from graphplan.output.live.motion import motion, script
+from graphplan.output.live.motion import motion, rolling, script
 
 RANDOM = Path(__file__).parents[2] / "random" / "linkages.py"
 POSES, DRAGS, SOLVED, LINKAGES = (int(os.environ.get(f"LIVE_{name}", usual)) for name, usual in (
@@ -66,6 +67,7 @@ for (const [name, { data, tape, travels, drags }] of Object.entries(cases)) {
   const motion = new Motion(data, tape), seen = () => ({
     travel: motion.travel, points: motion.points(), guides: motion.guides(), results: motion.results(),
     drawn: motion.values() !== null, said: motion.said,
+    poles: data.rolling.map((pair) => motion.pole(...pair, motion.knot)).map((pole) => pole && pole.at),
     determinants: Array.from(motion.knot.determinants, (value, k) => value / motion.start.determinants[k]) });
   const poses = travels.map((travel) => ((motion.travel = travel), seen()));
   if (!motion.still) motion.limited = null;
@@ -196,6 +198,23 @@ def test_poses() -> None:
                         value = pose["results"][part][of][key]
                         gap = abs((complex(*value) if isinstance(value, list) else value) - true)
                         assert gap <= NINE * size, (name, case.travels[k], kind, of)
+
+
+def test_poles() -> None:
+    """The poles of a page's centrodes are those of the cycle, to nine digits of how far off they are."""
+    for name, case in cases().items():
+        pairs = list(rolling(case.scene))
+        if not case.travels or not pairs:
+            continue
+        travel = np.array(case.travels) * case.unit
+        links = RangeOfMotion(case.scene, min(0.0, travel.min()), max(0.0, travel.max()), False).moved(travel)
+        for i, (link, on) in enumerate(pairs):
+            one, found = links[link], centrodes(links, link, on)
+            poles = one.base + (found.moving - one.origin) * one.turn
+            for k, pose in enumerate(case.found["poses"]):
+                if abs(poles[k]) < 100 * case.scene.extent:
+                    gap = abs(complex(*pose["poles"][i]) - poles[k])
+                    assert gap <= 100 * NINE * case.scene.extent, (name, link, on)
 
 
 def least(scene: gp.Scene) -> dict[str, float]:

@@ -62,18 +62,21 @@ def load(source: str | os.PathLike[str], name: str | None = None) -> Scene:
     """
     written = os.fspath(source)
     name = written if name is None else name
+    return parse(source_text(written, name), name)
+
+
+def source_text(source: str, name: str) -> str:
+    """The text of a file, of standard input (`-`) or of a packaged scene; fails as :func:`load` does."""
     try:
-        text = _bytes(written).decode("utf-8-sig")
+        return _bytes(source).decode("utf-8-sig")
     except UnicodeDecodeError as error:
         fault = Fault("file", f"byte {error.start + 1} is not UTF-8", "text saved as UTF-8")
     except IsADirectoryError:
         fault = Fault("file", "this is a directory", "a scene file")
     except FileNotFoundError:
-        fault = Fault("file", "no such file and no packaged scene", perhaps(written, packaged(), "scene"))
+        fault = Fault("file", "no such file and no packaged scene", perhaps(source, packaged(), "scene"))
     except (OSError, ValueError) as error:  # ValueError: a path that no file system has
         fault = Fault("file", f"it cannot be read ({getattr(error, 'strerror', None) or error})", "a readable file")
-    else:
-        return parse(text, name)
     raise SceneError(name, (fault,))
 
 
@@ -96,7 +99,7 @@ def packaged() -> list[str]:
 def parse(text: str, name: str) -> Scene:
     """The scene that a TOML text says; `name` stands in error lines."""
     faults = Faults()
-    scene = _read(_toml(text, name), name, faults)
+    scene = _read(tables_of(text, name), name, faults)
     if len(faults):
         from graphplan.mechanism.slips import slips_in_vectors  # few scenes have faults
 
@@ -106,7 +109,7 @@ def parse(text: str, name: str) -> Scene:
     return replace(scene, text=text)
 
 
-def _toml(text: str, name: str) -> dict[str, object]:
+def tables_of(text: str, name: str) -> dict[str, object]:
     """The text's tables, its decimals as exact numbers."""
     if not text.strip():
         raise SceneError(name, (Fault("file", "it is empty", "a scene with [points], [links] and [[drive]]"),))

@@ -1,0 +1,305 @@
+"""Tasks: a cam's law, follower and limits, read from TOML text; all faults at once.
+
+Lengths are in the task's unit, angles in degrees. Lifts of an oscillating follower are degrees, too.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import cached_property
+
+from graphplan.cams.law import Law, Stage
+from graphplan.cams.motions import DWELL, MOTIONS, TABLE, spline
+from graphplan.errors import SceneError
+from graphplan.mechanism import sections
+from graphplan.mechanism.fields import Either, Field, Kind, Names, Row, Rows, Table
+from graphplan.mechanism.items import Faults, Item, Vector, described
+from graphplan.mechanism.model import Presentation
+from graphplan.mechanism.numerals import shown
+from graphplan.mechanism.presentation import SHEET
+from graphplan.mechanism.scene import source_text, tables_of
+from graphplan.mechanism.units import Units
+from graphplan.mechanism.values import AMOUNT, DISTANCE, NUMBER, TEXT, choice
+
+TRANSLATING, OSCILLATING = "translating", "oscillating"
+POINTED, ROLLER, FLAT = "point", "roller", "flat"
+PRESSURE, CONVEX, SMALLEST = "pressure angle", "convex", "smallest"
+TURNS = {"counter-clockwise": 1, "clockwise": -1}
+LEAST, MOST = 6, 72  # divisions of the turn
+
+
+@dataclass(frozen=True)
+class Follower:
+    """How the follower moves and what touches the cam; lengths that it has not are 0."""
+
+    moves: str
+    contact: str
+    radius: Fraction = Fraction(0)
+    offset: Fraction | str = Fraction(0)
+    arm: Fraction = Fraction(0)
+    distance: Fraction = Fraction(0)
+
+    @property
+    def oscillates(self) -> bool:
+        return self.moves == OSCILLATING
+
+    @property
+    def flat(self) -> bool:
+        return self.contact == FLAT
+
+
+@dataclass(frozen=True)
+class Limits:
+    """The largest pressure angles in degrees while the follower rises and while it returns; None where it has none."""
+
+    rise: Fraction
+    back: Fraction | None = None
+
+
+@dataclass(frozen=True)
+class Wheel:
+    """What is said of the cam itself: sense of turning, speed in rad/s, base circle, limits, divisions of the turn."""
+
+    sense: int
+    omega: float
+    base: Fraction | str
+    limits: Limits | None
+    least: Fraction
+    divisions: int
+
+
+@dataclass(frozen=True)
+class Task:
+    """What a task says; `name` is its file as the user wrote it."""
+
+    title: str
+    source: str
+    name: str
+    units: Units
+    stages: tuple[Stage, ...]
+    follower: Follower
+    cam: Wheel
+    sheet: Presentation
+
+    @cached_property
+    def law(self) -> Law:
+        """The law in lengths, or in radians of an oscillating follower."""
+        return Law(self.stages, math.pi / 180 if self.follower.oscillates else 1.0)
+
+
+# ---- the law --------------------------------------------------------------------------------------------------------
+
+
+def _rows(item: Item, names: Names) -> tuple[tuple[Fraction, Fraction], ...] | None:
+    """The angles and lifts of a table, both from 0, the angles rising."""
+    if not isinstance(item.value, list) or len(item.value) < 3:
+        return item.fault(f"{described(item.value)} where angles and lifts are wanted",
+                          "three pairs or more, such as [[0, 0], [60, 10], [120, 20]]")
+    before, found = len(item.faults), list[Vector]()
+    for row in item.value:
+        if (pair := item.instead(row).vector()) is not None:
+            if found and pair[0] <= found[-1][0]:
+                item.fault(f"the angle {shown(pair[0])} stands after {shown(found[-1][0])}", "angles that grow")
+            found.append(pair)
+    if found and any(found[0]):
+        item.fault("its first pair is not [0, 0]", "degrees and lifts from the beginning of the stage")
+    return tuple(found) if len(item.faults) == before else None
+
+
+def _moved(row: Row) -> Stage | None:
+    """A stage by the name of its motion; one that is no dwell has a stroke."""
+    motion, stroke = row["motion"], row.values.get("stroke", Fraction(0))
+    if motion == DWELL and stroke:
+        row.items["stroke"].fault("a dwell has no stroke", "leave it out, or name another motion")
+    if motion != DWELL and not stroke:
+        row.item.fault(f"a {motion} motion without a stroke", 'stroke = 25, or -25 of a return, or motion = "dwell"')
+    return Stage(row["angle"], stroke, motion, tuple(piece.times(stroke) for piece in MOTIONS[motion]))
+
+
+def _tabled(row: Row) -> Stage:
+    """A stage by a table of angles and lifts: a cubic spline, at rest at both ends, or periodic where it is all."""
+    angles, lifts = zip(*row["table"], strict=True)
+    pieces = spline([angle / angles[-1] for angle in angles], lifts, closed=angles[-1] == 360 and not lifts[-1])
+    return Stage(angles[-1], lifts[-1], TABLE, pieces)
+
+
+_PAIRS = Kind("pairs of numbers", _rows, {"type": "array", "minItems": 3, "items": {
+    "type": "array", "items": NUMBER.schema, "minItems": 2, "maxItems": 2}})
+LAW = Rows(Either((
+    Table("a stage by its motion", (
+        Field("angle", "through how many degrees the cam turns meanwhile", DISTANCE, "such as angle = 120"),
+        Field("motion", "how the follower moves", choice(*MOTIONS), 'such as motion = "sine"'),
+        Field("stroke", "by how much the lift changes: a length, degrees of an oscillating follower; negative of a "
+              "return", NUMBER),
+    ), _moved),
+    Table("a stage by a table", (
+        Field("table", "degrees and lifts from the beginning of the stage; between them a cubic spline runs", _PAIRS,
+              "such as table = [[0, 0], [60, 10], [120, 20]]"),
+    ), _tabled))))
+
+
+# ---- follower and cam -----------------------------------------------------------------------------------------------
+
+
+def _offset(item: Item, names: Names) -> Fraction | str | None:
+    return SMALLEST if item.value == SMALLEST else item.number()
+
+
+def _follower(row: Row) -> Follower | None:
+    """The follower, which has just the lengths that its kind has."""
+    moves, contact, values = row["moves"], row["contact"], row.values
+    wanted = {"radius": contact == ROLLER, "arm": moves == OSCILLATING and contact != FLAT,
+              "centre_distance": moves == OSCILLATING}
+    for key, has in wanted.items():
+        if has and key not in row.items:
+            row.item.fault(f"{key} is missing", f"a length, such as {key} = 10")
+        elif key in row.items and not has:
+            row.items[key].fault(f"a follower that is {moves} with a {contact} contact has none", "leave it out")
+    if "offset" in row.items and (moves == OSCILLATING) != (contact == FLAT):
+        row.items["offset"].fault(f"a follower that is {moves} with a {contact} contact has none", "leave it out")
+    none = Fraction(0)
+    return Follower(moves, contact, values.get("radius", none), values.get("offset", none), values.get("arm", none),
+                    values.get("centre_distance", none))
+
+
+FOLLOWER = Table("the follower", (
+    Field("moves", "along a straight path, or about a pivot", choice(TRANSLATING, OSCILLATING),
+          'such as moves = "translating"'),
+    Field("contact", "what touches the cam", choice(POINTED, ROLLER, FLAT), 'such as contact = "roller"'),
+    Field("radius", "of the roller", DISTANCE),
+    Field("offset", "of a point or roller that is translating: how far its path passes the cam's centre, positive on "
+          'the side where the cam rises towards it; or "smallest", with both pressure angles, for the smallest cam; of '
+          "a flat face that oscillates: how far its plane passes the pivot, towards the cam",
+          Kind('number, or "smallest"', _offset, {"anyOf": [NUMBER.schema, {"const": SMALLEST}]})),
+    Field("arm", "of a point or roller that oscillates: its distance from the pivot", DISTANCE),
+    Field("centre_distance", "of a follower that oscillates: from the cam's centre to the pivot", DISTANCE),
+), _follower)
+
+
+def _base(item: Item, names: Names) -> Fraction | str | None:
+    return str(item.value) if item.value in (PRESSURE, CONVEX) else item.positive("radius")
+
+
+def _angle(item: Item, names: Names) -> Fraction | None:
+    number = item.positive("angle")
+    if number is not None and number >= 90:
+        return item.fault(f"the angle {shown(number)} is not below 90", "30 as a rule")
+    return number
+
+
+def _divisions(item: Item, names: Names) -> int | None:
+    number = item.number()
+    if number is not None and (number.denominator != 1 or not LEAST <= number <= MOST):
+        return item.fault(f"{shown(number)} is no number of divisions", f"a whole number from {LEAST} to {MOST}")
+    return None if number is None else int(number)
+
+
+def _wheel(row: Row) -> Wheel | None:
+    values = row.values
+    if row["base"] == PRESSURE and "pressure_angle" not in values:
+        row.item.fault("pressure_angle is missing", "such as pressure_angle = { rise = 30, return = 30 }")
+    omega = float(values["omega"]) if "omega" in values else math.pi * float(values.get("rpm", 0)) / 30
+    return Wheel(TURNS[row["turns"]], omega, row["base"], values.get("pressure_angle"), row["least_radius"],
+                 row["divisions"])
+
+
+_DEGREES = Kind("degrees below 90", _angle, {"type": "number", "exclusiveMinimum": 0, "exclusiveMaximum": 90})
+CAM = Table("the cam", (
+    Field("turns", "which way it turns", choice(*TURNS), default="counter-clockwise"),
+    Field("omega", "how fast, in rad/s", DISTANCE),
+    Field("rpm", "the same in turns a minute", DISTANCE),
+    Field("base", "the radius of the base circle, of a roller that on which its centre is lowest; or the smallest by "
+          'the "pressure angle"; or for a flat face the smallest that keeps the profile "convex"',
+          Kind(f'number above 0, "{PRESSURE}" or "{CONVEX}"', _base,
+               {"anyOf": [DISTANCE.schema, {"enum": [PRESSURE, CONVEX]}]}),
+          f'a radius, such as base = 30, or base = "{PRESSURE}"'),
+    Field("pressure_angle", "the largest that are allowed", Table("the largest pressure angles", (
+        Field("rise", "while the follower rises", _DEGREES, "such as rise = 30"),
+        Field("return", "while it returns; without it a spring alone drives it back", _DEGREES),
+    ), lambda row: Limits(row["rise"], row.values.get("return")))),
+    Field("least_radius", "the smallest radius of curvature that the profile may have where it is convex", AMOUNT,
+          default=0),
+    Field("divisions", "in how many parts the turn is divided on the sheet",
+          Kind("whole number", _divisions, {"type": "integer", "minimum": LEAST, "maximum": MOST}), default=24),
+), _wheel, either=("omega", "rpm"), remedy="one of them, such as rpm = 300")
+
+TASK = Table("a cam: the law of its follower, the follower, and what is given of the cam", (
+    Field("title", "what it is", TEXT),
+    Field("source", "where it comes from: author, title, year, figure", TEXT),
+    Field("units", "the units of the task and of its results", sections.UNITS),
+    Field("law", "the stages of one turn, in order", LAW, '[[law]] with angle = 120, motion = "sine", stroke = 25'),
+    Field("follower", "the follower", FOLLOWER, '[follower] with moves = "translating" and contact = "roller"'),
+    Field("cam", "the cam", CAM, "[cam] with rpm = 300 and base = 30"),
+    Field("sheet", "how the sheet should look; the command line has the last word", SHEET),
+))
+
+
+# ---- reading --------------------------------------------------------------------------------------------------------
+
+
+def load(source: str) -> Task:
+    """The task in a file or on standard input (`-`); fails with `SceneError`, one line a fault."""
+    return parse(source_text(source, source), source)
+
+
+def parse(text: str, name: str) -> Task:
+    """The task that a TOML text says; `name` stands in error lines."""
+    faults = Faults()
+    item, names = Item(tables_of(text, name), "", faults), Names(())
+    items = item.fields(TASK.keys, {}) or {}
+    read = {}
+    for field in (TASK.fields[2], *TASK.fields):  # the sheet speaks of units
+        if field.name in items:
+            read[field.name] = field.kind.read(items[field.name], names)
+        elif field.wanted:
+            faults.add(field.name, f"the task has no {field.name}", field.wanted)
+        names.units = read.get("units") or names.units
+    if len(faults) == 0:
+        task = Task(read.get("title", ""), read.get("source", ""), name, names.units, read["law"], read["follower"],
+                    read["cam"], read.get("sheet") or Presentation())
+        _checked(task, faults)
+    if len(faults):
+        raise SceneError(name, tuple(faults))
+    return task
+
+
+def _checked(task: Task, faults: Faults) -> None:
+    """Note what does not fit together."""
+    law, follower, cam = task.law, task.follower, task.cam
+    turn, rest = law.closed
+    if turn != 360:
+        faults.add("law", f"its stages take {shown(turn)} degrees", "stages of 360 degrees together")
+    if rest:
+        faults.add("law", f"after one turn the lift is {shown(rest)}", "strokes that add up to 0")
+    at, depth = law.extremum(lambda angles, one: -one.at(angles))
+    if depth > 1e-9 * max(map(abs, law.lifts), default=1):
+        faults.add("law", f"the lift is {shown(-depth)} at {shown(at)} degrees, below where it begins",
+                   "begin with the stage in which the follower is lowest")
+    if not any(stage.stroke or stage.motion == TABLE for stage in task.stages):
+        faults.add("law", "the follower does not move", "a stage with a stroke")
+    _fitting(follower, cam, faults)
+
+
+def _fitting(follower: Follower, cam: Wheel, faults: Faults) -> None:
+    """Note where cam and follower do not fit each other."""
+    if cam.base == PRESSURE and follower.flat:
+        faults.add("cam.base", "the pressure angle of a flat face does not hang on it", f'a radius, or "{CONVEX}"')
+    if cam.base == CONVEX and not follower.flat:
+        faults.add("cam.base", f"only a flat face needs a {CONVEX} profile", f'a radius, or "{PRESSURE}"')
+    if follower.offset == SMALLEST and (cam.base != PRESSURE or cam.limits is None or cam.limits.back is None):
+        faults.add("follower.offset", "the smallest cam is that of two pressure angles",
+                   f'base = "{PRESSURE}" and pressure_angle = {{ rise = 30, return = 30 }}, or a length')
+    past = follower.offset if isinstance(follower.offset, Fraction) and not follower.flat else Fraction(0)
+    if isinstance(cam.base, Fraction) and abs(past) >= cam.base:
+        faults.add("follower.offset", f"{shown(past)} is no less than the base circle's radius {shown(cam.base)}",
+                   "a smaller offset, or a larger base circle")
+    if isinstance(cam.base, Fraction) and follower.contact == ROLLER and follower.radius >= cam.base:
+        faults.add("follower.radius", f"{shown(follower.radius)} is no less than the radius of the base circle, on "
+                   f"which the roller's centre is lowest, {shown(cam.base)}", "a smaller roller")
+    if isinstance(cam.base, Fraction) and follower.oscillates and not follower.flat:
+        low, high = abs(follower.distance - follower.arm), follower.distance + follower.arm
+        if not low < cam.base < high:
+            faults.add("cam.base", f"no triangle has the sides {shown(follower.distance)}, {shown(follower.arm)} and "
+                       f"{shown(cam.base)}", f"a radius between {shown(low)} and {shown(high)}")

@@ -23,7 +23,7 @@ from graphplan.mechanism.scene import SCENE
 
 # In the templates beside the packaged scenes what is optional stands behind `#` without a blank; a paragraph of it
 # holds as it is, once its `#` are taken away.
-KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "open-chain", "blank")
+KINDS = ("four-bar", "slider-crank", "slotted-link", "cylinder", "gears", "cam", "open-chain", "blank")
 TOP = ("title", "source", "gravity")
 LOADS = ("balance", "masses", "forces", "moments", "friction")  # one paragraph: all of them need a balance
 

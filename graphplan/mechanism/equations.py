@@ -69,7 +69,7 @@ class System:
         def any_way(_: object = None) -> tuple[int, int]:
             return chance.randrange(1, PRIME), chance.randrange(1, PRIME)
 
-        return self.scene.posed({point: any_way() for point in self.scene.points}, any_way)
+        return self.scene.posed({point: any_way() for point in self.scene.points}, any_way, lambda _: any_way()[0])
 
     @cached_property
     def known(self) -> frozenset[str]:
@@ -106,6 +106,10 @@ class System:
         linked = sorted(pins, key=lambda equation: place[equation.fact.link, equation.fact.at])
         return tuple(equation for equation in (*linked, *others) if equation.fact.condition not in dropped)
 
+    def _root(self, square: Any) -> Any:
+        """The root of a number; in general position the number itself will do."""
+        return square.sqrt() if self.axes is not None else square
+
     def _pinned(self, joint: Revolute) -> Revolute:
         """A joint with a pin of its own, or where its motion is given one of the frame."""
         links = [link for link in joint.links if link != FRAME]
@@ -117,10 +121,10 @@ class System:
         for pair in pairs:
             for fact in pair.states(self.posed):
                 terms: dict[Unknown, Any] = {}
-                weights = fact.weights(self.posed.points[fact.at] if fact.at else (0, 0))
-                for body, sign in ((fact.link, 1), (fact.on, -1)):
-                    thing = ("link", body) if body != PIN else ("joint", fact.at)
-                    terms |= {(thing, way): sign * weight for way, weight in zip(WAYS, weights, strict=True)
+                arms: Any = [self.posed.points[point] if point else (0, 0) for _, point in fact.ends]
+                for (body, point), weights in zip(fact.ends, fact.weights(arms, self._root), strict=True):
+                    thing = ("link", body) if body != PIN else ("joint", point)
+                    terms |= {(thing, way): weight for way, weight in zip(WAYS, weights, strict=True)
                               if weight and (thing, way) in self._free}
                 yield Equation(terms, fact)
 

@@ -15,16 +15,18 @@ from functools import cached_property
 from typing import Any
 
 from graphplan.mechanism.directions import Written
+from graphplan.mechanism.pairs.contact import Contact
 from graphplan.mechanism.pairs.drives import Drive, DrivenPoint, Motion, SlidingDrive, TurningDrive
+from graphplan.mechanism.pairs.gear import Gear
 from graphplan.mechanism.pairs.pair import FRAME, Along, Condition, KinematicPair, Statement, Turning
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import Number, Pair
 from graphplan.mechanism.units import Units
 
-__all__ = ["FRAME", "Balance", "Condition", "Drive", "Find", "Force", "Friction", "Loads", "Mass", "Moment", "Motion",
-           "Number", "Pair", "Placement", "Presentation", "Scene", "Slide", "SlidingDrive", "TurningDrive", "Units",
-           "Written"]
+__all__ = ["FRAME", "Balance", "Condition", "Contact", "Drive", "Find", "Force", "Friction", "Gear", "Loads", "Mass",
+           "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide", "SlidingDrive",
+           "TurningDrive", "Units", "Written"]
 
 
 @dataclass(frozen=True)
@@ -276,6 +278,21 @@ class Scene:
         return tuple(pair for pair in self.written if isinstance(pair, Slide))
 
     @cached_property
+    def gears(self) -> tuple[Gear, ...]:
+        """The links that are geared with each other."""
+        return tuple(pair for pair in self.written if isinstance(pair, Gear))
+
+    @cached_property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The links that touch each other."""
+        return tuple(pair for pair in self.written if isinstance(pair, Contact))
+
+    @property
+    def guided(self) -> tuple[Slide | Gear | Contact, ...]:
+        """The pairs that may have a direction."""
+        return *self.slides, *self.gears, *self.contacts
+
+    @cached_property
     def drives(self) -> tuple[Drive, ...]:
         """The drives."""
         return tuple(pair for pair in self.written if isinstance(pair, Drive))
@@ -288,9 +305,12 @@ class Scene:
         """The slide in which a sliding drive works."""
         return next(slide for slide in self.slides if {*slide.links} == {*drive.links})
 
-    def posed(self, points: dict[str, Any], direction: Callable[[Any], Any]) -> Scene:
-        """The scene in another pose, or in other numbers: its points, and the direction of each guide and balance."""
+    def posed(self, points: dict[str, Any], direction: Callable[[Any], Any],
+              length: Callable[[Any], Any] = lambda radius: radius) -> Scene:
+        """The scene in another pose, or in other numbers: its points, the direction of each guide and balance, and by
+        `length` the radii of its gears."""
         def directed(one: Any) -> Any:
+            one = one.scaled(length) if isinstance(one, Gear) else one
             return replace(one, direction=direction(one)) if getattr(one, "direction", None) is not None else one
 
         loads = self.loads and replace(self.loads, balances=tuple(map(directed, self.loads.balances)))

@@ -169,8 +169,9 @@ def _counting(scene: Scene) -> set[str]:
     """
     loads = scene.loads
     found = {*scene.joints, *scene.motions, *scene.find.velocity, *scene.find.acceleration}
-    for slide in scene.slides:
-        found |= {slide.at, *(slide.through or ())}
+    for pair in scene.guided:
+        found |= {point for fact in pair.states(scene) for _, point in fact.ends} | {*(pair.through or ())}
+    found |= {contact.at for contact in scene.contacts if contact.rolling}
     if loads is not None:
         found |= {point for points in scene.links.values() for point in points}
         found |= {point for balance in loads.balances for point in points_of(balance.written)}
@@ -189,7 +190,7 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
     """The scene after the checks of the whole, each where what it rests on has no faults of its own."""
     if not faults.none_in("links"):
         return scene
-    guides = {point for slide in scene.slides for point in slide.through or ()}
+    guides = {point for pair in scene.guided for point in pair.through or ()} | {pair.at for pair in scene.contacts}
     centres = {point for placement in scene.placements.values() for point in needs(placement)}
     if faults.none_in("points", *PAIR_KEYS[:-1]):
         check_use(scene, guides | centres, faults)

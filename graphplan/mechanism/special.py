@@ -99,6 +99,19 @@ class _Series:
 
     __rmul__ = __mul__
 
+    def __truediv__(self, other: int) -> _Series:
+        return _Series(*(a / other for a in self.terms))
+
+    def angle(self, y: _Series) -> _Series:
+        """The angle of the vector (self, y), which starts along x: its rate is (x y' - y x') / (x^2 + y^2)."""
+        square, last, rates = self * self + y * y, len(self.terms) - 1, list[Decimal]()
+        for k in range(last):
+            swept = sum(((n + 1) * (self.terms[k - n] * y.terms[n + 1] - y.terms[k - n] * self.terms[n + 1])
+                         for n in range(k + 1)), Decimal(0))
+            swept -= sum((square.terms[m] * rates[k - m] for m in range(1, k + 1)), Decimal(0))
+            rates.append(swept / square.terms[0])
+        return _Series(Decimal(0), *(rate / (k + 1) for k, rate in enumerate(rates)))
+
 
 class _Course:
     """How the links and pins move from the pose, as power series in time."""
@@ -141,8 +154,8 @@ class _Course:
         """What the lower orders leave over in a statement at this order."""
         pose = {body: self._attitudes[("link", body) if body != PIN else ("joint", fact.at)]
                 for body in (fact.link, fact.on, FRAME)}
-        place = self._scene.points[fact.at] if fact.at else None
-        left: Decimal = fact.residual(pose, (place, place)).terms[-1]
+        one, other = (self._scene.points[point] if point else None for _, point in fact.ends)
+        left: Decimal = fact.residual(pose, (one, other)).terms[-1]
         return left
 
 
@@ -228,7 +241,8 @@ def fine_pose(scene: Scene) -> tuple[Scene, bool, dict[str, Place]]:
         reach = max(max(map(abs, arm)) for arm in arms.values()) or Decimal(1)
         places = {name: (x / reach, y / reach) for name, (x, y) in arms.items()}
         axes = {link: _unit(*map(Decimal, across(scene, link, places))) for link in scene.moving}
-        return scene.posed(places, lambda one: _guide(one, points)), False, axes
+        return scene.posed(places, lambda one: _guide(one, points), lambda radius: _decimal(Fraction(radius)) / reach
+                           ), False, axes
 
 
 def _points(scene: Scene) -> dict[str, tuple[Fraction, Fraction]]:

@@ -5,8 +5,10 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from typing import Any
 
-from graphplan.mechanism.fields import Kind, Names
+from graphplan.errors import by_name
+from graphplan.mechanism.fields import Kind, Names, Row
 from graphplan.mechanism.items import Item, described
+from graphplan.mechanism.numerals import shown
 from graphplan.mechanism.pairs.pair import FRAME
 
 NAME = r"[^\s,]+"
@@ -30,6 +32,53 @@ def _two_links(item: Item, names: Names) -> tuple[str | None, ...] | None:
 
 
 TWO_LINKS = Kind("two links", _two_links, {"type": "array", "items": LINK.schema, "minItems": 2, "maxItems": 2})
+
+
+def _flag(item: Item, names: Names) -> bool | None:
+    told = f"{described(item.value)} where true or false is wanted"
+    return item.value if isinstance(item.value, bool) else item.fault(told, "true or false, without quotes")
+
+
+FLAG = Kind("true · false", _flag, {"type": "boolean"})
+
+
+def _centres(item: Item, names: Names) -> tuple[str, ...] | None:
+    if not isinstance(item.value, list) or not item.value:
+        return item.fault(f"{described(item.value)} where centres are wanted", 'points such as ["B", "C"]')
+    found = tuple(POINT.read(item.instead(name), names) for name in item.value)
+    return None if None in found else found
+
+
+CENTRES = Kind("centres", _centres, {"type": "array", "items": POINT.schema, "minItems": 1, "maxItems": 2})
+
+
+def _two(what: str, such: str, whole: bool = False) -> Kind:
+    """Two numbers above zero."""
+    def read(item: Item, names: Names) -> tuple[Any, ...] | None:
+        if not isinstance(item.value, list) or len(item.value) != 2:
+            return item.fault(f"{described(item.value)} where two {what} are wanted", f"two numbers such as {such}")
+        found = tuple(item.instead(one).positive(f"number of {what}" if whole else "radius") for one in item.value)
+        for number in found if whole else ():
+            if number is not None and number.denominator != 1:
+                return item.fault(f"{shown(number)} {what}", f"whole numbers such as {such}")
+        return None if None in found else found
+
+    entry = {"type": "integer", "minimum": 1} if whole else DISTANCE.schema
+    return Kind(f"two {what}", read, {"type": "array", "items": entry, "minItems": 2, "maxItems": 2})
+
+
+TEETH = _two("teeth", "[24, 36]", whole=True)
+RADII = _two("radii", "[48, 72]")
+
+
+def centres_on(row: Row, *wanted: tuple[str, str]) -> bool:
+    """Whether each of these centres is a point of its link; a fault for one that is not."""
+    astray = [(centre, link) for centre, link in wanted if centre not in row.names.links.get(link, ())]
+    for centre, link in astray:
+        if own := row.names.links.get(link, ()):
+            instead = "one of " + ", ".join(sorted(own, key=by_name))
+            row.items["centres"].fault(f"{centre} is no point of link {link}", instead)
+    return not astray
 
 
 def choice(*words: str) -> Kind:

@@ -23,9 +23,9 @@ from typing import TYPE_CHECKING, Any
 from graphplan.errors import Refused, by_name
 from graphplan.mechanism.elimination import Elimination, transpose
 from graphplan.mechanism.equations import PIN
-from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
+from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.numerals import is_exact
-from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Statement, surplus
+from graphplan.mechanism.pairs.pair import Along, KinematicPair, Rate, Side, Sides, Statement
 from graphplan.mechanism.pairs.revolute import Revolute
 from graphplan.mechanism.plane import dot, less, times
 from graphplan.solver.blocks import TOGETHER
@@ -83,11 +83,11 @@ class Equations:
 
     def _row(self, fact: Statement) -> Row:
         row: Row = {}
-        for link, sign in (fact.link, 1), (fact.on, -1):
+        one, other = (self.arm(*end) for end in fact.ends)
+        for (link, point), weights in zip(fact.ends, fact.weights((one, other), self.root), strict=True):
             if link != FRAME:
-                weights = fact.weights(self.arm(link, fact.at))
-                column = self.columns[link] if link != PIN else self.pins[fact.at]
-                row |= {column + k: sign * weight for k, weight in enumerate(weights if link != PIN else weights[:2])
+                column = self.columns[link] if link != PIN else self.pins[point]
+                row |= {column + k: weight for k, weight in enumerate(weights if link != PIN else weights[:2])
                         if type(weight) is not int or weight}
         return row
 
@@ -114,7 +114,7 @@ class Equations:
     @property
     def arms(self) -> Iterable[Pair]:
         """Every arm that a statement has."""
-        return (self.arm(link, fact.at) for fact in self.facts for link in (fact.link, fact.on))
+        return (self.arm(*end) for fact in self.facts for end in fact.ends)
 
     @cached_property
     def reach(self) -> float:
@@ -135,15 +135,13 @@ class Equations:
 
     def accelerations(self, rates: dict[str, Rate]) -> list[Number]:
         """The right-hand side for the accelerations, from the velocities of every link."""
-        places = {(fact.link, fact.on, fact.at): fact for fact in self.facts}  # a joint's two facts have one
-        more = {place: surplus(*self.sides(fact, rates)) if fact.at else (0, 0) for place, fact in places.items()}
-        return [change + fact.left_over(more[fact.link, fact.on, fact.at])
+        sides = {fact.ends: self.sides(*fact.ends, rates) for fact in self.facts}  # a joint's two facts have one
+        return [change + fact.left_over(sides[fact.ends])
                 for fact, (_, change) in zip(self.facts, self.prescribed, strict=True)]
 
-    def sides(self, of: Statement | Slide, rates: dict[str, Rate]) -> tuple[Side, Side]:
-        """The two links of a statement or of a slide at its point, with these rates."""
-        on = of.along if isinstance(of, Slide) else of.on
-        return self.side(of.link, of.at, rates), self.side(on, of.at, rates)
+    def sides(self, one: tuple[str, str], other: tuple[str, str], rates: dict[str, Rate]) -> Sides:
+        """Two links, each at a point, with these rates."""
+        return Sides(self.side(*one, rates), self.side(*other, rates))
 
     def side(self, link: str, point: str, rates: dict[str, Rate]) -> Side:
         """One link at one point, with these rates."""

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from graphplan.mechanism.elimination import transpose
-from graphplan.mechanism.model import Scene, Slide
+from graphplan.mechanism.model import Balance, Scene
 from graphplan.mechanism.numerals import mapped
 from graphplan.mechanism.pairs.pair import Along
 from graphplan.solver import rates, statics
@@ -69,21 +69,21 @@ def sized(number: Any) -> Sized:
 def posed(scene: Scene, points: Mapping[str, Any], guides: Mapping[str, Any]) -> Scene:
     """The scene in n poses at once: coordinates and directions that change are arrays of shape (n,).
 
-    `points` gives them by name as complex arrays, `guides` the directions of slides that no two points give; complex
+    `points` gives them by name as complex arrays, `guides` the directions of pairs that no two points give; complex
     numbers give the scene in one other pose.
     """
     def where(name: str) -> Any:
         return _pair(points[name]) if name in points else tuple(map(float, scene.points[name]))
 
-    def direction(slide: Slide) -> Any:
-        if slide.through is not None:
-            (ax, ay), (bx, by) = map(where, slide.through)
+    def direction(pair: Any) -> Any:
+        if pair.through is not None:
+            (ax, ay), (bx, by) = map(where, pair.through)
             return bx - ax, by - ay
-        return _pair(guides[slide.name]) if slide.name in guides else tuple(map(float, slide.direction))
+        return _pair(guides[pair.name]) if pair.name in guides else tuple(map(float, pair.direction))
 
     driven = scene.with_drives(drive.driven_at(*map(float, drive.rates)) for drive in scene.drives)
     return replace(driven, loads=mapped(scene.loads, float)).posed({name: where(name) for name in scene.points},
-                        lambda one: direction(one) if isinstance(one, Slide) else one.direction)
+                        lambda one: one.direction if isinstance(one, Balance) else direction(one), float)
 
 
 def solve(scene: Scene, n: int, sizes: bool = False) -> rates.Rates:

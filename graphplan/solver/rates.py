@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from graphplan.errors import SingularPose
 from graphplan.mechanism.elimination import Elimination
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene, Slide
-from graphplan.mechanism.pairs.pair import Rate, centripetal, slip, surplus
+from graphplan.mechanism.pairs.pair import Rate, Sides
 from graphplan.mechanism.plane import dot, less, times
 from graphplan.solver.equations import Equations, Solution, moved
 
@@ -89,16 +89,19 @@ def read(equations: Equations, first: dict[str, Rate], second: dict[str, Rate]) 
     """What the rates of the links, once and twice derived, say about points, links and slides."""
     carriers = {p: FRAME if FRAME in links else links[0] for p, links in equations.scene.links_of.items() if links}
     slides = equations.scene.slides
+
+    def sides(slide: Slide, rates: dict[str, Rate]) -> Sides:
+        return equations.sides((slide.link, slide.at), (slide.along, slide.at), rates)
+
     return Rates(
         equations,
         velocity={p: first[link].at(equations.arm(link, p)) for p, link in carriers.items()},
-        acceleration={p: less(second[link].at(equations.arm(link, p)), centripetal(equations.side(link, p, first)))
+        acceleration={p: less(second[link].at(equations.arm(link, p)), equations.side(link, p, first).centripetal)
                       for p, link in carriers.items()},
         omega={link: first[link].turn for link in equations.columns},
         alpha={link: second[link].turn for link in equations.columns},
-        slide_velocity={s.name: along(s, slip(*equations.sides(s, first))) for s in slides},
-        slide_acceleration={s.name: along(s, less(slip(*equations.sides(s, second)),
-                                                  surplus(*equations.sides(s, first)))) for s in slides},
+        slide_velocity={s.name: along(s, sides(s, first).slip) for s in slides},
+        slide_acceleration={s.name: along(s, less(sides(s, second).slip, sides(s, first).surplus)) for s in slides},
     )
 
 

@@ -149,7 +149,8 @@ def weights(equations: Equations, load: Load) -> Rate:
     """A load's force (x, y) and, in force * length, its moment about its link's base: what each rate gives of power."""
     if isinstance(load, Moment):
         return Rate(0, 0, scaled(metre(equations.scene.units), load.value))
-    return Along(load.on, FRAME, load.at, load.value, "held").weights(equations.arm(load.on, load.at))
+    arm, fact = equations.arm(load.on, load.at), Along(load.on, FRAME, load.at, load.value, "held")
+    return fact.weights((arm, arm), equations.root)[0]
 
 
 # --- the balances from the power equation alone: the third opinion, which knows no reactions --------------------------

@@ -8,6 +8,7 @@ from dataclasses import replace
 from random import Random
 from typing import Any
 
+import higher
 import numpy as np
 import pytest
 
@@ -26,20 +27,22 @@ from graphplan.mechanism.pairs.pair import (
     Attitude,
     KinematicPair,
     Rate,
+    Rolling,
     Side,
+    Sides,
     Statement,
-    surplus,
 )
-from graphplan.mechanism.plane import dot, turned
+from graphplan.mechanism.plane import dot, less, turned
 from graphplan.mechanism.scene import packaged
 
 STEP = 2.0**-12
 SCENES = packaged()
+HIGHER = higher.scenes()
 
 
 def in_floats(name: str) -> Scene:
-    """A packaged scene in floats, its lengths of the order of 1."""
-    scene = gp.load(name)
+    """A scene in floats, its lengths of the order of 1."""
+    scene = HIGHER.get(name) or gp.load(name)
     reach = max(abs(float(x)) for at in scene.points.values() for x in at)
 
     def unit(z: Any) -> Any:
@@ -47,7 +50,7 @@ def in_floats(name: str) -> Scene:
         return x / math.hypot(x, y), y / math.hypot(x, y)
 
     points = {name: (float(x) / reach, float(y) / reach) for name, (x, y) in scene.points.items()}
-    return scene.posed(points, lambda one: unit(one.direction))
+    return scene.posed(points, lambda one: unit(one.direction), lambda radius: float(radius) / reach)
 
 
 def stated(scene: Scene) -> Iterator[tuple[KinematicPair, Statement]]:
@@ -63,23 +66,33 @@ def lying(rate: Rate, change: Rate, t: float) -> Attitude:
     return Attitude(x, y, math.cos(angle), math.sin(angle))
 
 
-@pytest.mark.parametrize("name", SCENES)
+@pytest.mark.parametrize("name", [*SCENES, *HIGHER])
 def test_what_is_stated_of_poses_is_stated_of_rates(name: str) -> None:
     """The residual once and twice derived is the row of the velocities, and what these leave over."""
     scene, chance = in_floats(name), Random(name)
     for _, fact in stated(scene):
-        arm: Any = scene.points[fact.at] if fact.at else (0.0, 0.0)
+        arms: Any = tuple(scene.points[point] if point else (0.0, 0.0) for _, point in fact.ends)
         first, second = ({link: Rate(*(chance.uniform(-1, 1) for _ in range(3))) for link in (fact.link, fact.on)}
                          for _ in range(2))
-        before, now, after = (fact.residual({link: lying(first[link], second[link], t) for link in first}, (arm, arm))
+        if isinstance(fact, Rolling):
+            first = _held_apart(fact, first, arms)
+        before, now, after = (fact.residual({link: lying(first[link], second[link], t) for link in first}, arms)
                               for t in (-STEP, 0.0, STEP))
-        velocity, acceleration = (sum(sign * a * b for link, sign in ((fact.link, 1), (fact.on, -1))
-                                      for a, b in zip(fact.weights(arm), rates[link], strict=True))
-                                  for rates in (first, second))
-        left = fact.left_over(surplus(*(Side(arm, first[link]) for link in (fact.link, fact.on))))
+        velocity, acceleration = (sum(a * b for (link, _), weights in zip(fact.ends, fact.weights(arms, math.sqrt),
+                                                                          strict=True)
+                                      for a, b in zip(weights, rates[link], strict=True)) for rates in (first, second))
+        left = fact.left_over(Sides(*(Side(arm, first[link]) for (link, _), arm in zip(fact.ends, arms, strict=True))))
         assert now == pytest.approx(0, abs=1e-15)
         assert (after - before) / (2 * STEP) == pytest.approx(velocity, abs=1e-6)
         assert (after - 2 * now + before) / STEP**2 == pytest.approx(float(acceleration - left), abs=1e-5)
+
+
+def _held_apart(fact: Rolling, rates: dict[str, Rate], arms: Any) -> dict[str, Rate]:
+    """The same rates but for the base of the second link, which keeps the distance of its centre from the first."""
+    one, other = (rates[link].at(arm) for (link, _), arm in zip(fact.ends, arms, strict=True))
+    excess = dot(fact.line, less(other, one)) / dot(fact.line, fact.line)
+    x, y, turn = rates[fact.on]
+    return rates | {fact.on: Rate(x - excess * fact.line[0], y - excess * fact.line[1], turn)}
 
 
 def passed(pair: KinematicPair, scene: Scene) -> list[list[float]]:
@@ -102,7 +115,7 @@ def test_what_is_passed_on_is_what_binds(name: str) -> None:
     for pair in scene.binding:
         link = pair.links[1] if POINT in pair.passes else pair.links[0]
         facts = [fact for fact in pair.states(scene) if fact.link == link]
-        rows = [list(fact.weights(scene.points[fact.at] if fact.at else (0, 0))) for fact in facts]
+        rows = [list(fact.weights((scene.points[fact.at] if fact.at else (0, 0),) * 2, math.sqrt)[0]) for fact in facts]
         both = passed(pair, scene)
         assert len(rows) == len(both) == pair.binds
         assert np.linalg.matrix_rank(rows) == np.linalg.matrix_rank(both) == np.linalg.matrix_rank(rows + both)
@@ -152,6 +165,7 @@ def _stated(linkage: Linkage, group: Group, bodies: dict[str, closure.Body]) -> 
 
 
 def test_every_kind_of_pair_is_in_a_scene() -> None:
-    """The packaged scenes have every kind of pair among them, so that these tests leave none out."""
-    seen = {type(pair).__module__.rsplit(".", 1)[1] for name in SCENES for pair in gp.load(name).pairs}
+    """The scenes have every kind of pair among them, so that these tests leave none out."""
+    scenes = [*map(gp.load, SCENES), *HIGHER.values()]
+    seen = {type(pair).__module__.rsplit(".", 1)[1] for scene in scenes for pair in scene.pairs}
     assert seen == {kind for kind in KINDS if kind != "pair"}

@@ -1,7 +1,8 @@
 """What a kinematic pair is: links that it joins, and what it states of their motion relative to each other.
 
-A pair states that one link turns on another in a given way, or that a point of one moves on the other with a given
-component along a direction: nothing else is ever stated of links. Each statement has three readings, written apart:
+A pair states that one link turns on another in a given way, that a point of one moves on the other with a given
+component along a direction or on an arc, or that the two roll on each other: nothing else is ever stated of links.
+Each statement has three readings, written apart:
 
 - `residual`: what it leaves in any other pose of the links, over any numbers. Mobility, structure, special geometry and
   the closure of the cycle rest on it.
@@ -13,8 +14,10 @@ A test differentiates the first and compares it with the others.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import math
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
@@ -25,6 +28,12 @@ if TYPE_CHECKING:
 FRAME = "frame"
 
 
+TOUCHING, ROLLING = "touching", "rolling"
+"""The ways in which higher pairs bind."""
+
+Root = Callable[[Any], Any]
+"""Gives the root of a squared length in the numbers at hand."""
+
 POINT, LINE, TURNING = "point", "line", "turning"
 """What a pair passes on to those who draw: the end of a point that the links share; a line along the guide on which the
 end of its point in one link's plane lies, as seen from the other; that the links turn alike."""
@@ -34,7 +43,7 @@ class Condition(NamedTuple):
     """One condition of a kinematic pair: of `link` at the joint `on`, or of the slide of `link` along the link `on`.
 
     A joint keeps its two links together in the `way` x and in the way y; a slide keeps the sliding link on the guide
-    (across) and from turning relative to it (turn).
+    (across) and from turning relative to it (turn). A contact keeps two profiles touching, a gear two links rolling.
     """
 
     link: str
@@ -43,7 +52,9 @@ class Condition(NamedTuple):
 
     @property
     def pair(self) -> str:
-        """The pair's name in results, such as `3 at B` or `3 along 2`."""
+        """The pair's name in results, such as `3 at B`, `3 along 2` or, of gears and contacts, `2 3`."""
+        if self.way in (TOUCHING, ROLLING):
+            return f"{self.link} {self.on}"
         return f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
 
 
@@ -82,24 +93,55 @@ class Side(NamedTuple):
     arm: Pair
     rate: Rate
 
+    @property
+    def velocity(self) -> Pair:
+        """The velocity of the point, or what is linear in the rates of its acceleration."""
+        return self.rate.at(self.arm)
 
-def slip(link: Side, on: Side) -> Pair:
-    """The velocity of a point of `link` relative to the coincident point of `on`, in length/s."""
-    return less(link.rate.at(link.arm), on.rate.at(on.arm))
-
-
-def surplus(link: Side, on: Side) -> Pair:
-    """What the linear part of a relative acceleration exceeds it by: centripetal and Coriolis terms, in length/s^2.
-
-    a_rel = (a + alpha x r - omega^2 r) of `link` - the same of `on` - 2 omega_on x v_rel.
-    """
-    inwards, coriolis = centripetal(link), times(2 * on.rate.turn, turned(slip(link, on)))
-    return plus(less(inwards, centripetal(on)), coriolis)
+    @property
+    def centripetal(self) -> Pair:
+        """omega^2 r."""
+        return times(self.rate.turn * self.rate.turn, self.arm)
 
 
-def centripetal(side: Side) -> Pair:
-    """omega^2 r of one link."""
-    return times(side.rate.turn * side.rate.turn, side.arm)
+@dataclass(frozen=True)
+class Sides:
+    """The two links of a statement."""
+
+    link: Side
+    on: Side
+
+    @cached_property
+    def slip(self) -> Pair:
+        """The velocity of a point of `link` relative to the coincident point of `on`, in length/s."""
+        return less(self.link.velocity, self.on.velocity)
+
+    @cached_property
+    def surplus(self) -> Pair:
+        """What the linear part of a relative acceleration exceeds it by: centripetal and Coriolis terms, in length/s^2.
+
+        a_rel = (a + alpha x r - omega^2 r) of `link` - the same of `on` - 2 omega_on x v_rel.
+        """
+        return plus(self.inwards, times(2 * self.on.rate.turn, turned(self.slip)))
+
+    @property
+    def inwards(self) -> Pair:
+        """The difference of the centripetal terms."""
+        return less(self.link.centripetal, self.on.centripetal)
+
+
+Arms = tuple[Pair, Pair]
+"""From the bases of the two links of a statement, the arms to its points."""
+
+
+def angle(x: Any, y: Any) -> Any:
+    """By how much a vector has turned that lay along x, in floats or as a power series."""
+    return x.angle(y) if hasattr(x, "angle") else math.atan2(y, x)
+
+
+def turning(link: Attitude, on: Attitude) -> Any:
+    """The angle by which a link has turned on another."""
+    return angle(link.cos * on.cos + link.sin * on.sin, link.sin * on.cos - link.cos * on.sin)
 
 
 @dataclass(frozen=True)
@@ -114,6 +156,11 @@ class Turning:
     at: ClassVar[str] = ""
 
     @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Each link, with no point."""
+        return (self.link, ""), (self.on, "")
+
+    @property
     def condition(self) -> Condition:
         """The statement by its name."""
         return Condition(self.link, self.on, self.way)
@@ -123,11 +170,11 @@ class Turning:
         link, on = pose[self.link], pose[self.on]
         return link.sin * on.cos - link.cos * on.sin
 
-    def weights(self, arm: Pair) -> Rate:
-        """How much each rate of a link counts."""
-        return Rate(0, 0, 1)
+    def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
+        """How much each rate of the links counts."""
+        return Rate(0, 0, 1), Rate(0, 0, -1)
 
-    def left_over(self, more: Pair) -> Number:
+    def left_over(self, sides: Sides) -> Number:
         """Angular accelerations add up as angular velocities do."""
         return 0
 
@@ -137,7 +184,8 @@ class Along:
     """The point `at` of `link` moves relative to `on` with a given component along `direction`, which is fixed to `on`.
 
     `rate` and `change` are the components of velocity and acceleration. A direction in which nothing moves may as well
-    be fixed to another link, `to`. A force of friction that holds the point passes it at a `lever`.
+    be fixed to another link, `to`. What the point does may hang on the turning of `link` on `on`, too, by a `lever`:
+    a wheel rolls on a straight line, a force of friction that holds the point passes it.
     """
 
     link: str
@@ -151,25 +199,123 @@ class Along:
     lever: Number = 0
 
     @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Each link with the point."""
+        return (self.link, self.at), (self.on, self.at)
+
+    @property
     def condition(self) -> Condition:
         """The statement by its name."""
         return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way)
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
-        apart = less(pose[self.link].at(arms[0]), pose[self.on].at(arms[1]))
-        return dot(pose[self.to or self.on].turned(self.direction), apart)
+        gone = dot(pose[self.to or self.on].turned(self.direction), self._apart(pose, arms))
+        return gone + self.lever * turning(pose[self.link], pose[self.on]) if self.lever else gone
 
-    def weights(self, arm: Pair) -> Rate:
-        """How much each rate of a link counts."""
-        return Rate(*self.direction, dot(self.direction, turned(arm)) + self.lever)
+    def _apart(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+        """From the place on the other link to the point."""
+        return less(pose[self.link].at(arms[0]), pose[self.on].at(arms[1]))
 
-    def left_over(self, more: Pair) -> Number:
+    def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
+        """How much each rate of the links counts."""
+        one, other = (dot(self.direction, turned(arm)) + self.lever for arm in arms)
+        (x, y) = self.direction
+        return Rate(x, y, one), Rate(-x, -y, -other)
+
+    def left_over(self, sides: Sides) -> Number:
         """What the velocities add to `change` on the right-hand side of the accelerations, from the links' surplus."""
-        return dot(self.direction, more)
+        return dot(self.direction, sides.surplus)
 
 
-Statement = Turning | Along
+@dataclass(frozen=True)
+class OnRack(Along):
+    """The point `at` of `link` moves along `direction` as far as a wheel of this `radius` about it rolls on `on`.
+
+    The wheel is on the left of its pitch line, which is fixed to `on`.
+    """
+
+    radius: Number = 0
+
+    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+        """How far the wheel's centre has gone further than the wheel has rolled."""
+        return self.levered(lambda square: square ** type(square)(0.5)).residual(pose, arms)
+
+    def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
+        """How much each rate of the links counts."""
+        return self.levered(root).weights(arms, root)
+
+    def levered(self, root: Root) -> Along:
+        """The same with its lever: the radius, as the direction has any length."""
+        return Along(self.link, self.on, self.at, self.direction, self.way,
+                     lever=self.radius * root(dot(self.direction, self.direction)))
+
+
+@dataclass(frozen=True)
+class OnArc(Along):
+    """The point `at` of `link` moves on an arc that is fixed to `on`; `direction` is from the arc's centre to it."""
+
+    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+        """Half of what the squared distance from the arc's centre has grown by."""
+        gone, radius = self._apart(pose, arms), pose[self.on].turned(self.direction)
+        return dot(radius, gone) + dot(gone, gone) / 2
+
+    def left_over(self, sides: Sides) -> Number:
+        """Besides the links' surplus the relative velocity turns with the arc: v^2/r inwards."""
+        return dot(self.direction, sides.surplus) - dot(sides.slip, sides.slip)
+
+
+@dataclass(frozen=True)
+class Rolling:
+    """Two links roll on each other as seen from the line of their centres, `at` in `link` and `far` in `on`.
+
+    k_1 (omega_link - omega_line) + k_2 (omega_on - omega_line) = 0, where `factors` are k_1 and k_2 and `line` is the
+    vector from the one centre to the other. Other pairs hold these apart.
+    """
+
+    link: str
+    on: str
+    at: str
+    far: str
+    line: Pair
+    factors: Pair
+    way: str = ROLLING
+    rate: Number = 0
+    change: Number = 0
+
+    @property
+    def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
+        """Each link with its centre."""
+        return (self.link, self.at), (self.on, self.far)
+
+    @property
+    def condition(self) -> Condition:
+        """The statement by its name."""
+        return Condition(self.link, self.on, self.way)
+
+    def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
+        """The angles by which the links have turned on the line of centres, times the factors and its squared length.
+        """
+        link, on, still = pose[self.link], pose[self.on], self.line
+        line = less(on.at(arms[1]), link.at(arms[0]))
+        whole = angle(dot(still, line), dot(turned(still), line))
+        one, other = angle(link.cos, link.sin), angle(on.cos, on.sin)
+        k1, k2 = self.factors
+        return dot(still, still) * (k1 * (one - whole) + k2 * (other - whole))
+
+    def weights(self, arms: Arms, root: Root) -> tuple[Rate, Rate]:
+        """How much each rate of the links counts: omega_line is the centres' relative velocity across the line."""
+        square, across = dot(self.line, self.line), times(self.factors[0] + self.factors[1], turned(self.line))
+        one, other = (dot(across, turned(arm)) for arm in arms)
+        return (Rate(*across, self.factors[0] * square + one), Rate(-across[0], -across[1],
+                                                                     self.factors[1] * square - other))
+
+    def left_over(self, sides: Sides) -> Number:
+        """The centripetal terms of the centres across the line: its own is along it."""
+        return dot(times(self.factors[0] + self.factors[1], turned(self.line)), sides.inwards)
+
+
+Statement = Turning | Along | Rolling
 
 
 class KinematicPair:
@@ -180,10 +326,18 @@ class KinematicPair:
     lower pairs that this has with either.
     """
 
-    letter: ClassVar[str] = ""
-    binds: ClassVar[int] = 2
     passes: ClassVar[tuple[str, ...]] = ()
     at: str
+
+    @property
+    def letter(self) -> str:
+        """What structure calls it."""
+        return ""
+
+    @property
+    def binds(self) -> int:
+        """How many freedoms it takes."""
+        return 2
 
     @property
     def links(self) -> tuple[str, ...]:

@@ -20,7 +20,7 @@ class Revolute(KinematicPair):
     A link is held along x and y, or where special geometry needs only one of both, along an axis of its own and across.
     """
 
-    letter, passes = "R", (POINT,)
+    letter, binds, passes = "R", 2, (POINT,)
     at: str
     pinned: tuple[str, ...]
     axes: Mapping[str, Any] = field(default_factory=dict, compare=False)

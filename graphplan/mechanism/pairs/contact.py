@@ -1,0 +1,169 @@
+"""Contacts: profiles of two links touch and slide on each other, or roll: cam and follower, a pin in a curved slot."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphplan.mechanism.directions import GUIDE, Written
+from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
+from graphplan.mechanism.items import Item, described
+from graphplan.mechanism.numerals import exactly
+from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, OnArc, Rolling, Statement
+from graphplan.mechanism.plane import Pair, dot, less, turned
+from graphplan.mechanism.values import FLAG, POINT, TWO_LINKS, centres_on
+from graphplan.phrases import phrase
+
+if TYPE_CHECKING:
+    from graphplan.mechanism.model import Scene
+
+NEAR = Fraction(1, 10**9)
+"""Sine of the angle by which a point may be off the normal."""
+
+
+@dataclass(frozen=True)
+class Contact(KinematicPair):
+    """Two links whose profiles touch `at` a point, which may be on no link, and slide there unless they are `rolling`.
+
+    `centres` are those of curvature of the two profiles there, points of their links; None where a profile is straight,
+    along `direction`, of any length. A profile with its centre at the very point is a corner or the end of a pin.
+    `through` and `written` are as of a slide.
+    """
+
+    symbol: ClassVar[str] = "contact"
+    sentence = phrase("Contacts: {0}.")
+    sides: tuple[str, str]
+    at: str
+    centres: tuple[str | None, str | None]
+    rolling: bool = False
+    direction: Pair | None = None
+    through: tuple[str, str] | None = None
+    written: Written = field(default=None, compare=False)
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The two links that touch."""
+        return self.sides
+
+    @property
+    def letter(self) -> str:
+        """It acts as a bar between the centres, or a block that slides on the straight profile."""
+        return "R" if self.rolling else "".join("R" if centre else "P" for centre in self.centres)
+
+    @property
+    def binds(self) -> int:
+        """Rolling takes one freedom more."""
+        return 2 if self.rolling else 1
+
+    @property
+    def name(self) -> str:
+        """The pair's name in results, such as `2 3`."""
+        return " ".join(self.sides)
+
+    @property
+    def curved(self) -> tuple[str, str, str]:
+        """A link with a centre, the other link, and that centre."""
+        first, second = self.centres
+        return (*self.sides, first) if first else (*reversed(self.sides), second or "")  # type: ignore[return-value]
+
+    def normal(self, points: Mapping[str, Any]) -> Any:
+        """A vector along the common normal: to the first centre from the second; of any length."""
+        one, other = self.centres
+        if self.direction is not None:
+            return turned(self.direction)
+        return less(points[one or ""], points[other or ""])
+
+    def states(self, scene: Scene) -> Iterator[Statement]:
+        """The one profile does not leave the other.
+
+        Parallel curves touch along the same normals and slide alike. So the motion is that of a centre of one profile
+        on a curve parallel to the other, which has its centre, too, or is straight.
+        """
+        (link, on, centre), points = self.curved, scene.points
+        normal = self.normal(points)
+        path = Along if self.direction is not None else OnArc
+        yield path(link, on, centre, normal, TOUCHING)
+        if self.rolling and self.direction is not None:
+            arm = less(points[centre], points[self.at])
+            yield Along(link, on, centre, self.direction, ROLLING, lever=-dot(self.direction, turned(arm)))
+        elif self.rolling:
+            one, other = (centre or "" for centre in self.centres)
+            k1, k2 = (dot(less(points[end], points[self.at]), normal) for end in (one, other))
+            yield Rolling(link, on, one, other, less(points[other], points[one]), (k1, -k2))
+
+
+def _profiles(item: Item, names: Names) -> tuple[Any, ...] | None:
+    """Of each profile the centre, or in its place the direction of a straight one."""
+    if not isinstance(item.value, list) or len(item.value) != 2:
+        return item.fault(f"{described(item.value)} where two centres are wanted",
+                          'two centres such as ["C2", "C3"], or a direction in the place of one')
+    found = [_centre(item.instead(one), names) for one in item.value]
+    return None if None in found else tuple(found)
+
+
+def _centre(item: Item, names: Names) -> Any:
+    """The name of a point, or a direction."""
+    if isinstance(item.value, str) and len(item.value.split()) < 2:
+        return item.name_of("point", names.points)
+    return GUIDE.read(item, names)
+
+
+PROFILES = Kind("two centres, or a direction in the place of one", _profiles,
+                {"type": "array", "minItems": 2, "maxItems": 2, "items": {"anyOf": [POINT.schema, GUIDE.schema]}})
+
+
+def _read(row: Row) -> Contact | None:
+    """A contact whose parts fit each other."""
+    links, given = row["links"], row["centres"]
+    straight = [one for one in given if not isinstance(one, str)]
+    if links[0] == links[1]:
+        return row.item.fault(f"link {links[0]} touches itself", "two different links")
+    if len(straight) > 1:
+        return row.items["centres"].fault("both profiles are straight", "[[slides]] for two lines that slide")
+    if not centres_on(row, *((given[k], link) for k, link in enumerate(links) if isinstance(given[k], str))):
+        return None
+    direction, through, written = straight[0] if straight else (None, None, None)
+    one, other = (end if isinstance(end, str) else None for end in given)
+    found = Contact(links, row["at"], (one, other), row["rolling"], direction, through, written)
+    return found if _fits(found, row) else None
+
+
+def _fits(contact: Contact, row: Row) -> bool:
+    """Whether the point and the centres are on one normal, and the curvatures differ."""
+    named = [point for point in contact.centres if point]
+    if any(point not in row.names.placed for point in (*named, contact.at, *(contact.through or ()))):
+        return True  # the point has its own fault
+    points = {name: exactly(at) for name, at in row.names.placed.items()}
+    normal = exactly(contact.normal(points))
+    item = row.items["centres"]
+    if not any(normal):
+        one = "two corners" if points[contact.at] == points[named[0]] else "two profiles that coincide"
+        item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
+        return False
+    for point in named:
+        arm = less(points[point], points[contact.at])
+        if contact.rolling and arm == (0, 0):
+            item.fault(f"{point} is the centre and the point of contact: a corner does not roll", "rolling = false")
+            return False
+        if dot(normal, turned(arm)) ** 2 > NEAR**2 * dot(normal, normal) * dot(arm, arm):
+            what = "not square to the direction" if contact.direction is not None else "not in line with the centres"
+            told = (f"{contact.at} and {point} are {what}" if contact.direction is not None
+                    else f"{contact.at} is {what} {' and '.join(named)}")
+            row.items["at"].fault(told, "a point of contact on the common normal")
+            return False
+    return True
+
+
+FIELD = Field("contacts", "two links touch and slide: cam and follower, a pin in a curved slot, a wheel on a rail",
+              Rows(Table("a contact", (
+    Field("links", "the two links", TWO_LINKS, 'the two links, such as links = ["2", "3"]'),
+    Field("at", "the point where they touch in this pose; it may be on no link", POINT,
+          'the point where they touch, such as at = "K"'),
+    Field("centres", "the centres of curvature of the two profiles, points of the links on the normal; in the place of "
+          "one the direction of a straight profile", PROFILES,
+          'the centres of curvature, such as centres = ["C2", "C3"]'),
+    Field("rolling", "whether they roll without slipping", FLAG, default=False),
+), _read), remedy="one between two links", once=lambda contact: (
+    frozenset(contact.links), "contact between links {} and {}".format(*contact.links))))

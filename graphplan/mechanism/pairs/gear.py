@@ -1,0 +1,205 @@
+"""Gears, friction wheels, racks, belts and chains: two links roll on each other without slipping, held apart by others.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from fractions import Fraction
+from typing import TYPE_CHECKING, Any, ClassVar
+
+from graphplan.mechanism.directions import GUIDE, Written
+from graphplan.mechanism.fields import Either, Field, Row, Rows, Table
+from graphplan.mechanism.numerals import exactly, is_exact, root, shown
+from graphplan.mechanism.pairs.pair import ROLLING, KinematicPair, OnRack, Rolling, Statement
+from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
+from graphplan.mechanism.values import CENTRES, DISTANCE, FLAG, RADII, TEETH, TWO_LINKS, centres_on, choice
+from graphplan.phrases import phrase
+
+if TYPE_CHECKING:
+    from graphplan.mechanism.model import Scene
+
+NEAR = Fraction(1, 10**9)
+"""Rounded lengths that differ by less than this part of the larger were meant to be equal."""
+
+
+@dataclass(frozen=True)
+class Gear(KinematicPair):
+    """Two links that roll on each other: k_1 (omega_1 - omega_a) + k_2 (omega_2 - omega_a) = 0.
+
+    omega_a is the turning of the line of `centres`, each a point of its link; `factors` are k_1 and k_2. Of outer
+    gears, friction wheels and a crossed `belt` they are the numbers of teeth or the radii; a ring, which is the second,
+    and the second pulley of an open belt have theirs negative. `teeth` and `radii` are as written, where they are.
+
+    On a rack there is one centre: a wheel of this `radius` rolls on the pitch line along `direction`, which is fixed to
+    the second link; the wheel is on the left of it.
+    """
+
+    letter, binds = "RR", 1
+    symbol: ClassVar[str] = "gear"
+    sentence = phrase("Gears: {0}.")
+    wheels: tuple[str, str]
+    centres: tuple[str, ...]
+    factors: Pair = (1, 1)
+    teeth: tuple[Fraction, ...] | None = None
+    radii: tuple[Fraction, ...] | None = None
+    internal: bool = False
+    belt: str = ""
+    radius: Number = 0
+    direction: Pair | None = None
+    through: tuple[str, str] | None = None
+    written: Written = field(default=None, compare=False)
+
+    @property
+    def links(self) -> tuple[str, str]:
+        """The two links that roll on each other."""
+        return self.wheels
+
+    @property
+    def name(self) -> str:
+        """The pair's name in results, such as `2 3`."""
+        return " ".join(self.wheels)
+
+    def states(self, scene: Scene) -> Iterator[Statement]:
+        """One link rolls on the other."""
+        if self.direction is not None:
+            yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, radius=self.radius)
+        else:
+            (one, other), line = self.centres, self.line(scene.points)
+            yield Rolling(*self.wheels, one, other, line, self.factors)
+
+    def line(self, points: Mapping[str, Any]) -> Any:
+        """The vector from the first centre to the second."""
+        return less(points[self.centres[1]], points[self.centres[0]])
+
+    def pitch_radii(self, points: Mapping[str, Any]) -> tuple[float, ...] | None:
+        """The radii of the pitch circles; None of sprockets of which only the teeth are told."""
+        if self.direction is not None:
+            return (float(self.radius),)
+        if self.radii is not None:
+            return tuple(map(float, self.radii))
+        if self.belt:
+            return None
+        line, (k1, k2) = [*map(float, self.line(points))], map(float, self.factors)
+        distance = dot((line[0], line[1]), (line[0], line[1])) ** 0.5
+        return abs(distance * k1 / (k1 + k2)), abs(distance * k2 / (k1 + k2))
+
+    def pitch_point(self, points: Mapping[str, Any]) -> Any:
+        """The relative pole: on the line of centres, of a rack the foot of the centre on its pitch line.
+
+        None of equal pulleys of an open belt, which turn alike.
+        """
+        centre: Any = points[self.centres[0]]
+        if self.direction is not None:
+            square = dot(self.direction, self.direction)
+            share = self.radius / (root(square)[0] if isinstance(square, Fraction) else square**0.5)
+            return plus(centre, times(-share, turned(self.direction)))
+        whole = self.factors[0] + self.factors[1]
+        return plus(centre, times(self.factors[0] / whole, self.line(points))) if whole else None
+
+    def scaled(self, length: Callable[[Any], Any]) -> Gear:
+        """The same in other numbers for its factors and its radius."""
+        return replace(self, factors=tuple(map(length, self.factors)), radius=length(self.radius))
+
+
+def _wheels(row: Row) -> Gear | None:
+    """Two wheels that touch, or a ring with a wheel in it, or two pulleys."""
+    row.values |= {key: row.values.get(key) for key in ("teeth", "radii")}
+    belt, internal = row.values.get("belt", ""), row.values.get("internal", False)
+    if not (_of_links(row, 2) and _ratio(row) and _laid(row, belt, internal)):
+        return None
+    one, other = row["teeth"] or row["radii"]
+    factors = (one, -other if internal or belt == "open" else other)
+    return Gear(row["links"], row["centres"], factors, row["teeth"], row["radii"], internal, belt)
+
+
+def _rack(row: Row) -> Gear | None:
+    """A gear on a rack; the direction's length stays as written."""
+    if not _of_links(row, 1):
+        return None
+    direction, through, written = row["direction"]
+    x, y = exactly(direction)
+    if is_exact(direction) and not root(x * x + y * y)[1]:
+        row.names.irrational.append(f"{row.item.where}: a rack along a direction of irrational length")
+    return Gear(row["links"], row["centres"], radius=row["radius"], direction=direction, through=through,
+                written=written)
+
+
+def _of_links(row: Row, count: int) -> bool:
+    """Whether the centres are points of two different links."""
+    links, centres = row["links"], row["centres"]
+    if links[0] == links[1]:
+        row.item.fault(f"link {links[0]} is geared with itself", "two different links")
+    elif len(centres) != count:
+        instead = "the centre of each link's pitch circle" if count == 2 else "the gear's centre alone: a rack has none"
+        row.items["centres"].fault(f"{len(centres)} centre{'s' * (len(centres) != 1)}", instead)
+    else:
+        return centres_on(row, *zip(centres, links, strict=False))
+    return False
+
+
+def _ratio(row: Row) -> bool:
+    """Whether teeth and radii, where both are given, have one ratio."""
+    teeth, radii = row["teeth"], row["radii"]
+    if teeth is None and radii is None:
+        row.item.fault("neither teeth nor radii", "teeth = [24, 36], or radii = [48, 72]")
+        return False
+    if teeth and radii and teeth[0] * radii[1] != teeth[1] * radii[0]:
+        row.items["radii"].fault("the radii {} and {} are not as the teeth {} and {}".format(
+            *map(shown, (*radii, *teeth))), "radii in the ratio of the teeth, or teeth alone")
+        return False
+    return True
+
+
+def _laid(row: Row, belt: str, internal: bool) -> bool:
+    """Whether wheels of these sizes fit between their centres."""
+    (r1, r2), key = row["radii"] or row["teeth"], "radii" if row["radii"] else "teeth"
+    if any(point not in row.names.placed for point in row["centres"]):
+        return True  # the point has its own fault
+    ends = [row.names.placed[point] for point in row["centres"]]
+    (ax, ay), (bx, by) = map(exactly, ends)
+    distance = root((bx - ax) ** 2 + (by - ay) ** 2)[0]
+    told = f"the distance {shown(float(distance))} of the centres {' and '.join(row['centres'])}"
+    if not distance:
+        return bool(row.items["centres"].fault(f"the centres {' and '.join(row['centres'])} coincide",
+                                               "centres that lie apart"))
+    if internal and r1 >= r2:
+        return bool(row.items[key].fault(f"the ring, which is the second, is no larger than the gear in it: "
+                                         f"{shown(r1)} and {shown(r2)}", "a ring that is larger"))
+    if not row["radii"]:
+        return True
+    if belt:
+        least, what = (r1 + r2, "r_1 + r_2") if belt == "crossed" else (abs(r1 - r2), "the difference of the radii")
+        return distance > least or bool(row.items["radii"].fault(
+            f"{told} is no more than {what} = {shown(least)}: the belt cannot be laid", "centres further apart"))
+    sum_, what = (r2 - r1, "difference") if internal else (r1 + r2, "sum")
+    if abs(distance - sum_) <= (0 if is_exact(*ends) and isinstance(distance, Fraction) and
+                                root((bx - ax) ** 2 + (by - ay) ** 2)[1] else NEAR * max(r1 + r2, distance)):
+        return True
+    return bool(row.items["radii"].fault(f"{told} is not the {what} {shown(sum_)} of the radii",
+                                         f"radii whose {what} is the distance, or teeth"))
+
+
+_WHEELS = (
+    Field("links", "the two links", TWO_LINKS, 'the two links, such as links = ["2", "3"]'),
+    Field("centres", "the centre of each pitch circle: a point of that link", CENTRES,
+          'the centre of each pitch circle, such as centres = ["B", "C"]'),
+    Field("teeth", "the numbers of teeth", TEETH),
+    Field("radii", "the radii of the pitch circles; of two gears their sum is the distance of the centres, of a ring "
+          "their difference", RADII),
+)
+FIELD = Field("gears", "two links that roll on each other without slipping: gears, friction wheels, racks, belts",
+              Rows(Either((Table("a pair of gears", (
+    *_WHEELS,
+    Field("internal", "whether the second is a ring and the first runs inside it", FLAG, default=False),
+), _wheels), Table("a belt or chain", (
+    *_WHEELS,
+    Field("belt", "open: the pulleys turn the same way; crossed: opposite ways", choice("open", "crossed")),
+), _wheels), Table("a gear on a rack", (
+    Field("links", "the gear and the rack", TWO_LINKS, 'the gear and the rack, such as links = ["2", "4"]'),
+    Field("centres", "the gear's centre, a point of it", CENTRES, 'the gear\'s centre, such as centres = ["B"]'),
+    Field("radius", "the radius of the pitch circle", DISTANCE, "the gear's radius, such as radius = 30"),
+    Field("direction", "the direction of the pitch line, with the gear on its left: a vector, an angle in degrees, or "
+          "two points", GUIDE, "the direction of the pitch line, such as direction = [1, 0]"),
+), _rack))), remedy="one between two links", once=lambda gear: (
+    frozenset(gear.links), "gear between links {} and {}".format(*gear.links))))

@@ -24,7 +24,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import LENGTH
+from graphplan.mechanism.units import HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
@@ -129,10 +129,10 @@ def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -
 
     A moment is no vector of a plan.
     """
-    if kind.single and not kind.turning and len(marks) > 1:
+    if (kind.single and not kind.turning and len(marks) > 1) or kind.dimension == HEADING:
         return None
     measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
-    scale = scales.of(panel) if kind.dimension == LENGTH else measures[kind.group](panel)
+    scale = scales.of(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)
     return scale / math.dist(marks[0], marks[1]) if kind.turning else scale
 
 
@@ -147,7 +147,7 @@ def largest_values(drawing: Construction, values: Sequence[Any]) -> dict[str, fl
 
 def _group(scene: Scene, kind: ResultKind) -> tuple[str, float]:
     """What a kind is seen beside, and at what arm."""
-    return "place" if kind.dimension == LENGTH else kind.group, float(kind.arm(scene.extent, scene.units))
+    return "place" if kind.dimension in (LENGTH, PLACE) else kind.group, float(kind.arm(scene.extent, scene.units))
 
 
 

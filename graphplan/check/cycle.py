@@ -13,7 +13,7 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.check.poses import Round, gaps, sound
+from graphplan.check.poses import Round, gaps, groups, sound
 from graphplan.check.trusted import construct
 from graphplan.cycle.centrodes import Centrodes, rolling
 from graphplan.cycle.curves import Curve, passed
@@ -22,7 +22,6 @@ from graphplan.errors import ConstructionError, GraphplanError, Refused, Singula
 from graphplan.mechanism.model import FRAME, Scene, Slide
 from graphplan.methods.construct import construct as unchecked
 from graphplan.methods.construction import Construction
-from graphplan.methods.kinds import FORCES, MOTION
 from graphplan.methods.panels import slide_named
 from graphplan.methods.styles import METHODS
 from graphplan.phrases import Said, said
@@ -83,9 +82,8 @@ def cycle(scene: Scene, positions: int, span: tuple[float, float] | None = None,
                               lambda part: told("positions")(round(part * positions), positions))
     turn = motion.turn(travel, machine)
     left = Round.reached(scene, turn.points, turn.guides)
-    kinds = (*MOTION, *([FORCES] if scene.loads else []))
     found = Cycle(scene, drawing, turn, drawing.blank(positions), dict(turn.faults),
-                  {kind: np.full(positions, np.nan) for kind in kinds}, centrodes=rolling(motion, travel))
+                  {kind: np.full(positions, np.nan) for kind in groups(drawing)}, centrodes=rolling(motion, travel))
     for name, other in _forms(drawing, method, plan, inertia):
         if not left.places.size:
             break

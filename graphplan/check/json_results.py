@@ -28,10 +28,17 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
         "links": _merged(found, scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
         "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
                           acceleration=kinds.SLIDE_ACCELERATION),
+        **_poles(found),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
         **_protocol(found, each),
     }
+
+
+def _poles(found: Report) -> dict[str, Any]:
+    """The instant centres, if any are asked for: each where it is, or which way it lies at infinity."""
+    poles = _merged(found, found.scene.find.poles, at=kinds.POLE, direction=kinds.POLE_HEADING)
+    return {"poles": poles} if poles else {}
 
 
 def _protocol(found: Report, each: bool) -> dict[str, Any]:

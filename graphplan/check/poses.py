@@ -72,16 +72,22 @@ def gaps(part: Round, drawing: Construction, results: Results,
     return {kind: np.concatenate([apart[kind] for apart in found]) for kind in found[0]}
 
 
+def groups(drawing: Construction) -> list[str]:
+    """What results are compared by: velocity and acceleration, kinds of places that are asked for, forces."""
+    own = [group for group, kinds in MOTION.items() if not kinds[0].place or {*kinds} & {*drawing.kinds}]
+    return [*own, *([FORCES] if drawing.scene.loads else [])]
+
+
 def _against(part: Round, drawing: Construction, ours: Results) -> dict[str, Any]:
     """The differences in one block of poses."""
     n, scene = part.places.size, part.posed
     motion = poses.solve(scene, n, sizes=True)
-    truth = by_part(motion)
+    truth = by_part(motion, ours)
     if scene.loads is not None:
         from graphplan.check.forces import force_truth
 
         truth |= force_truth(scene, ours, poses.reactions(scene, motion, n, sizes=True))
-    apart: dict[str, Any] = {kind: np.zeros(n) for kind in (*MOTION, *([FORCES] if scene.loads else []))}
+    apart: dict[str, Any] = {kind: np.zeros(n) for kind in groups(drawing)}
     least = {kind: NOTHING * size for kind, size in drawn_sizes(drawing).items()}
     for kind, named in ours.items():
         for name, value in named.items() if kind in truth else ():

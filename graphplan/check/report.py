@@ -13,8 +13,9 @@ from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, Singu
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
-from graphplan.methods.kinds import FORCES, MOTION, ORDER, kind_of
+from graphplan.methods.kinds import FORCES, MOTION, ORDER, POLE, POLES, kind_of
 from graphplan.solver import Rates, solve
+from graphplan.solver.instant_centres import relative
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Forces
@@ -40,11 +41,11 @@ class Opinion:
     def truth(self, results: Results, rounds: int = 0) -> dict[str, dict[str, Any]]:
         """What a construction's results should be that draws so many rounds of friction."""
         if self.reactions is None or self.rounds is None:
-            return by_part(self.rates)
+            return by_part(self.rates, results)
         from graphplan.check.forces import force_truth
 
         rough = self.rounds(rounds) if rounds else None
-        return by_part(self.rates) | force_truth(self.scene, results, self.reactions, rough)
+        return by_part(self.rates, results) | force_truth(self.scene, results, self.reactions, rough)
 
     @property
     def third(self) -> dict[str, dict[str, Any]]:
@@ -86,9 +87,21 @@ def opinion(scene: Scene, by: Arithmetic) -> Opinion:
     return Opinion(known, rates, smooth, lambda rounds: rubbed(smooth, rounds, certain), third)
 
 
-def by_part(rates: Rates) -> dict[str, Any]:
-    """The solver's rates, by the kinds of readings."""
-    return {part: getattr(rates, part.replace(" ", "_")) for part in ORDER}
+def by_part(rates: Rates, results: Results) -> dict[str, Any]:
+    """The solver's rates, by the kinds of readings; its places as they are asked for by results."""
+    found: dict[str, Any] = {part: getattr(rates, part.replace(" ", "_")) for part in ORDER if not part.place}
+    for part, named in results.items():
+        if kind_of(part).group == POLES:
+            found[part] = {name: _pole(rates, name, value, part == POLE) for name, value in named.items()}
+    return found
+
+
+def _pole(rates: Rates, name: str, ours: Any, near: bool) -> Any:
+    """The instant centre of two links, or the heading to it beside ours."""
+    found = relative(rates, *rates.equations.scene.link_pair(name))
+    if near:
+        return found.centre
+    return found.heading(ours if isinstance(ours, tuple) else (ours.real, ours.imag))
 
 
 # ---- the construction beside it -------------------------------------------------------------------------------------

@@ -42,7 +42,7 @@ PLAIN: dict[str, Fragment] = {
     "instrument": {"enum": sorted({op.instrument for op in TABLE.values()})},
 }
 EITHER = {"balance": "moment|force", "reaction": "joint reaction|slide reaction", "each": "positive|positive[]",
-          "verify": "one drawing|a class|a stack"}
+          "instant centre": "place|direction", "verify": "one drawing|a class|a stack"}
 
 
 def printed(command: str) -> Fragment:

@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
+from itertools import permutations
 from typing import Any
 
 from graphplan.mechanism.directions import Written
@@ -40,7 +41,8 @@ class Placement:
 @dataclass(frozen=True)
 class Find:
     """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
-    whose rates and slides whose velocities and accelerations are wanted.
+    whose rates and slides whose velocities and accelerations are wanted; pairs of links (such as `2 frame`) whose
+    instant centres are.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
     two points are asked for, and the sliding of pairs whose point is asked for.
@@ -51,6 +53,7 @@ class Find:
     reactions: tuple[str, ...] | None = None
     links: tuple[str, ...] | None = None
     slides: tuple[str, ...] | None = None
+    poles: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -224,6 +227,10 @@ class Scene:
         """The extent of the mechanism, across or upwards."""
         xs, ys = zip(*((float(x), float(y)) for x, y in self.points.values()), strict=True)
         return max(max(xs) - min(xs), max(ys) - min(ys)) or 1.0
+
+    def link_pair(self, name: str) -> tuple[str, str]:
+        """The two links that a name such as `2 frame` is made of."""
+        return next(pair for pair in permutations((*self.links, FRAME), 2) if " ".join(pair) == name)
 
     @property
     def redundant_pairs(self) -> tuple[str, ...]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
+from itertools import combinations, permutations
 from typing import Any
 
 from graphplan.mechanism import model
@@ -82,6 +83,11 @@ def _pairs(names: Names) -> Iterator[str]:
     yield from _slides(names)
 
 
+def _links(names: Names) -> tuple[str, ...]:
+    """All links, the ground last, be it a link or not."""
+    return (*names.moving, FRAME)
+
+
 _POINTS = asked("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
                 entry=POINT, wrong=_still)
 FIND = Table("what is asked for", (
@@ -93,6 +99,11 @@ FIND = Table("what is asked for", (
     Field("slides", 'the slides (such as "3 along 2") whose velocities and accelerations are asked for, or "all"; '
           "without it those whose point is asked for",
           asked("slide", '["3 along 2"]', _slides, after=("links", "slides"), wrong=_frame)),
+    Field("poles", 'the pairs of links (such as "2 frame", of link 2 relative to the frame) whose instant centres are '
+          'asked for, or "all"',
+          asked("pair of links", '["2 frame", "2 3"]', lambda names: [*map(" ".join, permutations(_links(names), 2))],
+                lambda names: tuple(map(" ".join, combinations(_links(names), 2))), many="pairs of links",
+                after=("links",)), default=[]),
     Field("reactions", 'the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
           asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
                 many="joints and slides", after=("slides", "links", "points"))),

@@ -87,7 +87,8 @@ class Construction(Recorded, Given):
     """Ordered drawing steps for a scene, and what they give.
 
     `drawn` is the program in single movements, in the form chosen for this pose. Velocities and accelerations are
-    complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn.
+    complex numbers in scene units, true and not turned. `rounds` are those of friction that are drawn,
+    `poles_by` says how instant centres are found.
     """
 
     ways: tuple[Said, ...] = ()
@@ -96,6 +97,7 @@ class Construction(Recorded, Given):
     notes: list[str] = field(default_factory=list)
     shown: tuple[ForceArrow, ...] = ()
     rounds: int = 0
+    poles_by: tuple[Said, ...] = ()
 
     def __repr__(self) -> str:
         """One line: the title, and of what can be drawn in this pose how many steps it takes, by which methods."""
@@ -198,7 +200,9 @@ class Construction(Recorded, Given):
             if any(reading.marks and reading.kind.group == kind for reading in self.readings):
                 ways: list[str] = list(dict.fromkeys([*self._loci(kind), *self.ways]))
                 found[kind] = ways or [PLAIN[self.turned, kind]]
-        return found | self._force_method()
+        if self.poles_by:
+            found[kinds.POLES] = [*self.poles_by]
+        return found | (self._force_method() if self.scene.loads else {})
 
     def _loci(self, kind: str) -> Iterator[Said]:
         """The forms in which the loci of a kind's plans are drawn, auxiliary points with their letters."""

@@ -22,6 +22,7 @@ from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
 from graphplan.methods.motion.moves import FalsePosition, Move, Pole
 from graphplan.methods.motion.plan import MotionPlan
 from graphplan.methods.motion.planner import Planner
+from graphplan.methods.motion.poles import Poles
 from graphplan.methods.motion.time_scale import apart, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
 from graphplan.methods.panels import link_named, redundancies
@@ -55,6 +56,7 @@ class Draughtsman:
         self.moves = planner.moves
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
+        self.poles_by: tuple[Said, ...] = ()
 
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
@@ -63,7 +65,18 @@ class Draughtsman:
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
         self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
         plan = self.accelerations(velocity) if self._accelerated else None
+        if self.scene.find.poles:
+            self._poles(Poles(self.board, self.scene, self.pose, velocity))
         return self.finished(velocity, plan)
+
+    def _poles(self, poles: Poles) -> None:
+        """The instant centres that are asked for."""
+        for name in self.scene.find.poles:
+            one, two = self.scene.link_pair(name)
+            found = poles.find(one, two)
+            kind = kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE
+            self.read(kind, name, *found.marks)
+        self.poles_by = tuple(poles.ways)
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
@@ -74,7 +87,7 @@ class Draughtsman:
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
-                            notes=[*redundancies(self.scene)])
+                            notes=[*redundancies(self.scene)], poles_by=self.poles_by)
 
     @property
     def _accelerated(self) -> bool:

@@ -10,23 +10,26 @@ from graphplan.mechanism.model import Balance
 from graphplan.phrases import said
 
 BY_PLANS, BY_LEVER, RUBBED = "balance", "lever", "with friction"  # how a balance is found
-FORCES = "force"  # the group of all that is no motion
+FORCES, POLES = "force", "poles"  # groups of what is no motion
 
 
 class ResultKind(str):
     """A kind of result by its public name: it knows its words, its dimension and what it is read of.
 
-    `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found.
+    `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found; `place`
+    to which group of places on the mechanism plan it belongs, if to any: as one, or as the heading to one at infinity.
     """
 
     words: str
     dimension: units.Dimension
     pair: bool
     way: str
+    place: str
 
-    def __new__(cls, words: str, dimension: units.Dimension, *, pair: bool = False, way: str = "") -> Self:
+    def __new__(cls, words: str, dimension: units.Dimension, *, pair: bool = False, way: str = "",
+                place: str = "") -> Self:
         self = super().__new__(cls, words)
-        self.words, self.dimension, self.pair, self.way = words, dimension, pair, way
+        self.words, self.dimension, self.pair, self.way, self.place = words, dimension, pair, way, place
         return self
 
     def __reduce__(self) -> tuple[Any, ...]:
@@ -34,8 +37,8 @@ class ResultKind(str):
 
     @property
     def group(self) -> str:
-        """What it counts for: velocity, acceleration or force."""
-        return {-1: VELOCITY, -2: ACCELERATION}.get(self.dimension.time, FORCES)
+        """What it counts for: velocity, acceleration, places of its kind, or force."""
+        return self.place or {-1: VELOCITY, -2: ACCELERATION}.get(self.dimension.time, FORCES)
 
     @property
     def single(self) -> bool:
@@ -49,8 +52,9 @@ class ResultKind(str):
 
     def arm(self, reach: Any, scene: units.Units) -> Any:
         """At which arm it counts among its group: turnings with what they make at the mechanism's reach, moments as
-        the forces that they are there."""
-        return reach if self.turning else units.metre(scene) / reach if self.dimension == units.MOMENT else 1
+        the forces that they are there, and headings with how far they lead."""
+        far = self.turning or self.dimension == units.HEADING
+        return reach if far else units.metre(scene) / reach if self.dimension == units.MOMENT else 1
 
 
 VELOCITY = ResultKind(said("velocity"), units.SPEED)
@@ -62,9 +66,11 @@ REACTION = ResultKind(said("reaction"), units.FORCE, pair=True)
 SLIDE_REACTION = ResultKind(said("slide reaction"), units.FORCE, pair=True)
 SLIDE_MOMENT = ResultKind(said("slide moment"), units.MOMENT, pair=True)
 SLIDE_ARM = ResultKind(said("slide arm"), units.LENGTH, pair=True)
+POLE = ResultKind(said("pole"), units.PLACE, place=POLES)
+POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES)  # of one at infinity
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
-    SLIDE_ARM,
+    SLIDE_ARM, POLE, POLE_HEADING,
     ResultKind(said("balance"), units.FORCE, way=BY_PLANS),
     ResultKind(said("balance moment"), units.MOMENT, way=BY_PLANS),
     ResultKind(said("balance with friction"), units.FORCE, way=RUBBED),
@@ -73,9 +79,11 @@ KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
 )}
 # A third opinion, which is never read off a drawing.
 POWER, POWER_MOMENT = ResultKind("power balance", units.FORCE), ResultKind("power balance moment", units.MOMENT)
-MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION)}
+MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION),
+          POLES: (POLE, POLE_HEADING)}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
-WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), "curves": said("curves")}
+WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), POLES: said("poles"),
+         "curves": said("curves")}
 
 
 def kind_of(name: str) -> ResultKind:

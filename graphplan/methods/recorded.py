@@ -8,8 +8,10 @@ from dataclasses import dataclass, fields
 from functools import cached_property
 from typing import Any, NamedTuple
 
+from graphplan.errors import Undrawable
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.program import Program, Step, evaluate
+from graphplan.kernel.primitives import meet
+from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
 from graphplan.methods.kinds import ResultKind
@@ -84,7 +86,11 @@ class Recorded:
         """What marks say, if there are any: a rate in the scene's lengths and seconds, or a force in its units."""
         if not marks:
             return prescribed(reading, marks, domain)
-        value = READERS[reading.kind.dimension](marks, domain.lift, self)
+        try:
+            value = READERS[reading.kind.dimension](marks, domain, self)
+        except Undrawable as fault:
+            step = self.program.steps[self.program.wanted[reading.marks[-1]]]
+            raise error_at(self.program, step, fault) from None
         return value + domain.lift(reading.excess) if reading.excess else value
 
     @property
@@ -113,29 +119,26 @@ class Recorded:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
 
-Lift = Callable[[Any], Any]
-
-
 def _difference(one: Any, two: Any) -> Any:
     return two[0] - one[0], two[1] - one[1]
 
 
-def _speed(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
-    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
+def _speed(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), domain.lift(drawing.tempo.unit)
     return (y * unit, -x * unit) if drawing.turned else (x * unit, y * unit)
 
 
-def _acceleration(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
-    (x, y), unit = _difference(*marks[-2:]), lift(drawing.tempo.unit)
+def _acceleration(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    (x, y), unit = _difference(*marks[-2:]), domain.lift(drawing.tempo.unit)
     return x * unit * unit, y * unit * unit
 
 
-def _turning(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
-    return _rate(marks, drawing.turned) * lift(drawing.tempo.unit)
+def _turning(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    return _rate(marks, drawing.turned) * domain.lift(drawing.tempo.unit)
 
 
-def _turning_faster(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
-    unit = lift(drawing.tempo.unit)
+def _turning_faster(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    unit = domain.lift(drawing.tempo.unit)
     return _rate(marks, False) * unit * unit
 
 
@@ -147,15 +150,15 @@ def _rate(marks: Sequence[Any], turned: bool) -> Any:
     return rate / (u[0] * u[0] + u[1] * u[1])
 
 
-def _force(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
-    (x, y), phi = _difference(*marks), lift(drawing.phi)
+def _force(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    (x, y), phi = _difference(*marks), domain.lift(drawing.phi)
     return x / phi, y / phi
 
 
-def _moment(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+def _moment(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     """Of forces, each by its point, tail and head, about the first mark."""
     pole, *rest = marks
-    phi, long = lift(drawing.phi), lift(units.metre(drawing.scene.units))
+    phi, long = domain.lift(drawing.phi), domain.lift(units.metre(drawing.scene.units))
     total = 0 * phi
     for C, tail, head in zip(*[iter(rest)] * 3, strict=True):
         arm, force = _difference(pole, C), _difference(tail, head)
@@ -163,14 +166,29 @@ def _moment(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
     return total / phi / long
 
 
-def _length(marks: Sequence[Any], lift: Lift, drawing: Recorded) -> Any:
+def _length(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     """From the slide's point to where its reaction acts, in the scene's lengths."""
     return _difference(*marks)
 
 
-READERS: dict[units.Dimension, Callable[[Sequence[Any], Lift, Recorded], Any]] = {
+def _place(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    """A marked point, or where two lines cross that nobody marks."""
+    return marks[0] if len(marks) == 1 else meet(domain, *marks)
+
+
+def _heading(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    """How a line runs, whichever way: to the right, or straight upwards; its two numbers together are one."""
+    x, y = marks[0][1], -marks[0][0]
+    size = abs(x) + abs(y)
+    right, up = domain.sign(x, size), domain.sign(y, size)
+    sense = (right + (1 - abs(right)) * up) / size
+    return x * sense, y * sense
+
+
+READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, Recorded], Any]] = {
     units.SPEED: _speed, units.ACCELERATING: _acceleration, units.TURNING: _turning,
     units.TURNING_FASTER: _turning_faster, units.FORCE: _force, units.MOMENT: _moment, units.LENGTH: _length,
+    units.PLACE: _place, units.HEADING: _heading,
 }  # fmt: skip
 
 

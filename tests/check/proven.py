@@ -16,7 +16,7 @@ def lies(found: Report, scene: Scene) -> list[str]:
 
 
 def _lies(found: Report, scene: Scene) -> Iterator[str]:
-    truth = by_part(solve(scene, exact=True))
+    truth = by_part(solve(scene, exact=True), found.results)
     if scene.loads is not None:
         from graphplan.check.forces import force_truth
 

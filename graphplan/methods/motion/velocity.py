@@ -62,6 +62,10 @@ class Velocity(MotionPlan):
             return start, self.origin(K)
         return self.moved(self.origin(A), self.origin(K), start), end
 
+    def orthogonal(self, link: str, B: str) -> Mark:
+        """The orthogonal velocity of B, a point of a link's plane, laid off at B: its end."""
+        return self._less(self.origin(B), self.end_in(link, B), B, B)
+
     def about(self, link: str, P: str, B: str) -> Mark:
         """The orthogonal velocity of B about P, points of one link, laid off at B: its end."""
         return self._less(self.end_in(link, P), self.end_in(link, B), P, B)

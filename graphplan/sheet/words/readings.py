@@ -55,7 +55,8 @@ class Readings:
     @property
     def drawn(self) -> Iterator[Reading]:
         """The readings of what is drawn and not given."""
-        return (reading for reading in self.drawing.readings if reading.given is None and reading.marks)
+        return (reading for reading in self.drawing.readings if reading.given is None and reading.marks
+                and not reading.kind.place)
 
     def measured(self, reading: Reading) -> Measured | None:
         """What is read off, unless it is nothing."""

@@ -1,7 +1,7 @@
 """Checks: what can be said against a scene only when all of it is known.
 
-Points that nothing uses, joints of a link that coincide, links that hang on nothing, and a motion that the drives
-determine twice or not at all.
+Points that nothing uses, joints of a link that coincide, links that hang on nothing, gears without an arm, and a motion
+that the drives determine twice or not at all.
 """
 
 from __future__ import annotations
@@ -13,10 +13,13 @@ from itertools import combinations, islice
 
 from graphplan.errors import by_name
 from graphplan.mechanism.bracing import Bracing, bracing
+from graphplan.mechanism.elimination import PRIME, Elimination
+from graphplan.mechanism.equations import System
 from graphplan.mechanism.items import Faults, quoted
-from graphplan.mechanism.model import FRAME, Pair, Scene
+from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Pair, Scene
 from graphplan.mechanism.numerals import exactly, is_exact
 from graphplan.mechanism.order import ordered_links
+from graphplan.mechanism.pairs.pair import TOUCHING
 from graphplan.mechanism.structure import mobility
 
 _SAME = Fraction(1, 10**12)
@@ -66,6 +69,45 @@ def check_connections(scene: Scene, faults: Faults) -> None:
             told = "hangs on neither the frame nor a given motion" if link in joined else lonely
             instead = "a point that it shares with another link, or a slide"
             faults.add(f"links.{quoted(link)}", f"link {link} {told}", instead)
+
+
+def check_gears(scene: Scene, faults: Faults) -> None:
+    """Without the gears, too, their centres are held apart, and that of a gear on a rack at its pitch line."""
+    for number, gear in enumerate(scene.gears, 1):
+        if not _held_apart(scene, gear):
+            what, instead = f"{gear.centres[0]} can leave the pitch line", "a pin, or a slide along it"
+            if gear.direction is None:
+                what = f"nothing holds the centres {' and '.join(gear.centres)} apart"
+                instead = "an arm: a link with a joint at each"
+            faults.add(f"gears.{number}.centres", what, instead)
+
+
+def _held_apart(scene: Scene, gear: Gear) -> bool:
+    """Whether the other links do what a bar between the centres would do, or a slide along a pitch line.
+
+    An arm does so in any position. What does so by special geometry alone must do so beyond its velocities.
+    """
+    from graphplan.mechanism.special import special  # few scenes need it
+
+    others = tuple(pair for pair in scene.written if not isinstance(pair, Gear | Drive))
+    centres = (gear.centres[0], gear.centres[1] if gear.direction is None else None)
+    bar = Contact(gear.links, centres[0], centres, direction=gear.direction, through=gear.through, written=gear.written)
+    free = replace(scene, written=others)
+    if gear.direction is None and _adds_nothing(free, bar):
+        return True
+    before, after = special(free), special(replace(free, written=(*others, bar)))
+    return before.freedoms == after.freedoms and after.moves
+
+
+def _adds_nothing(scene: Scene, bar: Contact) -> bool:
+    """Whether a motion of the pairs that chance gives keeps what a bar would keep, points being anywhere."""
+    system = System(scene)
+    columns = {unknown: j for j, unknown in enumerate(system.unknowns)}
+    rows = [{columns[unknown]: c for unknown, c in equation.terms.items()} for equation in system.pairs]
+    moved = Elimination(rows, len(columns), PRIME).moved
+    found = System(replace(scene, written=(bar,)))
+    terms = next(equation.terms for equation in found.pairs if equation.fact.way == TOUCHING)
+    return not sum(c * moved[columns[unknown]] for unknown, c in terms.items()) % PRIME
 
 
 def check_mobility(scene: Scene, faults: Faults) -> Scene:

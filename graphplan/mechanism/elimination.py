@@ -110,12 +110,14 @@ class Elimination:
 
     @property
     def free(self) -> frozenset[int]:
-        """The columns that the system leaves undetermined: what moves when chance moves all that no row binds."""
-        if not self._unbound:
-            return frozenset()
+        """The columns that the system leaves undetermined."""
+        return frozenset(j for j, value in enumerate(self.moved) if value)
+
+    @property
+    def moved(self) -> list[Any]:
+        """What solves the system with nothing on the right: what moves when chance moves all that no row binds."""
         chance = Random(1974)
-        moved = self._null_vector({j: chance.randrange(1, PRIME) for j in self._unbound})
-        return frozenset(j for j, value in enumerate(moved) if value)
+        return self._null_vector({j: chance.randrange(1, PRIME) for j in self._unbound})
 
     def conflict(self, right: Sequence[Number]) -> frozenset[int]:
         """The rows that contradict each other with this right-hand side."""

@@ -246,7 +246,7 @@ class Scene:
         found = {condition.pair for condition in self.repeating}
         joints = (f"{link} at {joint.at}" for joint in self.revolutes for link in joint.links[1:]
                   if not found.isdisjoint(f"{k} at {joint.at}" for k in (joint.links if link == FRAME else (link,))))
-        return (*joints, *(slide.name for slide in self.slides if slide.name in found))
+        return (*joints, *(pair.name for pair in self.guided if pair.name in found))
 
     @cached_property
     def links_of(self) -> dict[str, tuple[str, ...]]:

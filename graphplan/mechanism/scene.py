@@ -12,13 +12,21 @@ from fractions import Fraction
 
 from graphplan.errors import Fault, SceneError
 from graphplan.mechanism import sections
-from graphplan.mechanism.checks import check_connections, check_joints, check_loads, check_mobility, check_use
+from graphplan.mechanism.checks import (
+    check_connections,
+    check_gears,
+    check_joints,
+    check_loads,
+    check_mobility,
+    check_use,
+)
 from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
 from graphplan.mechanism.model import Find, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
+from graphplan.mechanism.pairs.contact import told_apart
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
 from graphplan.mechanism.values import TEXT, VECTOR
@@ -149,7 +157,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:
-            names.pairs += read.get(key, ())
+            names.pairs = told_apart((*names.pairs, *read.get(key, ())))
     scene = Scene(
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
@@ -198,9 +206,11 @@ def _checked(scene: Scene, placed: dict[str, Pair], faults: Faults) -> Scene:
         faults.add("links", "no link moves", 'a link besides the frame, such as 1 = "O A"')
     elif faults.none_in("links", *PAIR_KEYS, "motion"):
         check_connections(scene, faults)
-        if faults.none_in("links"):
+        if faults.none_in("links") and scene.gears and faults.none_in("points"):
+            check_gears(scene, faults)
+        if faults.none_in("links", "gears"):
             scene = check_mobility(scene, faults)
-        if faults.none_in("links", "drive", *sections.LOADS):
+        if faults.none_in("links", "gears", "drive", *sections.LOADS):
             check_loads(scene, faults)
     check_joints(scene, placed, faults)
     return scene

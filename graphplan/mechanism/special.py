@@ -63,17 +63,17 @@ def special(scene: Scene) -> Special:
 def _in_order(scene: Scene, equations: Iterable[Equation]) -> list[Equation]:
     """The order in which conditions are taken in: of those that repeat each other the last is called redundant.
 
-    Driven links come first, joints before slides, then links with many pairs; of one link its pairs with the frame.
+    Driven links come first, joints before other pairs, links with many pairs; of one link its pairs with the frame.
     Nothing depends on the order in which the scene is written.
     """
     driven = {link for drive in scene.drives for link in drive.links} - {FRAME}
     fixed = {FRAME, *scene.links.get(FRAME, ())}
     pairs = Counter(link for pair in scene.binding for link in pair.links)
 
-    def rank(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str]:
-        link, on, way = equation.fact.condition
-        return (link not in driven, way in ("across", "turn"), -pairs[link], by_name(link), on not in fixed,
-                by_name(on), way)
+    def rank(equation: Equation) -> tuple[bool, bool, int, Key, bool, Key, str, str]:
+        link, on, way, name = equation.fact.condition
+        return (link not in driven, way not in ("x", "y"), -pairs[link], by_name(link), on not in fixed, by_name(on),
+                way, name)
 
     return sorted(equations, key=rank)
 

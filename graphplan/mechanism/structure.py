@@ -157,6 +157,7 @@ class _Surroundings:
             for link in pair.links:
                 self.pairs[link].append(pair)
         self.dropped = Counter((condition.link, condition.on) for condition in scene.redundant)
+        self.lost = Counter(condition.pair for condition in scene.redundant)
         self.first = {point: min((stage[link] for link in links if link != FRAME and self._held(link, point)),
                                  default=-1) for point, links in scene.links_of.items()}
 
@@ -201,7 +202,7 @@ class _Surroundings:
             bodies = tuple(dict.fromkeys(body[link] for link in pair.links if link in body))
             within_one_body = len(bodies) == 1 and all(link in body for link in pair.links)
             before = all(link == FRAME or self.stage[link] <= now for link in pair.links)
-            kept = isinstance(pair, Drive) or self.dropped[pair.links[0], pair.links[1]] < pair.binds
+            kept = self.lost[getattr(pair, "name", "")] < pair.binds
             if not (pair.letter and kept and before) or within_one_body:
                 continue
             if len(pair.letter) == 1:

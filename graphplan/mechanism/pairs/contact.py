@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -11,7 +12,7 @@ from graphplan.mechanism.directions import GUIDE, Written
 from graphplan.mechanism.fields import Field, Kind, Names, Row, Rows, Table
 from graphplan.mechanism.items import Item, described
 from graphplan.mechanism.numerals import exactly
-from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, OnArc, Rolling, Statement
+from graphplan.mechanism.pairs.pair import ROLLING, TOUCHING, Along, KinematicPair, Rolling, Statement, Touching
 from graphplan.mechanism.plane import Pair, dot, less, turned
 from graphplan.mechanism.values import FLAG, POINT, TWO_LINKS, centres_on
 from graphplan.phrases import phrase
@@ -29,7 +30,7 @@ class Contact(KinematicPair):
 
     `centres` are those of curvature of the two profiles there, points of their links; None where a profile is straight,
     along `direction`, of any length. A profile with its centre at the very point is a corner or the end of a pin.
-    `through` and `written` are as of a slide.
+    `through` and `written` are as of a slide. It is `alone` where its links touch nowhere else.
     """
 
     symbol: ClassVar[str] = "contact"
@@ -41,6 +42,7 @@ class Contact(KinematicPair):
     direction: Pair | None = None
     through: tuple[str, str] | None = None
     written: Written = field(default=None, compare=False)
+    alone: bool = True
 
     @property
     def links(self) -> tuple[str, str]:
@@ -59,8 +61,8 @@ class Contact(KinematicPair):
 
     @property
     def name(self) -> str:
-        """The pair's name in results, such as `2 3`."""
-        return " ".join(self.sides)
+        """The pair's name in results, such as `2 3`, or where its links touch elsewhere, too, `2 3 at K`."""
+        return " ".join(self.sides) + ("" if self.alone else f" at {self.at}")
 
     @property
     def curved(self) -> tuple[str, str, str]:
@@ -76,22 +78,24 @@ class Contact(KinematicPair):
         return less(points[one or ""], points[other or ""])
 
     def states(self, scene: Scene) -> Iterator[Statement]:
-        """The one profile does not leave the other.
-
-        Parallel curves touch along the same normals and slide alike. So the motion is that of a centre of one profile
-        on a curve parallel to the other, which has its centre, too, or is straight.
-        """
+        """The one profile does not leave the other, nor slips on it where they roll."""
         (link, on, centre), points = self.curved, scene.points
-        normal = self.normal(points)
-        path = Along if self.direction is not None else OnArc
-        yield path(link, on, centre, normal, TOUCHING)
+        normal, arm, straight = self.normal(points), less(points[centre], points[self.at]), self.direction is not None
+        yield Touching(link, on, centre, normal, TOUCHING, name=self.name, arm=arm, straight=straight)
         if self.rolling and self.direction is not None:
-            arm = less(points[centre], points[self.at])
-            yield Along(link, on, centre, self.direction, ROLLING, lever=-dot(self.direction, turned(arm)))
+            lever = -dot(self.direction, turned(arm))
+            yield Along(link, on, centre, self.direction, ROLLING, lever=lever, name=self.name)
         elif self.rolling:
             one, other = (centre or "" for centre in self.centres)
             k1, k2 = (dot(less(points[end], points[self.at]), normal) for end in (one, other))
-            yield Rolling(link, on, one, other, less(points[other], points[one]), (k1, -k2))
+            yield Rolling(link, on, one, other, less(points[other], points[one]), (k1, -k2), self.name)
+
+
+def told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
+    """The pairs, with contacts of the same two links named by where these touch."""
+    touching = Counter(frozenset(pair.links) for pair in pairs if isinstance(pair, Contact))
+    return tuple(replace(pair, alone=touching[frozenset(pair.links)] < 2) if isinstance(pair, Contact) else pair
+                 for pair in pairs)
 
 
 def _profiles(item: Item, names: Names) -> tuple[Any, ...] | None:
@@ -165,5 +169,5 @@ FIELD = Field("contacts", "two links touch and slide: cam and follower, a pin in
           "one the direction of a straight profile", PROFILES,
           'the centres of curvature, such as centres = ["C2", "C3"]'),
     Field("rolling", "whether they roll without slipping", FLAG, default=False),
-), _read), remedy="one between two links", once=lambda contact: (
-    frozenset(contact.links), "contact between links {} and {}".format(*contact.links))))
+), _read), remedy="one where two links touch", once=lambda contact: (
+    (frozenset(contact.links), contact.at), "contact of links {} and {} at {}".format(*contact.links, contact.at))))

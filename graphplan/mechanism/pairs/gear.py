@@ -63,10 +63,10 @@ class Gear(KinematicPair):
     def states(self, scene: Scene) -> Iterator[Statement]:
         """One link rolls on the other."""
         if self.direction is not None:
-            yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, radius=self.radius)
+            yield OnRack(*self.wheels, self.centres[0], self.direction, ROLLING, name=self.name, radius=self.radius)
         else:
             (one, other), line = self.centres, self.line(scene.points)
-            yield Rolling(*self.wheels, one, other, line, self.factors)
+            yield Rolling(*self.wheels, one, other, line, self.factors, self.name)
 
     def line(self, points: Mapping[str, Any]) -> Any:
         """The vector from the first centre to the second."""

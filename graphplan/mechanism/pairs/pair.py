@@ -17,9 +17,11 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from fractions import Fraction
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, ClassVar, NamedTuple
 
+from graphplan.mechanism.numerals import is_exact
 from graphplan.mechanism.plane import Number, Pair, dot, less, plus, times, turned
 
 if TYPE_CHECKING:
@@ -43,19 +45,19 @@ class Condition(NamedTuple):
     """One condition of a kinematic pair: of `link` at the joint `on`, or of the slide of `link` along the link `on`.
 
     A joint keeps its two links together in the `way` x and in the way y; a slide keeps the sliding link on the guide
-    (across) and from turning relative to it (turn). A contact keeps two profiles touching, a gear two links rolling.
+    (across) and from turning relative to it (turn). A contact keeps two profiles touching, a gear two links rolling:
+    such a pair has its own `name`.
     """
 
     link: str
     on: str
     way: str
+    name: str = ""
 
     @property
     def pair(self) -> str:
         """The pair's name in results, such as `3 at B`, `3 along 2` or, of gears and contacts, `2 3`."""
-        if self.way in (TOUCHING, ROLLING):
-            return f"{self.link} {self.on}"
-        return f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
+        return self.name or f"{self.link} {'at' if self.way in ('x', 'y') else 'along'} {self.on}"
 
 
 class Attitude(NamedTuple):
@@ -197,6 +199,7 @@ class Along:
     change: Number = 0
     to: str = ""
     lever: Number = 0
+    name: str = ""
 
     @property
     def ends(self) -> tuple[tuple[str, str], tuple[str, str]]:
@@ -206,7 +209,7 @@ class Along:
     @property
     def condition(self) -> Condition:
         """The statement by its name."""
-        return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way)
+        return Condition(self.link, self.at if self.way in ("x", "y") else self.on, self.way, self.name)
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """How far the point has gone from its place on the other link, of which `arms` are its places in the two."""
@@ -252,17 +255,45 @@ class OnRack(Along):
 
 
 @dataclass(frozen=True)
-class OnArc(Along):
-    """The point `at` of `link` moves on an arc that is fixed to `on`; `direction` is from the arc's centre to it."""
+class Touching(Along):
+    """Two profiles touch on the normal through the point `at`, which is the centre of curvature of that of `link`.
+
+    `direction` is along the normal: from the centre of the other profile, or across this where it is `straight`. `arm`
+    is the vector from where they touch to `at`.
+    """
+
+    arm: Pair = (0, 0)
+    straight: bool = False
+
+    @property
+    def share(self) -> Number:
+        """The arm as a part of the direction.
+
+        Parallel curves touch alike, so that where it is irrational any number near it will do.
+        """
+        share = dot(self.arm, self.direction) / dot(self.direction, self.direction)
+        return Fraction(share) if isinstance(share, float) and is_exact(self.direction) else share
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
-        """Half of what the squared distance from the arc's centre has grown by."""
+        """How far the centre has left the curve parallel to the other profile: a line, or half of what the squared
+        distance from its centre has grown by."""
         gone, radius = self._apart(pose, arms), pose[self.on].turned(self.direction)
-        return dot(radius, gone) + dot(gone, gone) / 2
+        return dot(radius, gone) if self.straight else dot(radius, gone) + dot(gone, gone) / 2
 
     def left_over(self, sides: Sides) -> Number:
-        """Besides the links' surplus the relative velocity turns with the arc: v^2/r inwards."""
-        return dot(self.direction, sides.surplus) - dot(sides.slip, sides.slip)
+        """From n (v_1 - v_2) = 0 where they touch, derived once more as that point runs along both profiles.
+
+        With u_1 and u_2 its speeds along them: u_1 - u_2 is what slides, and both normals are one and turn alike,
+        omega_1 + u_1 / rho_1 = omega_2 + u_2 / rho_2. Lengths along the tangent count as parts of that of `direction`.
+        """
+        normal, to = self.direction, times(-self.share, self.direction)
+        square = dot(normal, normal)
+        here = Sides(*(Side(plus(side.arm, to), side.rate) for side in (sides.link, sides.on)))
+        one, other = here.link.rate.turn, here.on.rate.turn
+        slides = dot(turned(normal), here.slip) / square
+        turns = other if self.straight else slides + self.share * one + (1 - self.share) * other
+        along = self.share * (turns - one)
+        return dot(normal, here.inwards) + square * (other * (along - slides) - one * along - turns * slides)
 
 
 @dataclass(frozen=True)
@@ -279,6 +310,7 @@ class Rolling:
     far: str
     line: Pair
     factors: Pair
+    name: str
     way: str = ROLLING
     rate: Number = 0
     change: Number = 0
@@ -291,7 +323,7 @@ class Rolling:
     @property
     def condition(self) -> Condition:
         """The statement by its name."""
-        return Condition(self.link, self.on, self.way)
+        return Condition(self.link, self.on, self.way, self.name)
 
     def residual(self, pose: dict[str, Attitude], arms: tuple[Any, Any]) -> Any:
         """The angles by which the links have turned on the line of centres, times the factors and its squared length.

@@ -7,10 +7,10 @@ from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 
-from graphplan.mechanism.model import FRAME, Drive, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Run, sentence_runs
-from graphplan.sheet.plates import clip, symbols
+from graphplan.sheet.plates import clip, higher_pairs, symbols
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit
 from graphplan.sheet.plates.view import View
@@ -79,6 +79,11 @@ class DrawnMechanism:
         return [link for link in self.scene.moving if self.links is None or link in self.links]
 
     @property
+    def _shown_links(self) -> frozenset[str]:
+        """The links that are shown, and the frame."""
+        return frozenset((*self._moving, FRAME))
+
+    @property
     def _slides(self) -> list[Slide]:
         """The sliding pairs that are shown."""
         return [one for one in self.scene.slides if not {one.link, one.along}.isdisjoint(self._moving)]
@@ -96,8 +101,11 @@ class DrawnMechanism:
         for slide in self._slides:
             if FRAME in (slide.along, slide.link):
                 yield self._guide(slide)
+        yield from self._wheels()
         for link in self._moving:
             yield from self._link(link)
+        for contact in self.scene.contacts:
+            yield from self._profiles(contact)
         for slide in self._slides:
             block = symbols.PAIRS[slide.symbol](self.seat(slide), self.along(slide))
             yield Figure((block,), (self._seat(slide),), slide=slide)
@@ -165,11 +173,67 @@ class DrawnMechanism:
             return -1.0 if lean > 0 else 1.0
         return -1.0 if along[0] > 0 or (along[0] == 0 and along[1] < 0) else 1.0
 
+    # ---- higher pairs ----------------------------------------------------------------------------------------------
+
+    def _wheels(self) -> Iterator[Figure]:
+        """The pitch circles, each once, the pitch lines of racks, and belts."""
+        for (link, centre, radius), gears in higher_pairs.wheels(self.scene).items():
+            if link in self._shown_links:
+                middle, r = self.spots[centre], radius * self.view.scale
+                yield Figure((higher_pairs.wheel(middle, r),), (centre,), "" if link == FRAME else link)
+                fringes = (self._fringe(self.scene.gears[i], middle, r) for i in gears if link == FRAME)
+                yield from (Figure(tuple(items), (centre,)) for items in fringes)
+        for gear in self.scene.gears:
+            if not self._shown_links.isdisjoint(gear.links):
+                yield from self._rack_or_belt(gear)
+
+    def _fringe(self, gear: Gear, middle: Spot, radius: float) -> Iterator[Item]:
+        """What says that a wheel on the frame stands still, where it is rolled on; a ring has it outside."""
+        pole = gear.pitch_point(self.scene.points)
+        if pole is None or gear.belt:
+            return iter(())
+        outwards = 1.0 if gear.internal and gear.links[1] == FRAME else -1.0
+        return higher_pairs.fringe(middle, radius, self.view((float(pole[0]), float(pole[1]))), outwards)
+
+    def _rack_or_belt(self, gear: Gear) -> Iterator[Figure]:
+        points = self.scene.points
+        if gear.direction is not None:
+            x, y = gear.pitch_point(points)
+            at, link = self.view((float(x), float(y))), gear.links[1]
+            items = higher_pairs.rack(at, self.along(gear), self._nearest(link, at))
+            yield Figure(tuple(items), self.scene.links[link] or gear.centres, "" if link == FRAME else link)
+        elif gear.belt and (radii := gear.pitch_radii(points)):
+            one, other = (self.spots[centre] for centre in gear.centres)
+            r, s = (radius * self.view.scale for radius in radii)
+            yield Figure(tuple(higher_pairs.belt(one, r, other, s, gear.belt == "crossed")), gear.centres)
+
+    def _profiles(self, contact: Contact) -> Iterator[Figure]:
+        """Both profiles of a contact, each with its link."""
+        at, along = self.spots[contact.at], self.along(contact)
+        for link, centre in zip(contact.links, contact.centres, strict=True):
+            if link not in self._shown_links:
+                continue
+            names, rides, seat = self.scene.links[link], "" if link == FRAME else link, self._nearest(link, at)
+            if centre:
+                disc = bool(higher_pairs.disc(self.scene, contact, centre))
+                items = higher_pairs.profile(at, self.spots[centre], disc and centre in self.scene.joints, disc)
+                yield Figure(tuple(items), (centre,), rides)
+            elif seat is not None:
+                yield Figure(tuple(higher_pairs.face(at, along, seat)), names, rides)
+            else:
+                side = -1.0 if turn(at, off(at, along, 1.0), self.spots[contact.curved[2]]) > 0 else 1.0
+                yield Figure(tuple(higher_pairs.rail(at, along, side)), names or (contact.at,))
+
+    def _nearest(self, link: str, at: Spot) -> Spot | None:
+        """The place of a link's point that is nearest to a spot; none of the frame's."""
+        spots = [] if link == FRAME else self._distinct(link)
+        return min(spots, key=lambda spot: (math.dist(spot, at), spot), default=None)
+
     # ---- links -----------------------------------------------------------------------------------------------------
 
-    def along(self, slide: Slide) -> Vector:
-        """The direction of a slide's guide."""
-        x, y = (float(part) for part in slide.direction)
+    def along(self, pair: Slide | Gear | Contact) -> Vector:
+        """The direction of a slide's guide, of a rack's pitch line or of a straight profile."""
+        x, y = (float(part) for part in pair.direction or (1, 0))
         return unit((0.0, 0.0), (x, y))
 
     def seat(self, slide: Slide) -> Spot:

@@ -16,6 +16,7 @@ from graphplan.kernel.program import Panel, Step, plan_of
 from graphplan.methods.construction import Construction, DrawnVector
 from graphplan.methods.panels import MECHANISM, ForcePlan, LeverPlan
 from graphplan.sheet.plates.display import Rect, Spot
+from graphplan.sheet.plates.higher_pairs import reach
 from graphplan.sheet.plates.pens import FORCES
 from graphplan.sheet.plates.symbols import off, turn
 from graphplan.sheet.plates.traced_motion import TracedMotion
@@ -154,7 +155,8 @@ class Plans:
         """How large a plan is: the mechanism and the vectors are its core, auxiliary marks come if they may."""
         ends = [self.spot(i) for i in self.ends(panel)]
         marks = [self.spot(i) for i in self.points(panel)]
-        core = ends + [self.place(p) for p in self.drawing.scene.points] if panel == MECHANISM else ends or marks
+        scene = self.drawing.scene
+        core = [*ends, *map(self.place, scene.points), *reach(scene)] if panel == MECHANISM else ends or marks
         box = around([spot for spot in core if all(map(math.isfinite, spot))] or [(0.0, 0.0)])
         nice, tiny = list(self.apexes(panel).values()), NOTHING * float(self.drawing.scene.extent)
         if max(box.width, box.height) < tiny:

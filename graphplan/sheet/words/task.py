@@ -8,7 +8,7 @@ from functools import partial
 from typing import Any
 
 from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
-from graphplan.mechanism.model import Balance, Loads, Pair, Scene
+from graphplan.mechanism.model import Balance, Contact, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
 from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
 from graphplan.methods.panels import JointForce, link_named, listed, slide_named
@@ -135,9 +135,34 @@ def data(scene: Scene) -> Iterator[Said]:
     for kind in dict.fromkeys(type(slide) for slide in scene.slides):
         yield kind.sentence(joined(joined((slide_named(slide), said("at {0}", slide.at)), " ")
                                    for slide in scene.slides if type(slide) is kind))
+    if scene.gears:
+        yield Gear.sentence(joined(map(_geared, scene.gears), "; "))
+    if scene.contacts:
+        yield Contact.sentence(joined(map(_touching, scene.contacts), "; "))
     yield from _motion(scene)
     if scene.loads:
         yield from _loads(scene, scene.loads)
+
+
+def _geared(gear: Gear) -> Said:
+    """Two links that roll on each other: about which centres, and by what sizes."""
+    if gear.direction is not None:
+        return said("{0} about {1} on {2} as a rack, r = {3}", link_named(gear.links[0]), gear.centres[0],
+                    link_named(gear.links[1]), _figure(gear.radius))
+    sizes = phrase("{0} : {1} teeth") if gear.teeth else phrase("radii {0} and {1}")
+    form = {(False, "open"): [said("open belt")], (False, "crossed"): [said("crossed belt")],
+            (True, ""): [said("the second a ring")]}.get((gear.internal, gear.belt), [])
+    return joined((said("{0} about {1} and {2} about {3}", link_named(gear.links[0]), gear.centres[0],
+                        link_named(gear.links[1]), gear.centres[1]),
+                   sizes(*map(_figure, gear.teeth or gear.radii or ())), *form))
+
+
+def _touching(contact: Contact) -> Said:
+    """Two links that touch: where, and how each is curved there."""
+    told = [said("{0} with the centre of curvature {1}", link_named(link), centre) if centre
+            else said("{0} straight along {1}", link_named(link), _pair(contact.direction or (0, 0)))
+            for link, centre in zip(contact.links, contact.centres, strict=True)]
+    return joined((said("at {0}", contact.at), *told, *([said("without slipping")] if contact.rolling else [])))
 
 
 def _motion(scene: Scene) -> Iterator[Said]:

@@ -1,0 +1,50 @@
+"""Gears and contacts on the sheet: what their symbols are, and what a task says of them."""
+
+from __future__ import annotations
+
+import math
+
+import pytest
+
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Polyline, Rect
+from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
+from graphplan.sheet.plates.higher_pairs import belt, reach, wheels
+from graphplan.sheet.plates.view import View
+from graphplan.sheet.words.task import data
+from tests.mechanism.higher import scenes
+
+EVERYWHERE = Rect(-math.inf, -math.inf, math.inf, math.inf)
+SCENES = scenes()
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_every_pitch_circle_and_profile_is_drawn_once(name: str) -> None:
+    """Every wheel has its pitch circle, every contact its two profiles, and all reach no further than is said."""
+    scene = SCENES[name]
+    items = [*DrawnMechanism(scene, View(EVERYWHERE, 1.0, (0.0, 0.0))).items()]
+    circles = [item for item in items if isinstance(item, Arc) and item.pen == pens.WHEEL]
+    assert len(circles) == len(wheels(scene))
+    profiles = [item for item in items if item.pen == pens.PROFILE or (item.pen == pens.GROUND and scene.contacts)]
+    assert len(profiles) >= 2 * len(scene.contacts)
+    corners = [*reach(scene)]
+    for arc in circles:
+        assert (arc.centre[0] - arc.radius, arc.centre[1] - arc.radius) in [pytest.approx(one) for one in corners]
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_a_task_names_every_gear_and_contact(name: str) -> None:
+    """The sentences of what is given speak of each gear's centres and of each contact's point."""
+    scene, told = SCENES[name], " ".join(data(SCENES[name]))
+    assert all(f"about {centre}" in told for gear in scene.gears for centre in gear.centres)
+    assert all(f"at {contact.at}" in told for contact in scene.contacts)
+
+
+def test_a_belt_touches_both_pulleys() -> None:
+    """The straight parts of a belt are square to the radii where they end."""
+    for crossed in (False, True):
+        parts = [item for item in belt((0.0, 0.0), 5.0, (30.0, 10.0), 12.0, crossed) if isinstance(item, Polyline)]
+        assert len(parts) == 2
+        for (x, y), (u, v) in (part.spots for part in parts):
+            assert (math.hypot(x, y), math.dist((u, v), (30, 10))) == pytest.approx((5.0, 12.0))
+            assert (u - x) * x + (v - y) * y == pytest.approx(0, abs=1e-9)

@@ -54,8 +54,10 @@ def shortcuts(drawing: Construction) -> list[Shortcuts]:
 
 
 def _at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
-    """The link whose loci this step carries together, if one of its three points halves the other two."""
+    """The link whose loci this step carries together, if one of its three points halves the other two, whose loci meet.
+    """
     steps, values = drawing.program.steps, drawing.truth
+    asked = {reading.of for reading in drawing.readings if reading.kind == "acceleration"}
     for step in steps:
         if step.op.movement is Movement.MET and carry.index in step.args:
             A, alpha, B, beta, C = carry.args
@@ -64,8 +66,10 @@ def _at(drawing: Construction, carry: Step) -> Iterator[Shortcuts]:
             for middle in three:
                 one, two = (other for other in three if other is not middle)
                 halves = (complex(*values[one[0]]) + complex(*values[two[0]])) / 2
-                if abs(halves - complex(*values[middle[0]])) < 1e-9 * abs(halves):
-                    yield _cost(drawing, steps[middle[0]].name, values[middle[1]], values[one[1]], values[two[1]])
+                beta, gamma, name = values[one[1]], values[two[1]], steps[middle[0]].name
+                near = abs(halves - complex(*values[middle[0]])) < 1e-9 * abs(halves)
+                if near and name in asked and _sine(beta, gamma):
+                    yield _cost(drawing, name, values[middle[1]], beta, gamma)
 
 
 def _cost(drawing: Construction, name: str, alpha: Line, beta: Line, gamma: Line) -> Shortcuts:
@@ -87,8 +91,13 @@ def _through(point: complex, way: complex) -> Line:
 
 
 def _meet(k: Line, l: Line) -> complex:
-    w = k[0] * l[1] - l[0] * k[1]
+    w = _sine(k, l)
     return complex((k[1] * l[2] - l[1] * k[2]) / w, (k[2] * l[0] - l[2] * k[0]) / w)
+
+
+def _sine(k: Line, l: Line) -> float:
+    """Twice the area between the normals of two lines: nothing where they are parallel."""
+    return k[0] * l[1] - l[0] * k[1]
 
 
 def _angle(one: complex, two: complex) -> float:

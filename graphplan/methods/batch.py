@@ -13,6 +13,7 @@ from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
+from graphplan.mechanism.replaced import guides as straight_guides
 from graphplan.methods.executors import crew
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
@@ -171,10 +172,10 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
     for name in arrays:
         if name not in scene.points:
             raise Refused(f"point {name}", "the scene has no such point", f"one of {', '.join(scene.points)}")
-    slides = {slide.name: slide for slide in scene.slides}
+    slides = straight_guides(scene)
     for name in directions:
         if name not in slides or slides[name].through or slides[name].along == FRAME:
-            free = [s.name for s in slides.values() if s.through is None and s.along != FRAME]
+            free = [n for n, s in slides.items() if s.through is None and s.along != FRAME]
             raise Refused(f"guide {name}", "no guide on a moving link has its direction given under this name",
                           f"one of {', '.join(free)}" if free else "points alone: they turn every guide here")
     shapes = {array.shape for array in (*arrays.values(), *directions.values())} or {(1,)}

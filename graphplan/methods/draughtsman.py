@@ -7,7 +7,8 @@ its turning from another; one that such pairs tie to the frame has what the driv
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from functools import partial
+from contextlib import suppress
+from functools import cached_property, partial
 from itertools import combinations
 from typing import NamedTuple
 
@@ -16,6 +17,7 @@ from graphplan.kernel.passes import freeze, needed_steps
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Pair, Scene
 from graphplan.mechanism.order import by_name, ordered_points
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods import kinds
 from graphplan.methods.construction import Construction
 from graphplan.methods.motion.acceleration import Normal, PolarAcceleration
@@ -51,7 +53,7 @@ class Draughtsman:
         self.scene, self.net, self.polar = scene, planner.net, style.polar
         self.board = Board()
         self.net.relied.clear()
-        self.pose = Pose(self.board, scene, self.net.shared)
+        self.pose = Pose(self.board, self.net.scene, self.net.shared)
         self.tempo = tempo(scene)
         self.moves = planner.moves
         self.marks: list[Mark] = []
@@ -60,7 +62,7 @@ class Draughtsman:
 
     def draw(self) -> Construction:
         velocity = (Polar if self.polar else Orthogonal)(self.board, self.net, self.pose, self.tempo)
-        velocity.draw(self.moves)
+        velocity.draw(self._common or self.moves)
         self._points(velocity, kinds.VELOCITY, self.scene.find.velocity)
         self._links(velocity, kinds.OMEGA, self.scene.find.velocity)
         self._slides(velocity, kinds.SLIDE_VELOCITY, self.scene.find.velocity)
@@ -77,6 +79,15 @@ class Draughtsman:
             kind = kinds.POLE_HEADING if poles.at_infinity(one, two) else kinds.POLE
             self.read(kind, name, *found.marks)
         self.poles_by = tuple(poles.ways)
+
+    @cached_property
+    def _common(self) -> list[Move]:
+        """Moves of velocities alone: links that roll on each other share the end of their pitch point. Nothing where no
+        links roll, or where not all is found without trials."""
+        if any(isinstance(slide, RollingGuide) for slide in self.net.slides):
+            with suppress(Refused):
+                return Planner(self.net, common=True).plan()
+        return []
 
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
@@ -176,7 +187,7 @@ class Draughtsman:
         names = self.scene.find.slides
         prescribed = {drive.links: drive for drive in self.scene.drives if drive.slides}
         for slide in self.net.all_slides:
-            if not (slide.at in asked if names is None else slide.name in names):
+            if slide not in self.scene.slides or not (slide.at in asked if names is None else slide.name in names):
                 continue
             with self.board.on(stage=partial(plan.stages.slid, slide)):
                 begin = plan.end_in(slide.along, slide.at)

@@ -8,7 +8,9 @@ from collections.abc import Mapping, MutableMapping
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import by_name, ordered_points
+from graphplan.mechanism.replaced import RollingGuide, rolling_guides
 from graphplan.methods.motion.network import BodyPoint
+from graphplan.methods.motion.stages import divided, pitch_point
 from graphplan.methods.panels import MECHANISM
 
 
@@ -23,11 +25,15 @@ class Pose:
     def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str]):
         self.board, self.scene = board, scene
         with board.on(MECHANISM):
-            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in shared}
+            self._rolling = rolling_guides(scene)
+            drawn = {guide.at: guide for guide in self._rolling if guide.drawn}
+            apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *drawn}}
             self.standing: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
         self.standing |= {name: self.standing[other] for name, other in shared.items()}
         self.points: MutableMapping[str, Mark] = ChainMap({}, self.standing)
         self.guides: dict[Slide, Mark] = {}
+        for name, guide in drawn.items():
+            self.standing[name] = self._pitch_point(guide)
         self._letters: dict[str, str] = {}
         self._free = [c for c in "QRSTUVWXYZHIJ" if c not in scene.points]
 
@@ -38,12 +44,37 @@ class Pose:
         """
         if slide in self.guides:
             return self.guides[slide]
-        with self.board.on(MECHANISM, (slide.link, slide.along)):
+        if isinstance(slide, RollingGuide):
+            return self._line_of_centres(slide)
+        with self.board.on(MECHANISM, slide.given_links):
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)
             along = (self.board.line if run else self.board.side)(one, two)
             return self.board.parallel(along, self.points[slide.at])
+
+    def side(self, one: str, other: str) -> Mark:
+        """The line through two points, whichever way it runs: a pitch point lies on its line of centres."""
+        through = next((guide.through for guide in self._rolling if guide.through
+                        and {one, other} <= {guide.at, *guide.through}), (one, other))
+        return self.board.side(*(self.points[name] for name in through))
+
+    def _line_of_centres(self, guide: RollingGuide) -> Mark:
+        """The line through the centres of two wheels, or square to the pitch line of a rack through that of its gear.
+        """
+        if guide.through:
+            return self.side(*guide.through)
+        assert guide.rail is not None
+        return self.board.perpendicular(self.guide(guide.rail, run=True), self.points[guide.rail.at])
+
+    def _pitch_point(self, guide: RollingGuide) -> Mark:
+        """The pitch point, drawn from the centres."""
+        with self.board.on(MECHANISM, guide.given_links, pitch_point(guide)):
+            B = self.standing[guide.base]
+            if guide.through is None:
+                return self.board.lay_along(self._line_of_centres(guide), B, length=guide.length, name=guide.at)
+            C = next(self.standing[name] for name in guide.through if name != guide.base)
+            return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=divided(guide))
 
     def spoken(self, point: str) -> str:
         """The letter of a point, auxiliary points and poles among them."""

@@ -11,6 +11,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.tape.record import Symbols
 from graphplan.kernel.tape.written import function, places
 from graphplan.mechanism.model import FRAME, Pair, Slide
+from graphplan.mechanism.replaced import guides
 from graphplan.methods.recorded import Recorded
 
 if TYPE_CHECKING:
@@ -107,10 +108,10 @@ def moving(construction: Recorded) -> list[Moving]:
     scene, steps = construction.scene, construction.program.steps[:construction.program.givens]
     found = [Moving("point", step.name, scene.points[step.name], (((step.name, "x"),), ((step.name, "y"),)))
              for step in steps if step.name in scene.points and step.name not in scene.links.get(FRAME, ())]
-    for slide in scene.slides:
-        if slide.through is None and slide.along != FRAME and (guides := guide_steps(construction, slide)):
-            dx, dy = (tuple((step, part) for step in guides) for part in ("dx", "dy"))
-            found.append(Moving("guide", slide.name, slide.direction, (dx, dy)))
+    for name, slide in guides(scene).items():
+        if slide.through is None and slide.along != FRAME and (drawn := guide_steps(construction, slide)):
+            dx, dy = (tuple((step, part) for step in drawn) for part in ("dx", "dy"))
+            found.append(Moving("guide", name, slide.direction, (dx, dy)))
     return found
 
 
@@ -119,10 +120,11 @@ def guide_steps(construction: Recorded, slide: Slide) -> list[int]:
 
     In the scene's pose two guides through one point, of one direction, are one line; in other poses they are not.
     """
-    for other in construction.scene.slides:
+    for name, other in guides(construction.scene).items():
         alike = other.at == slide.at and other.direction == slide.direction and other.through is None
         if alike and other.along != slide.along:
-            raise Refused(f"guides {slide.name} and {other.name}", "they are drawn as one line, and turn apart",
+            raise Refused(f"guides {slide.name} and {name}", "they are drawn as one line, and turn apart",
                           "two points of its link for the direction of each")
     return [step.index for step in construction.program.steps
-            if step.op.movement is Movement.GUIDED and step.links == (slide.link, slide.along)]
+            if step.op.movement is Movement.GUIDED and step.links == slide.links
+            and (step.params["dx"], step.params["dy"]) == slide.direction]

@@ -43,6 +43,11 @@ class Slide(KinematicPair):
         return self.link, self.along
 
     @property
+    def given_links(self) -> tuple[str, ...]:
+        """The links of the pair that the scene gives: its own, but where it stands for another."""
+        return self.links
+
+    @property
     def turns_alike(self) -> bool:
         """Whether its links turn alike, so that any points of theirs tell what its own do."""
         return TURNING in self.passes

@@ -16,7 +16,7 @@ from typing import NamedTuple
 from graphplan.kernel.kinds import Movement, Quantity
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import FRAME, Number, Slide
-from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.moves import Carry, Guide, Meet, Move, Pole, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import ACCELERATIONS, begun
@@ -40,6 +40,7 @@ LAWS: dict[type, Said] = {
     Settle: said("what is left of the relative acceleration is tangential, square to the line of the points"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, a quarter turned"),
     Guide: said("beyond the Coriolis vector the sliding pair leaves only an acceleration along the guide"),
+    Roll: said("where two links roll on each other their accelerations agree square to the line of centres"),
     Meet: said("the end lies on both"),
     Pole: said("the pole's ends in the two links differ by the vector that the perpendiculars to the bars cut off"),
 }
@@ -244,7 +245,7 @@ class Normal(MotionPlan):
     def _less_coriolis(self, slide: Slide, known: str, new: str, B: str) -> Mark:
         """The coincident point's mark in the known link's figure, less the Coriolis vector of `new` about `known`."""
         start = self.figure(known, B)
-        if any(link == FRAME or self.net.still(link) for link in slide.guiding):
+        if not self.net.turns(slide):
             return start
         link, P = self._pivot(slide.guiding, B)
         one, two = (self.net.place(B, end) for end in (known, new))

@@ -5,6 +5,9 @@ three facts two (the end itself). The moves are found on the mechanism's graph. 
 facts are independent there. Two loci of a place that are parallel are one fact, three loci of a body through one point
 are two; that is decided modulo a prime, and no length or angle matters. In general position nothing is so.
 
+With `common` two links that roll on each other share the end of their pitch point, as velocities do where their line
+of centres has its length: two facts, of which one follows from that.
+
 A fact is filed at its place under its source, so that a body never takes its own word for news.
 """
 
@@ -18,6 +21,7 @@ from random import Random
 from graphplan.mechanism.elimination import PRIME
 from graphplan.mechanism.model import Pair, Slide
 from graphplan.mechanism.order import by_name
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import BodyPoint, Network
@@ -30,8 +34,8 @@ ANYWHERE: Two = (1939, 1974)  # the normal of what no line is drawn of, such as 
 class Facts:
     """What is known of one network, and the moves that made it known."""
 
-    def __init__(self, network: Network, general: bool = False):
-        self.net = network
+    def __init__(self, network: Network, general: bool = False, common: bool = False):
+        self.net, self.common = network, common
         self.chance = Random(1939) if general else None  # gives what the pose does not
         self.moves: list[Move] = []
         self.facts: dict[BodyPoint, dict[str, Fact]] = {}
@@ -318,8 +322,7 @@ class Facts:
             self._wake_class(body)
 
     def _wake_class(self, body: str) -> None:
-        if body in self.net.slides_of or self.net.turning:
-            self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
+        self._queue(*[b for b, c in self.net.classes.items() if c == self.net.classes[body] and b != body])
 
     # ---- sliding pairs --------------------------------------------------------------------------------------
 
@@ -332,8 +335,17 @@ class Facts:
                 target = self.net.place(point, new)
                 self.passed.add(slide.name)
                 self._add_place(self.net.body[new], target)
-                self.moves.append(moves.Guide(slide, point, known, new))
-                self._file(target, slide.name, self._posed(slide.direction))
+                rolls = isinstance(slide, RollingGuide)
+                kind = moves.Guide if not rolls else moves.Common if self.common else moves.Roll
+                self.moves.append(kind(slide, point, known, new))
+                self._file(target, slide.name, None if kind is moves.Common else self._across(slide))
+
+    def _across(self, slide: Slide) -> Two:
+        """The normal of the locus that a slide gives: its direction; that of a line of centres follows from these."""
+        if isinstance(slide, RollingGuide) and slide.through:
+            one, two = (self._spot((centre, "")) for centre in slide.through)
+            return less(two, one)
+        return self._posed(slide.direction)
 
     def _seen(self, slide: Slide, known: str, new: str) -> str:
         """A point whose end is known in the plane of `known`, not by this slide: any, if its links turn alike."""

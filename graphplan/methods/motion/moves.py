@@ -87,6 +87,19 @@ class Guide(NamedTuple):
     new: str
 
 
+class Roll(Guide):
+    """The same of two links that roll on each other at X: the line of centres is the guide."""
+
+
+class Common(NamedTuple):
+    """Two links roll on each other at X: its end in the plane of `known` is its end in that of `new`."""
+
+    slide: Slide
+    point: str
+    known: str
+    new: str
+
+
 class Meet(NamedTuple):
     """Two loci of one place meet in its end; with `copy` it is entered there, to be compared with a third."""
 
@@ -122,4 +135,5 @@ class FalsePosition(NamedTuple):
     locus: Locus
 
 
-Move = Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Meet | Auxiliary | Pole | FalsePosition
+Move = (Rest | Seed | Swing | Slip | Carry | Settle | SimilarFigure | Guide | Common | Meet | Auxiliary | Pole
+        | FalsePosition)

@@ -10,11 +10,14 @@ Links, points, slides and drives are taken in an order of their own, so that the
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from functools import cached_property
 from typing import NamedTuple
 
 from graphplan.mechanism.model import FRAME, Drive, Number, Scene, Slide
 from graphplan.mechanism.order import ordered_drives, ordered_links, ordered_points, ordered_slides, turning_drives
+from graphplan.mechanism.pairs.pair import LINE
+from graphplan.mechanism.replaced import bars, replaced, rolling_guides
 
 BodyPoint = tuple[str, str]
 POLE = "pole"  # the link of a place that is a relative pole
@@ -78,10 +81,12 @@ class Turnings:
 
 
 class Network:
-    """Bodies, places, slides and classes of equal turning of a scene."""
+    """Bodies, places, slides and classes of equal turning of a scene, lower pairs in the place of its higher ones."""
 
     def __init__(self, scene: Scene) -> None:
-        self.scene = scene
+        self.scene = scene = replaced(scene)
+        self.bars = bars(scene)
+        self.wandering = {guide.at for guide in rolling_guides(scene)}
         self.welds: dict[str, DrivenPair] = {}
         self.turning: list[Drive] = []
         own = ordered_links(scene)
@@ -98,9 +103,9 @@ class Network:
                 self.links_of[point] = (*self.links_of.get(point, ()), link)
         self.body = {link: link for link in self.links}
         self.members = {link: [link] for link in self.links}
-        driven = {frozenset(drive.links) for drive in scene.drives if drive.slides}
-        self.all_slides = ordered_slides(scene)
-        self.slides = [s for s in self.all_slides if frozenset(s.links) not in driven]
+        driven = [scene.driven_slide(drive) for drive in scene.drives if drive.slides]
+        self.all_slides = [slide for slide in ordered_slides(scene) if LINE in slide.passes]
+        self.slides = [slide for slide in self.all_slides if slide not in driven]
         self.coincident = self._coincident_points()
         for drive in ordered_drives(scene):
             self._weld(drive)
@@ -113,11 +118,14 @@ class Network:
                 self.slides_of.setdefault(self.body[link], []).append(slide)
 
     def _names(self, links: dict[str, tuple[str, ...]]) -> dict[str, str]:
-        """The one name of points that lie in one place of one link, for each point that goes by another's name."""
+        """The one name of points that lie in one place of one link, for each point that goes by another's name.
+
+        A pitch point wanders on its links: it is where another one is in this pose alone.
+        """
         names: dict[str, str] = {}
         for points in links.values():
             first: dict[str, str] = {}
-            for point in points:
+            for point in (p for p in points if p not in self.wandering):
                 _unite(names, first.setdefault(self.spot(point), point), point)
         return {point: _followed(names, point) for point in names}
 
@@ -148,7 +156,7 @@ class Network:
     def _coincident_points(self) -> dict[tuple[str, str], str]:
         """Points of a guide's link that the scene puts where the sliding link's point is: one place, named apart."""
         found = {}
-        for slide in self.all_slides:
+        for slide in (slide for slide in self.all_slides if slide.at not in self.wandering):
             at = self.name(slide.at)
             for name in self.links[slide.along]:
                 if name != at and self.spot(name) == self.spot(at):
@@ -193,9 +201,20 @@ class Network:
     def _turning_classes(self) -> dict[str, str]:
         """Bodies that turn alike, or by a known difference: joined by slides, or by a drive without a common pair."""
         top: dict[str, str] = {}
-        for one, two in [*(s.links for s in self.slides if s.turns_alike), *(drive.links for drive in self.turning)]:
+        alike = (s.links for s in ordered_slides(self.scene) if s.turns_alike)
+        for one, two in [*alike, *(drive.links for drive in self.turning)]:
             _unite(top, *sorted(_followed(top, self.body[link]) for link in (one, two)))
         return {body: _followed(top, body) for body in self.members}
+
+    def told_by(self, source: str) -> list[str]:
+        """The links of the slide or body that is the source of a fact."""
+        slide = next((slide for slide in self.slides if slide.name == source), None)
+        return [*slide.links] if slide else self.members.get(source, [])
+
+    def given_links(self, links: Iterable[str]) -> tuple[str, ...]:
+        """Those of the links that the scene gives and move: in the place of a bar those that touch there."""
+        given = (one for link in links for one in (self.bars[link].links if link in self.bars else (link,)))
+        return tuple(dict.fromkeys(link for link in given if link != FRAME))
 
     def still(self, link: str) -> bool:
         """Whether a link is known never to turn: it slides on the frame, or on what slides there."""
@@ -203,6 +222,10 @@ class Network:
         if not self.ground or self.classes[body] != self.classes[self.ground] or link in self.welds:
             return False
         return not self.excess(body, self.ground).omega
+
+    def turns(self, slide: Slide) -> bool:
+        """Whether the guide of a slide turns, so that what slides on it has a Coriolis acceleration."""
+        return bool(slide.guiding) and not any(link == FRAME or self.still(link) for link in slide.guiding)
 
     def place(self, point: str, link: str) -> BodyPoint:
         """The place of a point in a link's plane."""

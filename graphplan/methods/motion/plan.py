@@ -20,7 +20,7 @@ from typing import Any
 
 from graphplan.kernel.kinds import LINE, POINT
 from graphplan.kernel.program import Board, Mark, Panel
-from graphplan.mechanism.model import FRAME, Number, Slide
+from graphplan.mechanism.model import Number, Slide
 from graphplan.methods.motion import moves
 from graphplan.methods.motion.moves import Locus, Move
 from graphplan.methods.motion.network import POLE, BodyPoint, DrivenPair, Network
@@ -142,7 +142,7 @@ class MotionPlan:
                 self._end(place, self.seeded(place))
             case moves.Swing(body, K, X, source):
                 through = self._outward(body, X, self._inward(body, K, self.ends[K]))
-                side = self.board.side(self.point(K), self.point(X))
+                side = self.pose.side(K[0], X[0])
                 line = getattr(self.board, self.turn)(side, through)
                 named = "".join(self.board.steps[end].name for end in side.step.args)
                 fixed = FIXED(self.end_name(X), named, self.pose.spoken(K[0])) if line is side else None
@@ -160,6 +160,8 @@ class MotionPlan:
                 self._end(copy or X, mark, move)
             case moves.Guide(slide, point, known, new):
                 self._guide(slide, point, known, new, move)
+            case moves.Common(point=point, known=known, new=new):
+                self._end(self.net.place(point, new), self.end_in(known, point))
             case moves.Meet(place, (one, two), copy):
                 self._end(copy or place, self.board.meet(self.loci[place, one], self.loci[place, two]), move)
             case moves.Auxiliary(body, A, B, place):
@@ -171,16 +173,12 @@ class MotionPlan:
         """The links that a step's fault should name."""
         names: list[str] = []
         if isinstance(move, moves.Meet):
-            names = [link for source in move.sources for link in self._of_source(source)]
-        elif isinstance(move, moves.Guide):
+            names = [link for source in move.sources for link in self.net.told_by(source)]
+        elif isinstance(move, moves.Guide | moves.Common):
             names = [move.known, move.new]
         elif (body := getattr(move, "body", "")) in self.net.members:
             names = self.net.members[body]
-        return tuple(dict.fromkeys(name for name in names if name != FRAME))
-
-    def _of_source(self, source: str) -> list[str]:
-        slide = next((s for s in self.net.slides if s.name == source), None)
-        return [slide.link, slide.along] if slide else self.net.members.get(source, [])
+        return self.net.given_links(names)
 
     def _end(self, place: BodyPoint, mark: Mark, move: Move | None = None) -> None:
         self._know(place, self.board.named(mark, self.end_name(place) + self.prime))

@@ -43,8 +43,9 @@ class Planner(Facts):
     ways: "trial" all but trials.
     """
 
-    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False):
-        super().__init__(network, general)
+    def __init__(self, network: Network, method: str = "", choice: tuple[int, ...] = (), general: bool = False,
+                 common: bool = False):
+        super().__init__(network, general, common)
         self.method, self.choice = method, choice
         self.options: list[Choices] = []
         self.spent: dict[str, int] = {}
@@ -70,6 +71,8 @@ class Planner(Facts):
 
     def _break(self, loose: list[str]) -> bool:
         """Facts have stopped travelling: put in a relative pole, an auxiliary point or a trial."""
+        if self.common:
+            return False  # what it knows twice would close a trial that is not true
         ways: list[Callable[[], None]] = []
         if self.method != "trial":
             ways += [partial(self._join, pair, bars) for pair, bars in self._pairs(loose)]

@@ -14,10 +14,13 @@ from typing import NamedTuple
 
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.stages import Equation, Known, Stage, Vector
-from graphplan.mechanism.model import FRAME, Slide
+from graphplan.mechanism.model import FRAME, Contact, Slide
+from graphplan.mechanism.order import by_name
+from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.moves import (
     Auxiliary,
     Carry,
+    Common,
     FalsePosition,
     Guide,
     Meet,
@@ -32,12 +35,14 @@ from graphplan.methods.motion.moves import (
 )
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.panels import link_named, listed, slide_named
-from graphplan.phrases import Phrase, Said, arranged, joined, phrase, said
+from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, said
 
+ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
 LAWS: dict[type, Said] = {  # of the moves whose steps say nothing themselves
     Rest: said("a drive prescribes how its links move; points of the frame stand still"),
     Seed: said("the motion of the point is given"),
     Auxiliary: said("the end of the auxiliary point lies on the loci of both points that it was found from"),
+    Common: ROLLING,
     Pole: said("links joined by two bars turn relative to each other about the point where the bars meet"),
     FalsePosition: said("the error of a trial is proportional to what is assumed, so two trials show where it is "
                         "zero"),
@@ -50,6 +55,8 @@ NORMAL = said("it is v²/r and directed to the other point: on the plan from the
               "new one")
 FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
 CORIOLIS = said("it is 2 ω v and square to v: on the plan from the mark that it is laid off from to the new one")
+INSIDE = phrase("the relative pole of {0} divides {1} as {2} : {3}")
+OUTSIDE = phrase("the relative pole of {0} divides {1} externally, as {2} : {3}")
 RATE = said("the difference of the vectors of two points of a link is in proportion to their distance")
 SLIDING = said("the vectors of two coincident points differ by that of one relative to the other")
 
@@ -118,7 +125,7 @@ class MotionStages:
         match move:
             case Swing(X=X) | Slip(X=X) | Carry(X=X) | SimilarFigure(X=X) | Settle(X=(X, _)) | FalsePosition(at=(X, _)):
                 return X
-            case Guide(point=point, new=new):
+            case Guide(point=point, new=new) | Common(point=point, new=new):
                 return self.net.place(point, new)
             case Meet(place=X) | Rest(place=X) | Seed(place=X) | Auxiliary(place=X) | Pole(place=X):
                 return X
@@ -177,8 +184,7 @@ class MotionStages:
 
     def sliding(self, slide: Slide, B: BodyPoint, on: BodyPoint, spare: Known = Known.DIRECTION) -> list[Vector]:
         """The same from the coincident point of the other link of a slide; a guide at rest leaves what slides alone."""
-        turns = not any(link == FRAME or self.net.still(link) for link in slide.guiding)
-        return [*self._start(on), *self._relative(B, on, spare, turns=turns)]
+        return [*self._start(on), *self._relative(B, on, spare, turns=self.net.turns(slide))]
 
     # ---- the stages of moves ------------------------------------------------------------------------------------
 
@@ -220,7 +226,7 @@ class MotionStages:
                 return said("Relative pole {0} of {1}", self.name(*place), listed(bodies))
             case FalsePosition():
                 return arranged("{0:capital}", said("false position of {0}", end))
-            case Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):
+            case Common(point=place) | Settle(X=(place, _)) | Rest(place=place) | Seed(place=place) | Meet(place=place):
                 return self.words.point(self.name(*place))
 
     def _links(self, body: str) -> Said:
@@ -297,6 +303,28 @@ class MotionStages:
 def _reversed(known: Vector, other: Vector) -> Equation:
     """A vector relative to a point is that of the point, reversed."""
     return Equation(f"{other.name} = -{known.name}", (other, known))
+
+
+def pitch_point(guide: RollingGuide) -> Stage:
+    """Where the point is drawn at which two links roll on each other."""
+    return Stage(said("Pitch point {0} of {1}", guide.at, both(guide)), ROLLING)
+
+
+def divided(guide: RollingGuide) -> Said:
+    """How the pitch point divides the line of centres: as the radii, or the numbers of teeth."""
+    assert guide.through is not None
+    centres = "".join(guide.through)
+    if isinstance(guide.given, Contact):
+        return said("the point of contact lies on {0}, the line of the centres of curvature", centres)
+    one, two = guide.given.factors
+    pattern = INSIDE if (one > 0) == (two > 0) else OUTSIDE
+    return pattern(both(guide), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
+
+
+def both(pair: Slide) -> Said:
+    """The two links of a pair, of one that stands for another the given ones."""
+    links = sorted(pair.given_links, key=lambda link: (link == FRAME, by_name(link)))
+    return listed(links) if FRAME not in links else said("link {0} and the frame", links[0])
 
 
 def auxiliary(body: str) -> str:

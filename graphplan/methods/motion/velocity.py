@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Number, Slide
-from graphplan.methods.motion.moves import Carry, Guide, Meet, Settle, SimilarFigure, Slip, Swing
+from graphplan.methods.motion.moves import Carry, Guide, Meet, Roll, Settle, SimilarFigure, Slip, Swing
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
 from graphplan.methods.motion.plan import MotionPlan, Vector
 from graphplan.methods.motion.stages import VELOCITIES, begun
@@ -20,6 +20,7 @@ LAWS: dict[type, Said] = {
     Settle: said("the ends of two points of a link lie on a parallel to their line"),
     SimilarFigure: said("the ends of a link's points form a figure similar to the link's, with parallel sides"),
     Guide: said("the sliding pair leaves only a velocity along the guide, drawn turned square to it"),
+    Roll: said("where two links roll on each other their velocities agree"),
     Meet: said("the end lies on both"),
 }
 POLAR_LAWS = LAWS | {

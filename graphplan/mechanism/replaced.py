@@ -1,0 +1,238 @@
+"""The lower pairs that stand for gears and contacts in a construction.
+
+A contact becomes a bar between the centres of curvature of the two profiles, or where one profile is straight a block
+that slides along it. Two links that roll on each other have in their pitch point velocities and accelerations that
+agree square to the line of centres, also where that turns: a *rolling guide*, which passes on this line and no more.
+Where the line of centres has its length, which other pairs see to, the velocities agree wholly.
+
+Source: Ozols (1974), 5-2 and 5-7 (replacement of higher pairs), 7-3 (the pitch point as relative pole).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, field, fields
+from fractions import Fraction
+from typing import Any
+
+from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene
+from graphplan.mechanism.numerals import root
+from graphplan.mechanism.order import by_name
+from graphplan.mechanism.pairs.pair import LINE, TURNING
+from graphplan.mechanism.pairs.sliding import Slide
+from graphplan.mechanism.plane import dot, less, plus, times, turned
+
+Higher = Gear | Contact
+
+
+@dataclass(frozen=True)
+class StandIn(Slide):
+    """What stands for a gear or contact that the scene gives: of a straight profile the block that slides along it."""
+
+    given: Any = field(default=None, compare=False)
+
+    @property
+    def given_links(self) -> tuple[str, ...]:
+        """The links of the gear or contact; of a straight profile the one that touches it first."""
+        return (straight(self.given) or self.given).links
+
+
+@dataclass(frozen=True)
+class RollingGuide(StandIn):
+    """What rolling leaves of the point `at` of two links, where they touch: it may move along the line of centres.
+
+    The line runs `through` the centres; where there is but one, square to the pitch line, `rail`, from the centre
+    `base`. A pitch point that the scene does not name is drawn from there: by a `ratio` of the distance of the centres,
+    or of a rack by the `length` towards its left.
+    """
+
+    letter = ""
+    binds = 1
+    passes = (LINE,)
+    base: str = ""
+    ratio: Number | None = None
+    rail: Slide | None = None
+    length: Number | None = None
+
+    @property
+    def guiding(self) -> tuple[str, ...]:
+        """Rolling has no Coriolis acceleration."""
+        return ()
+
+    @property
+    def name(self) -> str:
+        """A name that no other pair has."""
+        return f"{self.link} rolling on {self.along} at {self.at}"
+
+    @property
+    def drawn(self) -> bool:
+        """Whether the pitch point is drawn from the centres."""
+        return bool(self.base)
+
+
+@dataclass(frozen=True)
+class EqualTurning(StandIn):
+    """A belt around equal wheels: they turn alike, whatever their line of centres does."""
+
+    letter = ""
+    binds = 1
+    passes = (TURNING,)
+
+
+@dataclass(frozen=True)
+class Replaced(Scene):
+    """A scene with lower pairs in the place of its higher ones, and the contacts by the links that stand for them."""
+
+    bars: Mapping[str, Contact] = field(default_factory=dict)
+
+
+def replaced(scene: Scene) -> Scene:
+    """The scene with lower pairs in the place of its gears and contacts; itself where it has none.
+
+    Bars and blocks are links named 0, pitch points are named P with the numbers of the links; neither takes a name that
+    the scene has. Pairs that special geometry makes redundant are left out: others say what they would.
+    """
+    higher = sorted((pair for pair in scene.written if isinstance(pair, Higher)), key=_order)
+    if not higher:
+        return scene
+    lost = {condition.pair for condition in scene.redundant}
+    stand_ins = _StandIns(scene)
+    for pair in higher:
+        if pair.name not in lost:
+            stand_ins.gear(pair) if isinstance(pair, Gear) else stand_ins.contact(pair)
+    points, links = scene.points | stand_ins.points, {**stand_ins.links, **stand_ins.bars}
+    parts = {part.name: getattr(scene, part.name) for part in fields(Scene)}
+    parts |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
+    return Replaced(**parts, bars=stand_ins.contacts)
+
+
+def rolling_guides(scene: Scene) -> tuple[RollingGuide, ...]:
+    """The rolling guides of a scene that is replaced, each with the gear or contact that it stands for."""
+    return tuple(pair for pair in scene.written if isinstance(pair, RollingGuide))
+
+
+def guides(scene: Scene) -> dict[str, Slide]:
+    """What has a direction in a scene that is given: its slides, straight profiles and racks, each by its own name.
+
+    A profile or rack is as a slide of its two links, at the centre of what touches it there.
+    """
+    higher = {pair.name: straight(pair) for pair in scene.written if isinstance(pair, Higher)}
+    return {slide.name: slide for slide in scene.slides} | {name: slide for name, slide in higher.items() if slide}
+
+
+def straight(pair: Higher) -> Slide | None:
+    """The straight profile of a contact or the pitch line of a rack, as a slide of what touches it; None of others."""
+    if pair.direction is None:
+        return None
+    (link, along), centre = pair.links, pair.centres[0]
+    if centre is None:
+        (along, link), centre = pair.links, pair.centres[1]
+    assert centre is not None
+    return Slide(link, along, centre, pair.direction, pair.through, pair.written)
+
+
+def bars(scene: Scene) -> Mapping[str, Contact]:
+    """The bars and blocks of a scene that is replaced, by their names, with the contacts that they stand for."""
+    return scene.bars if isinstance(scene, Replaced) else {}
+
+
+class _StandIns:
+    """Collects what stands for the higher pairs of a scene: points, links with their points, bars, and pairs."""
+
+    def __init__(self, scene: Scene):
+        self.scene = scene
+        self.points: dict[str, Pair] = {}
+        self.links = dict(scene.links)
+        self.bars: dict[str, tuple[str, ...]] = {}
+        self.contacts: dict[str, Contact] = {}
+        self.pairs: list[Slide] = []
+
+    def gear(self, gear: Gear) -> None:
+        """A rolling guide at the pitch point; around equal wheels a belt only makes them turn alike."""
+        B, *others = gear.centres
+        if not others:
+            self._rack(gear, B)
+            return
+        (C,), (one, two) = others, gear.factors
+        if one + two == 0:
+            self.pairs.append(EqualTurning(*gear.links, B, (1, 0), given=gear))
+            return
+        ratio, direction = one / (one + two), less(self._at(C), self._at(B))
+        point = self._named(gear, plus(self._at(B), times(_fraction(ratio), direction)))
+        self._roll(gear, point, direction, (B, C), base=B, ratio=ratio)
+
+    def _rack(self, gear: Gear, B: str) -> None:
+        """The pitch point of a rack: the foot of the gear's centre on the pitch line, to the right of that."""
+        rail, length = straight(gear), -gear.radius
+        assert rail is not None
+        square = turned(_fractions(rail.direction))
+        whole, _ = root(_fraction(dot(square, square)))
+        point = self._named(gear, plus(self._at(B), times(_fraction(length) / whole, square)))
+        self._roll(gear, point, square, base=B, rail=rail, length=length)
+
+    def contact(self, contact: Contact) -> None:
+        """A bar between the centres of curvature, or a block on the straight profile, and where it rolls a guide."""
+        name = _free("0", {*self.links, *self.bars})
+        self.contacts[name] = contact
+        one, two = contact.centres
+        if one is not None and two is not None:
+            self.bars[name] = (one, two)
+            if contact.rolling:
+                direction = less(self._at(two), self._at(one))
+                arm = less(self._at(contact.at), self._at(one))
+                ratio = dot(arm, direction) / dot(direction, direction)
+                self._roll(contact, self._touching(contact), direction, (one, two), base=one, ratio=ratio)
+            return
+        rail = straight(contact)
+        assert rail is not None
+        self.bars[name] = (rail.at,)
+        self.pairs.append(StandIn(name, rail.along, rail.at, rail.direction, rail.through, rail.written, contact))
+        if contact.rolling:
+            self._roll(contact, contact.at, turned(_fractions(rail.direction)), rail=rail)
+
+    def _roll(self, pair: Higher, at: str, direction: Pair, through: tuple[str, str] | None = None, *, base: str = "",
+              ratio: Number | None = None, rail: Slide | None = None, length: Number | None = None) -> None:
+        """A rolling guide; the point is one of the link that moves, of two such the first."""
+        link, along = sorted(pair.links, key=_rank)
+        self.links[link] = tuple(dict.fromkeys((*self.links[link], at)))
+        self.pairs.append(RollingGuide(link, along, at, direction, through, None, pair, base, ratio, rail, length))
+
+    def _touching(self, contact: Contact) -> str:
+        """The point where a contact touches: of no link, so that it is free to wander on both."""
+        return contact.at if not self.scene.links_of[contact.at] else self._named(contact, self._at(contact.at))
+
+    def _named(self, pair: Higher, place: Pair) -> str:
+        """A new point, named after the links that it belongs to: it is their relative pole."""
+        numbers = ["0" if link == FRAME else link for link in sorted(pair.links, key=_rank)]
+        plain = all(len(number) == 1 and number.isalnum() for number in numbers)
+        name = _free("P_" + "".join(numbers) if plain else "P", {*self.scene.points, *self.points})
+        self.points[name] = place
+        return name
+
+    def _at(self, point: str) -> Pair:
+        return _fractions(self.scene.points[point])
+
+
+def _order(pair: Higher) -> tuple[Any, ...]:
+    """The order in which stand-ins are named, whatever the order of writing."""
+    return *sorted(map(by_name, pair.links)), isinstance(pair, Contact), *map(by_name, filter(None, pair.centres))
+
+
+def _rank(link: str) -> tuple[Any, ...]:
+    return link == FRAME, by_name(link)
+
+
+def _free(name: str, taken: Iterable[str]) -> str:
+    """The name, with as many primes as it needs to be nobody else's."""
+    while name in taken:
+        name += "'"
+    return name
+
+
+def _fractions(pair: Pair) -> tuple[Fraction, Fraction]:
+    """A point or vector in fractions, so that what is in line with others is so exactly."""
+    return _fraction(pair[0]), _fraction(pair[1])
+
+
+def _fraction(number: Number) -> Fraction:
+    return number if isinstance(number, Fraction) else Fraction(float(number))

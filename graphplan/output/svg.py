@@ -43,8 +43,8 @@ STEP, GIVEN = said("Step"), said("Given")
 LAYERS = {  # what their groups are called
     "paper": said("Paper"), "border": said("Border"), "ruling": said("Ruling"), "corner marks": said("Corner marks"),
     "plates": said("Plates"), "motion": said("Motion"), "ground": said("Ground"), "links": said("Links"),
-    "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"), "letters": said("Letters"),
-    "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
+    "wheels": said("Wheels and profiles"), "blocks": said("Blocks"), "drive": said("Drive"), "pairs": said("Pairs"),
+    "letters": said("Letters"), "blanks": said("Blanks"), "text": said("Text"), "results": said("Results"),
 }  # fmt: skip
 
 

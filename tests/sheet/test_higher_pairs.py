@@ -25,7 +25,7 @@ def test_every_pitch_circle_and_profile_is_drawn_once(name: str) -> None:
     items = [*DrawnMechanism(scene, View(EVERYWHERE, 1.0, (0.0, 0.0))).items()]
     circles = [item for item in items if isinstance(item, Arc) and item.pen == pens.WHEEL]
     assert len(circles) == len(wheels(scene))
-    profiles = [item for item in items if item.pen == pens.PROFILE or (item.pen == pens.GROUND and scene.contacts)]
+    profiles = [item for item in items if item.pen in (pens.LINK, pens.GROUND) and item.layer in ("wheels", "ground")]
     assert len(profiles) >= 2 * len(scene.contacts)
     corners = [*reach(scene)]
     for arc in circles:

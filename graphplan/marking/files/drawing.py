@@ -104,8 +104,9 @@ def _like_leaders(traces: Sequence[Trace]) -> list[Trace]:
     return [line for line in lines if leader(line)]
 
 
-NO_DRAWING = frozenset({"paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground",
-                        "drive", "motion"})  # layers of graphplan's own sheets with nothing that a construction draws
+NO_DRAWING = frozenset({  # layers of graphplan's own sheets with nothing that a construction draws
+    "paper", "border", "corner marks", "ruling", "frame", "text", "letters", "results", "ground", "wheels", "drive",
+    "motion"})
 ROUNDED = 1e-4  # of a size: as files write their numbers
 
 

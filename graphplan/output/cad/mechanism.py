@@ -27,7 +27,7 @@ from graphplan.sheet.plates.symbols import GUIDE, LONG, NEAR, off
 from graphplan.sheet.plates.traced_motion import outline
 from graphplan.sheet.plates.view import View
 
-SYMBOLS = {"ground", "blocks", "drive", "pairs"}  # layers of the sheet that are drawn as they are there
+SYMBOLS = {"ground", "wheels", "blocks", "drive", "pairs"}  # layers of the sheet that are drawn as they are there
 DIMENSIONED, POINTS = f"{FULL_SIZE} dimensions", f"{FULL_SIZE} points"
 CLEAR = 2.2  # mm from a point to its letters
 DIGITS = 4  # of the longest dimension

@@ -29,7 +29,8 @@ from graphplan.sheet.plates.plate import Plate, Plates
 from graphplan.sheet.plates.traced_motion import LAYER as MOTION
 
 SAFE = string.ascii_letters + string.digits
-BACK, FRONT = ("plates", MOTION, "ground", "links"), ("blocks", "drive", "pairs")  # layers behind and over the steps
+BACK = "plates", MOTION, "ground", "wheels", "links"  # layers behind the steps
+FRONT = "blocks", "drive", "pairs"  # layers over them
 RIDING = ("plates", "links")  # layers that go where the links go
 REACH = 20.0  # mm: how far apart the two ends of a line stand that no two marks give
 

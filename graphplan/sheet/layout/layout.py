@@ -22,7 +22,7 @@ from graphplan.sheet.words.rows import fill, lettered
 from graphplan.sheet.words.texts import RESULTS
 from graphplan.words.tongue import Tongue
 
-BACK = "paper", BORDER, "ruling", "plates", MOTION, "ground", "links"
+BACK = "paper", BORDER, "ruling", "plates", MOTION, "ground", "wheels", "links"
 FRONT = "blocks", "drive", "pairs", "letters", "blanks", "text", RESULTS
 
 

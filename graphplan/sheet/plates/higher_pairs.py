@@ -14,6 +14,7 @@ from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Item, Polygon, Polyline, Spot
 from graphplan.sheet.plates.symbols import HATCH, NEAR, PITCH, RADIUS, Vector, bar, hatching, off, unit
 
+LAYER = "wheels"
 HALF_RACK, DEEP = 22.0, 2.4  # mm: half the length of a rack's drawn part, and how deep its bar is
 PROFILE, FACE = 26.0, 14.0  # mm that a drawn arc, and half of a straight face, goes on from where it touches
 WIDEST = 100.0  # degrees of an arc on either side
@@ -23,7 +24,7 @@ FRINGE = 40.0  # degrees of a wheel that stands still, hatched on either side of
 
 def wheel(centre: Spot, radius: float) -> Item:
     """A pitch circle."""
-    return Arc(pens.WHEEL, "links", None, centre, radius, 0.0, 360.0)
+    return Arc(pens.WHEEL, LAYER, None, centre, radius, 0.0, 360.0)
 
 
 def fringe(centre: Spot, radius: float, towards: Spot, outwards: float) -> Iterator[Item]:
@@ -46,7 +47,7 @@ def rack(at: Spot, along: Vector, seat: Spot | None) -> Iterator[Item]:
         return
     start, end, tie = _tied(at, along, HALF_RACK, seat)
     yield from tie
-    yield Polygon(pens.BLOCK, "links", None, (start, end, off(end, along, 0.0, -DEEP), off(start, along, 0.0, -DEEP)))
+    yield Polygon(pens.BLOCK, LAYER, None, (start, end, off(end, along, 0.0, -DEEP), off(start, along, 0.0, -DEEP)))
 
 
 def rail(at: Spot, along: Vector, side: float) -> Iterator[Item]:
@@ -74,7 +75,7 @@ def belt(one: Spot, r: float, two: Spot, s: float, crossed: bool) -> Iterator[It
         normal = (lean * way[0] - side * math.sqrt(1 - lean * lean) * way[1],
                   lean * way[1] + side * math.sqrt(1 - lean * lean) * way[0])  # fmt: skip
         ends = off(one, normal, r), off(two, normal, -s if crossed else s)
-        yield Polyline(pens.BELT, "links", None, ends)
+        yield Polyline(pens.LINK, LAYER, None, ends)
 
 
 def profile(at: Spot, centre: Spot, whole: bool, disc: bool) -> Iterator[Item]:
@@ -82,20 +83,20 @@ def profile(at: Spot, centre: Spot, whole: bool, disc: bool) -> Iterator[Item]:
     """
     radius = math.dist(at, centre)
     if whole or radius < NEAR:
-        yield Arc(pens.PROFILE, "links", None, centre, max(radius, RADIUS), 0.0, 360.0)
+        yield Arc(pens.LINK, LAYER, None, centre, max(radius, RADIUS), 0.0, 360.0)
         return
     middle = math.degrees(math.atan2(at[1] - centre[1], at[0] - centre[0]))
     half = min(WIDEST, math.degrees(PROFILE / radius))
     if disc:
-        yield Arc(pens.PRODUCED, "links", None, centre, radius, 0.0, 360.0)
-    yield Arc(pens.PROFILE, "links", None, centre, radius, middle - half, middle + half)
+        yield Arc(pens.PRODUCED, LAYER, None, centre, radius, 0.0, 360.0)
+    yield Arc(pens.LINK, LAYER, None, centre, radius, middle - half, middle + half)
 
 
 def face(at: Spot, along: Vector, seat: Spot) -> Iterator[Item]:
     """A straight profile on both sides of where it touches, tied to a point of its link."""
     start, end, tie = _tied(at, along, FACE, seat)
     yield from tie
-    yield Polyline(pens.PROFILE, "links", None, (start, end))
+    yield Polyline(pens.LINK, LAYER, None, (start, end))
 
 
 def wheels(scene: Scene) -> dict[tuple[str, str, float], tuple[int, ...]]:

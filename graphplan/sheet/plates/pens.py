@@ -48,7 +48,6 @@ GROUND_FILL = Pen(0.35, fill=PAPER)
 SOLID = Pen(0.0, fill=INK)
 HATCH = Pen(0.18)
 WHEEL = Pen(0.25, INK, (6.0, 0.9, 0.5, 0.9))  # of pitch circles, as ISO 128 has them
-BELT, PROFILE = Pen(0.35), Pen(0.5)
 BALLOON = Pen(0.18, GREY, fill=PAPER)
 DRIVE = Pen(0.35)
 PATH = Pen(0.18, INK, (6.0, 0.9, 0.4, 0.9, 0.4, 0.9))  # of a moving point, as ISO 128 has what moves

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from graphplan import cycle, sheet
     from graphplan import solver as analytic
     from graphplan.check.trusted import construct
+    from graphplan.cycle.pose import at
     from graphplan.errors import ConstructionError, Disagreement, GraphplanError, Refused, SceneError, SingularPose
     from graphplan.mechanism.model import Scene
     from graphplan.mechanism.scene import load, parse
@@ -25,7 +26,7 @@ __version__ = "0.1.0"
 
 __all__ = [
     "Construction", "ConstructionError", "Disagreement", "GraphplanError", "Refused", "Scene", "SceneError",
-    "SingularPose", "analytic", "construct", "cycle", "load", "parse", "sheet",
+    "SingularPose", "analytic", "at", "construct", "cycle", "load", "parse", "sheet",
 ]
 
 # The module of every public name, imported when the name is first used: a command loads no more than it needs.
@@ -39,6 +40,7 @@ HOMES = {
     "Scene": "graphplan.mechanism.model",
     "SceneError": "graphplan.errors",
     "SingularPose": "graphplan.errors",
+    "at": "graphplan.cycle.pose",
     "construct": "graphplan.check.trusted",
     "load": "graphplan.mechanism.scene",
     "parse": "graphplan.mechanism.scene",

@@ -9,19 +9,24 @@ kept as there are unknowns; that the others hold, too, is checked.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from typing import Any
 
-from graphplan.errors import Refused
+from graphplan.errors import Refused, Undrawable
 from graphplan.kernel.numbers import Domain, Fractions
 from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, evaluate
+from graphplan.mechanism.assembly import moved_on
 from graphplan.mechanism.directions import Misfit, vector
 from graphplan.mechanism.model import Balance, Drive, Pair, Scene, Slide
 from graphplan.mechanism.numerals import TO_A_FLOAT, Reckoning, is_exact, mapped
 from graphplan.mechanism.placements import placed_by
+from graphplan.methods.assembly import Assembler
 from graphplan.solver.blocks import by_blocks
 from graphplan.solver.bounds import PI, Unproven, bounded, heading
 from graphplan.solver.equations import Equations, moved
@@ -97,8 +102,13 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
     Points that the scene's floats hold for one, and that cannot be told apart, are one. Fails with `Refused` where
     arcs miss each other that touch to a float's digits.
     """
+    if scene.assembly is not None:
+        scene = assembled(scene, enclosed(scene.assembly.given, by), by)
+
     def direction(one: Slide | Balance) -> Any:
-        return one.direction if one.written is None else vector(one.written, points.__getitem__, by.reckoning)[:2]
+        if scene.assembly is not None or one.written is None:
+            return one.direction
+        return vector(one.written, points.__getitem__, by.reckoning)[:2]
 
     def driven(one: Drive) -> Drive:
         return one.driven_at(by.pi() * one.rpm / 30, one.change) if one.rpm else one
@@ -117,7 +127,7 @@ def enclosed(scene: Scene, by: Bounds) -> Scene:
 
 def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
     """Every point where its placement puts it; coinciding ones are the very same."""
-    if not scene.irrational:
+    if not scene.irrational or scene.assembly is not None:
         return scene.points
     placed = placed_by(scene.placements, by.reckoning)
     first: dict[Pair, Pair] = {}
@@ -128,6 +138,54 @@ def _points(scene: Scene, by: Bounds) -> dict[str, Pair]:
         same = all(by.lift(p).overlaps(by.lift(q)) for p, q in zip(here, other, strict=True))
         points[name] = other if same else here
     return points
+
+
+class Proofs(Domain):
+    """Numbers with bounds in the rules of a construction: what they cannot tell is in doubt."""
+
+    def __init__(self, by: Bounds):
+        self._by = by
+
+    def lift(self, value: Any) -> Any:
+        return self._by.lift(value)
+
+    def sqrt(self, value: Any, code: str, why: str) -> Any:
+        if value < 0:
+            raise Undrawable(code, why)
+        return self._by.root(value)
+
+    def nonzero(self, value: Any, scale: Any, code: str, why: str) -> Any:
+        if value.overlaps(self._by.lift(0)):
+            raise self._by.doubt(why)
+        return value
+
+    def sign(self, value: Any, scale: Any) -> Any:
+        raise self._by.doubt("the sense of a motion")
+
+
+def assembled(scene: Scene, given: Scene, by: Bounds) -> Scene:
+    """A pose that is constructed, in numbers with bounds: where its steps lead from the given scene in such numbers."""
+    assert scene.assembly is not None
+    travels = scene.assembly.travels
+    assembly = replace(scene.assembly, given=given, moves=moved_on(given, travels, by.reckoning))
+    board = Board()
+    drawn = Assembler(board, scene, assembly)
+    guides = {slide: drawn.guide(slide) for slide in scene.slides}
+    program = freeze(board, [*(drawn.mark(name) for name in scene.points), *guides.values()])
+    values = evaluate(program, Proofs(by))
+    marks = [values[index] for index in program.wanted]
+    points = dict(zip(scene.points, marks, strict=False))
+    ways = {slide: (b, -a) for slide, (a, b, _) in zip(guides, marks[len(points):], strict=True)}
+    return replace(scene.posed(points, lambda one: ways.get(one, one.direction)), assembly=assembly)
+
+
+def placing_error(scene: Scene) -> float:
+    """How far a constructed point is off at most, by rounding alone, as floats prove it; infinite where they cannot."""
+    try:
+        known = enclosed(scene, FLOATS)
+    except Unproven:
+        return math.inf
+    return max(math.hypot(*(FLOATS.lift(part).error for part in at)) for at in known.points.values())
 
 
 # ---- the solver's own equations, in numbers that know how far they may be off ---------------------------------------

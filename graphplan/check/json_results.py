@@ -24,6 +24,7 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
     return {
         "title": scene.title,
         "units": {"length": scene.units.length, "force": scene.units.force, "mass": scene.units.mass},
+        **_pose(found),
         "points": _merged(found, scene.points, velocity=kinds.VELOCITY, acceleration=kinds.ACCELERATION),
         "links": _merged(found, scene.moving, omega=kinds.OMEGA, alpha=kinds.ALPHA),
         "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
@@ -39,6 +40,15 @@ def _poles(found: Report) -> dict[str, Any]:
     """The instant centres, if any are asked for: each where it is, or which way it lies at infinity."""
     poles = _merged(found, found.scene.find.poles, at=kinds.POLE, direction=kinds.POLE_HEADING)
     return {"poles": poles} if poles else {}
+
+
+def _pose(found: Report) -> dict[str, Any]:
+    """The travel of a constructed pose, of each drive where there are several, and where its points are."""
+    if found.scene.assembly is None:
+        return {}
+    travels = [float(travel) for travel in found.scene.assembly.travels]
+    points = {name: [_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
+    return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, "points": points}}
 
 
 def _protocol(found: Report, each: bool) -> dict[str, Any]:

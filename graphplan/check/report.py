@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed
-from graphplan.check.compared import Compared, Numbers, Results
+from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed, placing_error
+from graphplan.check.compared import CLOSE, Compared, Numbers, Results
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -21,6 +22,7 @@ if TYPE_CHECKING:
     from graphplan.check.forces import Forces
     from graphplan.solver.statics import Reactions
 
+SAFETY = 100  # times the bound of a constructed place that the cycle may have it elsewhere
 LOST = 1e-6  # of a number: where no arithmetic at hand proves it, a difference up to this is taken for rounding
 
 
@@ -132,7 +134,16 @@ class Report:
     @cached_property
     def check(self) -> dict[str, Any]:
         """For each kind the largest difference of a number from the solver's, beside what cancels in the number."""
-        return self._largest("gap")
+        return self._largest("gap") | ({"position": self.displaced} if self.scene.assembly else {})
+
+    @cached_property
+    def displaced(self) -> float:
+        """How far a constructed point is at most from where the cycle has it, beside the mechanism's extent."""
+        drawing = self.drawing
+        found = ((step.index, self.scene.points[step.name]) for step in drawing.program.steps
+                 if step.name in self.scene.points and step.name)
+        return max((math.dist(drawing.truth[index], tuple(map(float, at))) for index, at in found),
+                   default=0.0) / self.scene.extent
 
     @cached_property
     def bounds(self) -> dict[str, Any]:
@@ -189,8 +200,15 @@ class Report:
     @property
     def same(self) -> bool:
         """Whether the numbers of construction and solver are the same, as far as can be told."""
-        return not self.wrong and all(number.gap <= LOST * number.size or number.holds or number.near
+        return not self.wrong and self._in_place and all(number.gap <= LOST * number.size or number.holds or number.near
                                       for _, _, number in self._all)
+
+    @property
+    def _in_place(self) -> bool:
+        """Whether constructed points are where the cycle has them, as far as the lengths tell."""
+        if self.scene.assembly is None or self.fault is not None or self.displaced <= CLOSE:
+            return True
+        return self.displaced <= LOST and self.displaced <= SAFETY * placing_error(self.scene) / self.scene.extent
 
     @property
     def _all(self) -> list[tuple[str, str, Compared]]:
@@ -204,6 +222,8 @@ class Report:
         """
         if self.same:
             return BrokenClaim(self.scene.name, self.broken)
+        if not self._in_place:
+            return Disagreement(self.scene.name, "position", "constructed", "followed", self.displaced)
         part, name, number = max(self._all, key=lambda one: (one[2].apart, one[2].beside("gap")))
         return Disagreement(self.scene.name, f"{part} of {name}", told(number.value), told(number.truth),
                             float(number.beside("gap")))

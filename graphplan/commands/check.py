@@ -13,7 +13,7 @@ from collections.abc import Sequence
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, given, reported
+from graphplan.commands.choices import add_choices, add_travel, given, reported
 from graphplan.commands.output import as_json, error, write
 
 if TYPE_CHECKING:
@@ -24,6 +24,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--exact", action="store_true", help="in fractions, without any tolerance")
     command.add_argument("--json", action="store_true", help="as data")
     add_choices(command)
+    add_travel(command)
 
 
 def run(options: argparse.Namespace) -> int:

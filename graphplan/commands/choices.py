@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 from collections.abc import Callable
 from dataclasses import replace
+from fractions import Fraction
 from itertools import permutations
 from typing import TYPE_CHECKING, Any
 
@@ -60,6 +61,13 @@ def add_choices(command: argparse.ArgumentParser, *, strict: bool = False) -> No
                          curves="", centrodes="", faint=None)
     if strict:
         add("--strict", action="store_true", help="compasses and straightedge alone, no set squares")
+
+
+def add_travel(command: argparse.ArgumentParser) -> None:
+    """The option that asks for another pose."""
+    command.add_argument("--at", metavar="TRAVEL", help="construct the mechanism where its drive has gone so far from "
+                         "the given pose, in degrees or in lengths of one that slides, and then its plans; of several "
+                         "drives the first one's, the others keep pace, or a list such as 60,-30")
 
 
 def add_language(command: argparse.ArgumentParser) -> None:
@@ -127,9 +135,21 @@ def given(options: argparse.Namespace, scene: Scene | None = None) -> Scene:
     from graphplan.mechanism.scene import load
 
     scene = scene or load(options.scene)
+    if getattr(options, "at", None) is not None:
+        from graphplan.cycle.pose import at
+
+        scene = at(scene, _travels(options.at))
     if options.rounds is None or scene.loads is None:
         return scene
     return replace(scene, loads=replace(scene.loads, rounds=options.rounds))
+
+
+def _travels(text: str) -> list[Fraction]:
+    """The travels of an option, of each drive or of the first alone."""
+    try:
+        return [Fraction(part.strip()) for part in text.split(",")]
+    except (ValueError, ZeroDivisionError):
+        raise Refused(f"--at {text}", "this is no travel", "degrees or lengths, such as 60, or 60,-30") from None
 
 
 def presented(options: argparse.Namespace, scene: Scene | None = None) -> Scene:

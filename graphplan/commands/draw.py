@@ -23,7 +23,16 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper, presented, reported
+from graphplan.commands.choices import (
+    add_choices,
+    add_preference,
+    add_sheet,
+    add_travel,
+    count,
+    on_paper,
+    presented,
+    reported,
+)
 from graphplan.commands.output import kind, paged, write, write_all
 from graphplan.errors import Refused
 from graphplan.output import back_end
@@ -55,6 +64,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--numbers", action="store_true",
                          help="the number of its step at every mark, at those with letters too")
     add_choices(command, strict=True)
+    add_travel(command)
     add_preference(command)
 
 

@@ -15,7 +15,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, count, on_paper
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, count, on_paper
 from graphplan.commands.live import add_offer, page
 from graphplan.commands.output import kind, write
 from graphplan.errors import Refused
@@ -36,6 +36,7 @@ def options(command: argparse.ArgumentParser) -> None:
                          help="of no effect: a .html moves through all poses")
     add_sheet(command, positions=False)
     add_choices(command, strict=True)
+    add_travel(command)
     add_preference(command)
     add_offer(command)
 
@@ -54,6 +55,8 @@ def _suffix(options: argparse.Namespace) -> str:
     suffix = kind(options.output, ENDINGS, "handout")
     if suffix == ".html" and options.only:
         raise Refused(f"--only {options.only}", "a page for a browser has no parts", "leave it out, or -o FILE.pdf")
+    if suffix == ".html" and options.at is not None:
+        raise Refused(f"--at {options.at}", "a page for a browser moves to any pose", "leave it out, or -o FILE.pdf")
     if suffix == ".pdf" and options.positions is not None:
         raise Refused("--positions", "a page of a .pdf shows one pose", "leave it out, or -o FILE.html")
     return suffix

@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 from importlib.util import find_spec
 
-from graphplan.commands.choices import add_choices, add_preference, drawn_by, given, reported
+from graphplan.commands.choices import add_choices, add_preference, add_travel, drawn_by, given, reported
 from graphplan.commands.output import as_json, write
 from graphplan.errors import Refused
 
@@ -25,6 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--bounds", action="store_true",
                          help="a proven bound for every number, relative to itself and to what cancels in it")
     add_choices(command)
+    add_travel(command)
     add_preference(command)
 
 

@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, Any
 
-from graphplan.commands.choices import add_choices, add_preference, add_sheet, on_paper
+from graphplan.commands.choices import add_choices, add_preference, add_sheet, add_travel, on_paper
 from graphplan.commands.output import as_json, write
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ def options(command: argparse.ArgumentParser) -> None:
     command.add_argument("--json", action="store_true", help="as data, with the place of every mark on the sheet")
     add_sheet(command)
     add_choices(command, strict=True)
+    add_travel(command)
     add_preference(command)
 
 

@@ -249,6 +249,38 @@ def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     return min(abs(d.way(-1) - _unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
+# ---- positions of links ---------------------------------------------------------------------------------------------
+
+
+def _angle(d: Drawn) -> complex:
+    """The vector that an angle is given by."""
+    return complex(float(d.params["angle"].x), float(d.params["angle"].y))
+
+
+def _figure(d: Drawn) -> tuple[complex, complex]:
+    """Two vectors of a link's figure: that to the point, and that beside which it lies."""
+    return complex(d.number("dx"), d.number("dy")), complex(d.number("ux"), d.number("uy"))
+
+
+def _cornered(d: Drawn, P: int, Q: int) -> float:
+    """The triangle of the three points is like the figure's."""
+    v, u = _figure(d)
+    return abs((d[-1] - d[P]) * u - (d[Q] - d[P]) * v) / d.size / (abs(u) + abs(v))
+
+
+def _set_off(d: Drawn, l: int, P: int) -> float:
+    """As long as in the figure, and at the same angle with the line."""
+    v, u = _figure(d)
+    return abs(d[-1] - d[P] - v * _unit(u).conjugate() * d.way(l)) / (d.size + abs(v))
+
+
+def _sighted(d: Drawn, P: int, Q: int) -> float:
+    """The line passes P as far off, and on the same side, as in the figure, and Q lies the right way along it."""
+    v, u = _figure(d)
+    ahead = _short(_dot(d.way(-1), d[Q] - d[P]), d.params["way"] == "on")
+    return abs(d.off(-1, d[P]) + _cross(_unit(u), v)) / (d.size + abs(v)) + ahead / d.size
+
+
 # By how much a claim fails, and what the drawn thing is that breaks it; {0}, {1}, ... are its operands.
 CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "stands": (lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size, "not where it is given"),
@@ -303,6 +335,13 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "takes couple": (_takes_couple, "the force there has not the couple's moment"),
     "touches": (_touches, "the force there does not touch the friction circle"),
     "leans": (_leans, "not turned by the friction angle"),
+    "spans": (lambda d: (d.radius(-1) - abs(complex(d.number("dx"), d.number("dy")))) / d.size,
+              "not of the given length"),
+    "inclined": (lambda d: abs(d.way(-1) - _unit(_angle(d))), "not at the given angle"),
+    "laid at": (lambda d: abs(d[-1] - d[0] - _angle(d)) / (d.size + abs(_angle(d))), "not at the given angle"),
+    "cornered": (_cornered, "no corner of the link's figure on {0}{1}"),
+    "set off": (_set_off, "not where the link has it from {1}"),
+    "sighted": (_sighted, "it passes {0} at another distance"),
 }
 
 

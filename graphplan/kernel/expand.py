@@ -25,7 +25,7 @@ AGREE = 1e-6  # beside the figure that is drawn: a form that loses more is none
 FLOATS = Floats()
 
 # What counts as one movement: with set squares and dividers, and with compasses and straightedge alone.
-STRICT = frozenset(name for name, op in TABLE.items() if not op.compound)
+STRICT = frozenset(name for name, op in TABLE.items() if not (op.compound or op.movement is Movement.INCLINED))
 BY_SET_SQUARE = STRICT | {name for name, op in TABLE.items() if op.movement is not Movement.OTHER}
 
 

@@ -23,7 +23,7 @@ from graphplan.phrases import Phrase, Said, digits, joined, said, sentence
 POINT, LINE, OPENING, CIRCLE = "point", "line", "opening", "circle"
 
 SCALE, STRAIGHTEDGE, SET_SQUARES = "scale", "straightedge", "set squares"
-COMPASSES, DIVIDERS, PENCIL = "compasses", "dividers", "pencil"
+COMPASSES, DIVIDERS, PENCIL, PROTRACTOR = "compasses", "dividers", "pencil", "protractor"
 
 Claim = tuple[Any, ...]
 
@@ -62,6 +62,7 @@ class Movement(Enum):
     BEGUN = "a plan is begun where there is room"
     PICKED = "a point of a line is chosen"
     GUIDED = "a line is drawn in a given direction"
+    INCLINED = "a line is drawn at a given angle"
     RULED = "a line is drawn through two points"
     PARALLEL = "a parallel is drawn"
     PERPENDICULAR = "a perpendicular is drawn"

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections import Counter
 from dataclasses import dataclass, field
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PENCIL, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE, Movement
 from graphplan.kernel.program import Program, Step
 from graphplan.phrases import Said, joined, phrase, said
 
@@ -65,7 +65,8 @@ class Counts:
         return joined([joined((" + ".join(terms) or "0", simple), ": "), *laid])
 
 
-BY = {SET_SQUARES: phrase("by set squares {0}"), DIVIDERS: phrase("by dividers {0}"),
+BY = {SET_SQUARES: phrase("by set squares {0}"), PROTRACTOR: phrase("by protractor {0}"),
+      DIVIDERS: phrase("by dividers {0}"),
       COMPASSES: phrase("by compasses {0}"), STRAIGHTEDGE: phrase("by the straightedge {0}")}
 
 

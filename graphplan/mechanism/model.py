@@ -25,9 +25,9 @@ from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import Number, Pair
 from graphplan.mechanism.units import Units
 
-__all__ = ["FRAME", "Balance", "Condition", "Contact", "Drive", "Find", "Force", "Friction", "Gear", "Loads", "Mass",
-           "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide", "SlidingDrive",
-           "TurningDrive", "Units", "Written"]
+__all__ = ["FRAME", "Assembly", "Balance", "Condition", "Contact", "Drive", "Find", "Force", "Friction", "Gear",
+           "Loads", "Mass", "Moment", "Motion", "Number", "Pair", "Placement", "Presentation", "Scene", "Slide",
+           "SlidingDrive", "TurningDrive", "Units", "Written"]
 
 
 @dataclass(frozen=True)
@@ -187,6 +187,21 @@ class Presentation:
 
 
 @dataclass(frozen=True)
+class Assembly:
+    """What a pose is put together from: the links of a scene as they are `given`, moved on by the `travels` of its
+    drives (degrees, or lengths of one that slides).
+
+    `moves` says the same in the numbers of the given scene: the cosine and sine of a turning drive's travel, the vector
+    of a sliding one's. `riding` are points that only mark the place under a sliding point, each with that point.
+    """
+
+    given: Scene
+    travels: tuple[Fraction, ...]
+    moves: tuple[Pair, ...]
+    riding: dict[str, str] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
 class Scene:
     """A mechanism in a pose and what is asked of it; made by :func:`graphplan.load`, validated there.
 
@@ -195,6 +210,7 @@ class Scene:
     `irrational` says, for each value that fractions cannot hold, where it stands in the scene and why. `loads` is None
     where no forces are asked for. `sheet` is how its sheet should look. `text` is the scene as it was written, `vary`
     the values that some of its numbers have in variants, by path.
+    `assembly` is what its pose is constructed from, where that is not given.
     `redundant` are the conditions without which the mechanism moves just the same, by its special geometry, and
     `repeating` all those that follow from others of them: which of them carry the forces nothing tells.
     """
@@ -216,6 +232,7 @@ class Scene:
     redundant: tuple[Condition, ...] = ()
     repeating: tuple[Condition, ...] = ()
     vary: dict[str, tuple[Fraction, ...]] = field(default_factory=dict, repr=False)
+    assembly: Assembly | None = field(default=None, repr=False)
 
     @property
     def moving(self) -> tuple[str, ...]:

@@ -167,6 +167,8 @@ def _by_rules(construction: Recorded, given: Coordinates, results: Results) -> F
 def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[str, Any]) -> tuple[int, Coordinates]:
     """The number of poses, and what is given in each: coordinates of points, and directions of guides by their step."""
     scene = construction.scene
+    if scene.assembly is not None and (points or guides):
+        raise Refused("points", said("the pose is constructed from the lengths of links"), "the scene as it is given")
     arrays = {name: _poses(z) for name, z in points.items()}
     directions = {name: _poses(z) for name, z in guides.items()}
     for name in arrays:

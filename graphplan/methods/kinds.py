@@ -83,7 +83,7 @@ MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATI
           POLES: (POLE, POLE_HEADING)}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
 WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), POLES: said("poles"),
-         "curves": said("curves")}
+         "curves": said("curves"), "position": said("position")}
 
 
 def kind_of(name: str) -> ResultKind:

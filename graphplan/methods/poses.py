@@ -9,6 +9,7 @@ from graphplan.kernel.program import Board, Mark
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.mechanism.order import by_name, ordered_points
 from graphplan.mechanism.replaced import RollingGuide, rolling_guides
+from graphplan.methods.assembly import Assembler
 from graphplan.methods.motion.network import BodyPoint
 from graphplan.methods.motion.stages import divided, pitch_point
 from graphplan.methods.panels import MECHANISM
@@ -24,11 +25,14 @@ class Pose:
 
     def __init__(self, board: Board, scene: Scene, shared: Mapping[str, str]):
         self.board, self.scene = board, scene
+        self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
         with board.on(MECHANISM):
             self._rolling = rolling_guides(scene)
             drawn = {guide.at: guide for guide in self._rolling if guide.drawn}
             apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *drawn}}
-            self.standing: dict[str, Mark] = {name: board.given(x=x, y=y, name=name) for name, (x, y) in apart.items()}
+            self.standing: dict[str, Mark] = {
+                name: self.assembled.mark(name) if self.assembled else board.given(x=x, y=y, name=name)
+                for name, (x, y) in apart.items()}
         self.standing |= {name: self.standing[other] for name, other in shared.items()}
         self.points: MutableMapping[str, Mark] = ChainMap({}, self.standing)
         self.guides: dict[Slide, Mark] = {}
@@ -47,6 +51,8 @@ class Pose:
         if isinstance(slide, RollingGuide):
             return self._line_of_centres(slide)
         with self.board.on(MECHANISM, slide.given_links):
+            if self.assembled:
+                return self.assembled.guide(slide)
             if slide.through is None:
                 return self.board.guide(self.points[slide.at], dx=slide.direction[0], dy=slide.direction[1])
             one, two = (self.points[name] for name in slide.through)

@@ -19,7 +19,8 @@ from graphplan.phrases import digits, said
 
 
 def layout(scene: Scene) -> Program:
-    """The steps that put every point of the scene in its place, each after those it is measured from."""
+    """The steps that put every point of the scene in its place, each after those it is measured from; where the pose is
+    constructed, those that stand still."""
     board = Board()
     marks: dict[str, Mark] = {}
     waiting = {name: [p for p in needs(placement) if p in scene.placements] for name, placement in
@@ -32,7 +33,7 @@ def layout(scene: Scene) -> Program:
             marks[name + "_0"] = board.given(x=x, y=y, name=name + "_0")
     for name in sorted(order, key=lambda point: scene.placements[point].how != "given"):
         marks[name] = board.named(_put(board, scene, name, scene.placements[name], marks), name)
-    return freeze(board, [marks[name] for name in scene.points])
+    return freeze(board, [marks[name] for name in scene.points if name in marks])
 
 
 def _put(board: Board, scene: Scene, name: str, placement: Placement, marks: dict[str, Mark]) -> Mark:

@@ -16,6 +16,7 @@ from graphplan.errors import GraphplanError
 from graphplan.kernel import CIRCLE, LINE, OPENING, POINT, TABLE, Board, Mark, Primitive, Program
 from graphplan.kernel.numbers import Domain
 from graphplan.kernel.passes import freeze
+from graphplan.kernel.positions import Angle
 from graphplan.kernel.program import evaluate
 
 Place = Callable[[Random], tuple[Any, Any]]
@@ -44,9 +45,10 @@ def extremes(r: Random) -> tuple[float, float]:
 
 
 PARAMS: dict[str, Callable[[Random], Any]] = {
-    **dict.fromkeys(("x", "y", "dx", "dy", "length", "moment"), lambda r: Fraction(r.randint(-8, 8), 4)),
+    **dict.fromkeys(("x", "y", "dx", "dy", "ux", "uy", "length", "moment"), lambda r: Fraction(r.randint(-8, 8), 4)),
     **dict.fromkeys(("radius", "coefficient"), lambda r: Fraction(r.randint(1, 8), 8)),
     "ratio": lambda r: Fraction(r.choice((-3, -2, -1, 1, 2, 3, 5)), 2),
+    "angle": lambda r: Angle("30", Fraction(r.randint(-8, 8), 4), Fraction(r.randint(-8, 8), 4)),
     "plan": lambda r: "N-plan",
     "number": lambda r: r.randint(1, 3),
     "way": lambda r: r.choice(("on", "back")),
@@ -82,9 +84,15 @@ def _false_position(b: Board, p: Points, r: Random, params: dict[str, Any]) -> t
     return p[0], p[1], p[2], locus, p[3], b.parallel(locus, p[6])
 
 
+def _corner(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    c, s = Fraction(r.choice((-4, -3, 3, 4)), 5), Fraction(4, 5)
+    s = s if abs(c) == Fraction(3, 5) else Fraction(3, 5)
+    return p[0], b.lay_off(p[0], dx=c * params["ux"] - s * params["uy"], dy=s * params["ux"] + c * params["uy"])
+
+
 FITTING: dict[str, tuple[int, Draw]] = {
     "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
-    "false_position": (7, _false_position),
+    "false_position": (7, _false_position), "corner": (1, _corner),
 }
 
 NEEDED = {POINT: 1, LINE: 2, OPENING: 2, CIRCLE: 3}

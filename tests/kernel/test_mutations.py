@@ -112,6 +112,14 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
         d, l, B, w, p, q, coefficient=-coefficient)),
     ("towards", "parallel to the first line", lambda rule: lambda d, y, z, X: (y[0], y[1], -y[0] * X[0] - y[1] * X[1])),
     ("weigh", "sign of the moment", reflected(6)),
+    ("link_length", "not squared", lambda rule: lambda d, **params: (rule(d, **params)[0] ** 0.5,)),
+    ("inclined", "runs the other way", backwards),
+    ("crank", "twice as long", doubled(0)),
+    ("corner", "mirrored", lambda rule: lambda d, P, Q, **given: rule(d, P, Q, **given | {"dy": -given["dy"]})),
+    ("corner", "from the other point", ordered(1, 0)),
+    ("set_off", "backwards", reflected(1)),
+    ("sight", "wrong way", lambda rule: turned(rule, way=OTHER["way"])),
+    ("sight", "runs the other way", backwards),
 ]
 
 

@@ -72,7 +72,7 @@ def test_fractions_equal_floats(name: str) -> None:
     assert both or name in ROOTS
 
 
-ROOTS = {"line_meets_circle", "circles_meet"}
+ROOTS = {"line_meets_circle", "circles_meet", "set_off", "sight"}
 
 
 @PLACES

@@ -28,11 +28,12 @@ def op(request: pytest.FixtureRequest) -> Primitive:
 
 def test_sentence_speaks_of_everything(op: Primitive) -> None:
     """A sentence uses every argument, what is made, and every parameter; sizes are told where there is paper, in mm,
-    and of a trial nothing but its line matters."""
+    of a link's figure nothing but its lengths, and of a trial nothing but its line matters."""
     used = {field for _, field, _, _ in Formatter().parse(op.sentence) if field is not None}
     sized = op.root is not None or (op.instrument == SCALE and op.gives != LINE and not op.free)
     needed = {"0"} if op.movement is Movement.PICKED else {*map(str, range(len(op.reads))), *op.params}
-    assert used == {"out", *needed} - ({*op.params} if sized else set())
+    figure = {"dx", "dy", "ux", "uy"} if "ux" in op.params else set()
+    assert used == {"out", *needed} - ({*op.params} if sized else figure)
 
 
 def test_doc_is_one_line(op: Primitive) -> None:

@@ -60,8 +60,8 @@ class Plates:
 
     @cached_property
     def pose(self) -> dict[str, DrawnStep]:
-        """Every point of the scene, those that no step reads among them."""
-        found = {drawn.name: drawn for drawn in self.steps if not drawn.number}
+        """Every point of the scene, those that no step reads or that are constructed among them."""
+        found = {drawn.name: drawn for drawn in self.steps if not drawn.number or drawn.name in self.scene.points}
         for name in self.scene.points:
             if name not in found:
                 (x, y), index = self.plans.place(name), min((0, *(drawn.index for drawn in found.values()))) - 1
@@ -73,7 +73,8 @@ class Plates:
     @property
     def drawn(self) -> list[DrawnStep]:
         """All marks, each after those that it depends on: the pose, then the steps."""
-        return [*self.pose.values(), *(drawn for drawn in self.steps if drawn.number)]
+        given = (drawn for drawn in self.pose.values() if not drawn.number)
+        return [*given, *(drawn for drawn in self.steps if drawn.number)]
 
     @property
     def firsts(self) -> dict[DrawnStep, Plate]:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from typing import Any
 
-from graphplan.kernel.kinds import COMPASSES, DIVIDERS, SCALE, SET_SQUARES, STRAIGHTEDGE
+from graphplan.kernel.kinds import COMPASSES, DIVIDERS, PROTRACTOR, SCALE, SET_SQUARES, STRAIGHTEDGE
 from graphplan.mechanism.model import Balance, Contact, Gear, Loads, Pair, Scene
 from graphplan.mechanism.order import named_forces
 from graphplan.methods.kinds import REACTION, SLIDE_REACTION, kind_of
@@ -23,7 +23,7 @@ from graphplan.sheet.words.texts import Words
 
 INSTRUMENTS = {
     SET_SQUARES: phrase("set squares"), STRAIGHTEDGE: phrase("straightedge"), COMPASSES: phrase("compasses"),
-    DIVIDERS: phrase("dividers"), SCALE: phrase("scale"),
+    DIVIDERS: phrase("dividers"), PROTRACTOR: phrase("protractor"), SCALE: phrase("scale"),
 }  # fmt: skip
 
 

@@ -1,0 +1,92 @@
+"""The scene at another travel of its drives: what is asked there, and what its points are put together from."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import replace
+from fractions import Fraction
+from typing import Any
+
+from graphplan.cycle.travel import check_drives
+from graphplan.cycle.turn import follow, under
+from graphplan.errors import Refused, SingularPose
+from graphplan.mechanism.assembly import moved_on
+from graphplan.mechanism.model import FRAME, Assembly, Drive, Pair, Placement, Scene, Slide
+from graphplan.mechanism.numerals import TO_A_FLOAT
+from graphplan.mechanism.placements import needs
+from graphplan.phrases import said
+
+Travel = Fraction | float | int
+
+
+def at(scene: Scene, travel: Travel | Sequence[Travel]) -> Scene:
+    """The scene as it is when its first drive has gone so far, in degrees or in lengths of one that slides.
+
+    The other drives keep pace, or a list says how far each goes. The pose is constructed from the given one. Fails with
+    `Refused` where nothing leads there, and with `SingularPose` where it is a limit.
+    """
+    check_drives(scene)
+    if scene.gears or scene.contacts:
+        raise Refused(f"{scene.name}: the pose", said("no steps are known that find where gears and contacts go"),
+                      "the pose as it is given")
+    travels = _travels(scene, travel)
+    paced, first = _paced(scene, travels)
+    found = follow(paced, 1, (float(first), float(first)))
+    if 0 in found.faults:
+        why = found.faults[0]
+        if all(math.isfinite(abs(z[0])) for z in found.points.values()):
+            raise SingularPose(why, ())
+        raise Refused(f"{scene.name}: the pose", why, said("a travel that the mechanism reaches"))
+    points: dict[str, Pair] = {name: (float(z[0].real), float(z[0].imag)) for name, z in found.points.items()}
+
+    def direction(one: Any) -> Pair:
+        z: complex | None = None
+        if isinstance(one, Slide):
+            ends = [complex(*points[end]) for end in one.through or ()]
+            z = ends[1] - ends[0] if ends else complex(found.guides[one.name][0]) if one.name in found.guides else None
+        return one.direction if z is None else (z.real, z.imag)
+
+    assembly = Assembly(scene, travels, moved_on(scene, travels, TO_A_FLOAT), under(scene))
+    posed = scene.posed(points, direction)
+    where = "the pose: constructed at another travel of its drive"
+    return replace(posed, placements=_standing(scene), irrational=(*scene.irrational, where), assembly=assembly)
+
+
+def _standing(scene: Scene) -> dict[str, Placement]:
+    """How the points that stand still are placed: from each other as the scene has it, else by their coordinates."""
+    fixed = [name for name, links in scene.links_of.items() if FRAME in links or not links]
+    return {name: placed if (placed := scene.placements.get(name)) and {*needs(placed)} <= {*fixed}
+            else Placement("given", {"at": scene.points[name]}) for name in fixed}
+
+
+def _travels(scene: Scene, travel: Travel | Sequence[Travel]) -> tuple[Fraction, ...]:
+    """How far each drive goes, in degrees or lengths."""
+    given = [travel] if isinstance(travel, Fraction | float | int) else [*travel]
+    if len(given) not in (1, len(scene.drives)) or not all(math.isfinite(one) for one in given):
+        raise Refused(f"--at {', '.join(map(str, given))}", f"{len(scene.drives)} drives",
+                      "one finite travel of the first drive, or one of each")
+    if len(given) > 1:
+        return tuple(Fraction(one) for one in given)
+    first = scene.drives[0]
+    whole = Fraction(given[0])
+    return whole, *(_kept(whole, first, other) for other in scene.drives[1:])
+
+
+def _kept(travel: Fraction, first: Drive, other: Drive) -> Fraction:
+    """How far a drive goes that keeps pace with the first one, in its own unit."""
+    if not other.rate:
+        return Fraction(0)
+    pace = Fraction(other.rate) / Fraction(first.rate) if first.rate else Fraction(0)
+    units = {(False, True): math.radians(1.0), (True, False): math.degrees(1.0)}
+    return travel * pace * Fraction(units.get((first.slides, other.slides), 1))
+
+
+def _paced(scene: Scene, travels: Sequence[Fraction]) -> tuple[Scene, Fraction]:
+    """The scene with drives at such rates that they go so far together, those first that move; and how far the first.
+    """
+    if len(travels) == 1:
+        return scene, travels[0]
+    far = sorted(zip(travels, scene.drives, strict=True), key=lambda one: not one[0])
+    return scene.with_drives(drive.driven_at(float(travel) if drive.slides else math.radians(float(travel)), 0)
+                             for travel, drive in far), far[0][0]

@@ -1,0 +1,365 @@
+"""The mechanism in another pose, put together from the lengths of its links: cranks by protractor, dyads by arcs.
+
+Links that a drive holds together are one body: of it all lengths are known, whichever way it lies. A dyad is placed on
+what is placed already by what its three pairs say (Ozols, section 5-2: the method of arcs): two arcs; an arc and the
+line of a guide; a guide that passes a point; two guides. On which side a point lies is read from the given pose: it can
+only change at a limit.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass, field
+from typing import Any
+
+from graphplan.errors import Refused, by_name
+from graphplan.kernel.kinds import Quantity
+from graphplan.kernel.positions import Angle
+from graphplan.kernel.primitives import cross, dot
+from graphplan.kernel.program import Board, Mark
+from graphplan.kernel.stages import Stage
+from graphplan.mechanism.assembly import STILL, following, turned_about, undone
+from graphplan.mechanism.model import FRAME, Assembly, Number, Pair, Scene, Slide
+from graphplan.mechanism.order import ordered_points
+from graphplan.mechanism.pairs.pair import Attitude
+from graphplan.mechanism.pairs.revolute import Revolute
+from graphplan.mechanism.plane import less, plus, times
+from graphplan.methods.motion.network import Network
+from graphplan.methods.panels import MECHANISM, listed
+from graphplan.phrases import Said, digits, said
+
+FLAT = 1e-13  # of the product of lengths: vectors that are no further apart run alike
+Hinge = str | Slide  # a joint by its point, or a slide
+
+
+@dataclass
+class Body:
+    """Links that drives hold together: how each lies in the body's own figure, and what is drawn of it.
+
+    `spots` are marks of it without a name in the scene, by their place in the figure; `heading` is a line that runs as
+    a vector of the figure does.
+    """
+
+    top: str
+    lies: dict[str, Attitude]
+    spots: list[tuple[Pair, Mark]] = field(default_factory=list)
+    heading: tuple[Pair, Mark] | None = None
+
+
+class Assembler:
+    """Draws a scene's points from its fixed ones and the lengths of its links; `marks` are those that are drawn."""
+
+    def __init__(self, board: Board, scene: Scene, assembly: Assembly):
+        self.board, self.scene, self.assembly, self.given = board, scene, assembly, assembly.given
+        self.net = Network(self.given)
+        self.marks: dict[str, Mark] = {}
+        self.lines: dict[str, Mark] = {}
+        self.bodies = {top: Body(top, {link: self._lies(link) for link in members})
+                       for top, members in self.net.members.items()}
+        self.ground = self.bodies.setdefault(self.net.ground or FRAME, Body(FRAME, {FRAME: STILL}))
+        self.placed = [self.ground]
+        self._fixed()
+        waiting = [body for body in self.bodies.values() if body is not self.ground]
+        while waiting:
+            found = self._next(waiting)
+            waiting = [body for body in waiting if body not in found]
+        for name in ordered_points(scene):
+            if name not in self.assembly.riding:
+                self.mark(name)
+
+    # ---- figures of bodies ------------------------------------------------------------------------------------------
+
+    def _lies(self, link: str) -> Attitude:
+        """How a link lies in its body, after what its drives have moved it."""
+        if link not in self.net.welds:
+            return STILL
+        weld = self.net.welds[link]
+        x, y = self.assembly.moves[self.given.drives.index(weld.drive)]
+        here = (turned_about(self.given.points[weld.at], x, weld.sign * y) if weld.slide is None
+                else Attitude(weld.sign * x, weld.sign * y, 1, 0))
+        return following(here, self._lies(weld.to))
+
+    def _home(self, point: str) -> Body:
+        """The body of a point: the ground, if it is a point of it."""
+        links = self.given.links_of[point]
+        bodies = [self.bodies[self.net.body[link]] for link in links] or [self.ground]
+        return self.ground if self.ground in bodies else bodies[0]
+
+    def _figure(self, body: Body, point: str) -> Pair:
+        """Where a point is in a body's figure."""
+        link = next((link for link in body.lies if point in self.given.links.get(link, ())), FRAME)
+        at: Pair = body.lies.get(link, STILL).at(self.given.points[point])
+        return at
+
+    def _drawn(self, body: Body, links: tuple[str, ...] = ()) -> list[tuple[Pair, Mark]]:
+        """The marks of a body, or of some links of it, by their places in its figure."""
+        names = dict.fromkeys(point for link in links or body.lies for point in self.given.links.get(link, ())
+                              if point in self.marks and point not in self.assembly.riding)
+        return [(self._figure(body, name), self.marks[name]) for name in names] + ([] if links else body.spots)
+
+    # ---- points and lines of a body that is placed -------------------------------------------------------------------
+
+    def mark(self, point: str) -> Mark:
+        """The mark of a point of the scene."""
+        point = self.assembly.riding.get(point, point)
+        if point not in self.marks:
+            body = self._home(point)
+            self.marks[point] = self._laid(body, self._figure(body, point), self.given.links_of[point], point)
+        return self.marks[point]
+
+    def _laid(self, body: Body, at: Pair, links: tuple[str, ...] = (), name: str = "") -> Mark:
+        """The mark at a place of a body's figure: one that is there, else one that is drawn from two of the same link,
+        or from two of the body."""
+        links = tuple(link for link in links if link in body.lies and link != FRAME)
+        for own in (links, ()):
+            drawn = self._drawn(body, own) if own or not links or body is not self.ground else []
+            same = next((mark for place, mark in drawn if same_place(place, at)), None)
+            if same is not None:
+                return self.board.named(same, name)
+            if found := _widest(drawn):
+                (p, P), (q, Q) = found
+                return self._corner(P, Q, less(at, p), less(q, p), name)
+        if links and body is self.ground:
+            return self._driven(body, links[0], at, name)
+        (p, P), = self._drawn(body)[:1]
+        assert body.heading is not None
+        u, line = body.heading
+        with self.board.on(MECHANISM, tuple(body.lies)):
+            return self.board.set_off(line, P, **figure(less(at, p), u), name=name)
+
+    def _corner(self, P: Mark, Q: Mark, v: Pair, u: Pair, name: str) -> Mark:
+        return self.board.corner(P, Q, **figure(v, u), name=name)
+
+    def _driven(self, body: Body, link: str, at: Pair, name: str) -> Mark:
+        """The first mark of a link that is driven from the frame: a crank laid off, or a slider moved along."""
+        weld = self.net.welds[link]
+        law = (said("{0} lies at the angle that the drive gives its link, as far off as the link is long", name or link)
+               if weld.slide is None else said("{0} has gone along its guide as far as its drive says", name or link))
+        with self.board.on(MECHANISM, (link,), self._stage(law, (link,))):
+            if weld.slide is None:
+                root = self._figure(body, weld.at)
+                return self.board.crank(self.mark(weld.at), angle=angle(less(at, root)), name=name)
+            before = undone(Attitude(weld.sign * self._move(weld)[0], weld.sign * self._move(weld)[1], 1, 0), at)
+            line = self._line(body, before, weld.slide.direction)
+            travel = self.assembly.travels[self.given.drives.index(weld.drive)]
+            start = self._laid(body, before)
+            return self.board.lay_along(line, start, length=weld.sign * travel, name=name)
+
+    def _move(self, weld: Any) -> Pair:
+        return self.assembly.moves[self.given.drives.index(weld.drive)]
+
+    def _line(self, body: Body, p: Pair, u: Pair) -> Mark:
+        """The line through a place of a body's figure that runs as a vector of it does."""
+        drawn = self._drawn(body)
+        on = [(place, mark) for place, mark in drawn if alike(less(place, p), u)]
+        if ends := _widest(on):
+            (one, P), (two, Q) = ends
+            return self.board.line(P, Q) if float(dot(u, less(two, one))) > 0 else self.board.line(Q, P)
+        P = on[0][1] if on else self._laid(body, p)
+        if body.heading and alike(body.heading[0], u):
+            along, line = body.heading
+            return self.board.parallel(line if float(dot(along, u)) > 0 else line.reversed, P)
+        if body is self.ground:
+            return self.board.guide(P, dx=u[0], dy=u[1])
+        far = 2.0 ** round(math.log2(self.scene.extent / 4 / math.hypot(*map(float, u))))
+        far = int(far) if far >= 1 else far
+        return self.board.line(P, self._laid(body, plus(p, times(far, u))))
+
+    def _path(self, slide: Slide, body: Body, at: Pair) -> Mark:
+        """The line on what is placed along which a place of a body's figure slides."""
+        mover, guide = (link for link in sorted(slide.links, key=lambda link: link not in body.lies))
+        on = self.bodies[self.net.body[guide]] if guide in self.net.body else self.ground
+        lies = on.lies.get(guide, STILL)
+        return self._line(on, lies.at(undone(body.lies[mover], at)), lies.turned(slide.direction))
+
+    def _heads(self, slide: Slide, body: Body) -> Pair:
+        """The direction of a slide in a body's figure."""
+        way: Pair = next(lies for link, lies in body.lies.items() if link in slide.links).turned(slide.direction)
+        return way
+
+    def guide(self, slide: Slide) -> Mark:
+        """The guide of a slide through its point, as its direction runs."""
+        slide, point = next(one for one in self.given.slides if one.name == slide.name), self.mark(slide.at)
+        if slide.name in self.lines:
+            return self.board.parallel(self.lines[slide.name], point)
+        body = self.bodies.get(self.net.body.get(slide.along, ""), self.ground)
+        lies = body.lies.get(slide.along, STILL)
+        line = self._line(body, lies.at(self.given.points[slide.at]), lies.turned(slide.direction))
+        return self.board.parallel(line, point)
+
+    # ---- the ground --------------------------------------------------------------------------------------------------
+
+    def _fixed(self) -> None:
+        """Mark the points that stand still, and where a guide of the frame passes none of them, one of it."""
+        with self.board.on(MECHANISM):
+            fixed = [name for name in ordered_points(self.scene) if name not in self.assembly.riding
+                     and (FRAME in (links := self.given.links_of[name]) or not links)]
+            for name in fixed:
+                x, y = self.given.points[name]
+                self.marks[name] = self.board.given(x=x, y=y, name=name)
+            for slide in self.net.all_slides:
+                at = self.given.points[slide.at]
+                if FRAME in slide.links and (slide not in self.net.slides or not any(
+                        alike(less(place, at), slide.direction) for place, _ in self._drawn(self.ground))):
+                    self.ground.spots.append((at, self.board.given(x=at[0], y=at[1], name=f"{slide.at}_0")))
+
+    # ---- groups ------------------------------------------------------------------------------------------------------
+
+    def _next(self, waiting: list[Body]) -> list[Body]:
+        """Place the next bodies that arcs and lines can place."""
+        held = [(body, [*self._hinges(body, self.placed)]) for body in waiting]
+        for body, hinges in held:
+            if len(hinges) > 1:
+                return self._put([body], self._held(body, hinges))
+        single = [(body, hinges[0]) for body, hinges in held if len(hinges) == 1]
+        for k, (one, outer) in enumerate(single):
+            for two, other in single[k + 1:]:
+                inner = [*self._hinges(one, [two])]
+                if len(inner) == 1:
+                    return self._put([one, two], self._dyad(one, outer, inner[0], two, other))
+        links = sorted((link for body in waiting for link in body.lies), key=by_name)
+        raise Refused(str(listed(links)), said("their position is not found by arcs alone"), said("another travel"))
+
+    def _put(self, bodies: list[Body], law: Said) -> list[Body]:
+        self.placed += bodies
+        return bodies
+
+    def _hinges(self, body: Body, others: list[Body]) -> Iterator[Hinge]:
+        """The joints and slides of a body with some others."""
+        there = {link for other in others for link in other.lies} | ({FRAME} if self.ground in others else set())
+        for pair in self.given.binding:
+            if isinstance(pair, Revolute | Slide) and {*pair.links} & {*body.lies} and {*pair.links} & there:
+                if isinstance(pair, Slide):
+                    if pair in self.net.slides:
+                        yield pair
+                elif self.placed is others or pair.at not in self.marks:
+                    yield pair.at
+
+    def _held(self, body: Body, hinges: list[Hinge]) -> Said:
+        """A body that more pairs hold than place it: two joints do, or a joint and a guide."""
+        joints, guides = [h for h in hinges if isinstance(h, str)], [h for h in hinges if isinstance(h, Slide)]
+        for joint in joints:
+            self.mark(joint)
+        if len(joints) < 2 and guides:
+            at = self._figure(body, joints[0]) if joints else self._figure(body, guides[0].at)
+            body.heading = self._heads(guides[0], body), self._path(guides[0], body, at)
+        return said("what is placed already holds it")
+
+    def _dyad(self, one: Body, outer: Hinge, inner: Hinge, two: Body, other: Hinge) -> Said:
+        """Two bodies on what is placed, by their pairs there and with each other."""
+        links = tuple(sorted((*one.lies, *two.lies), key=by_name))
+        if isinstance(outer, Slide) and isinstance(other, str):
+            one, outer, two, other = two, other, one, outer
+        match outer, inner, other:
+            case str(A), str(B), str(C):
+                law = said("{1} lies on circles about {0} and {2}, whose radii are the lengths of the links", A, B, C)
+            case str(A), str(B), _:
+                law = said("{1} lies on the circle about {0}, and on the line along which it slides", A, B)
+            case str(A), _, str(C):
+                law = said("The guide through {0} passes {1} at the distance that the links give it", C, A)
+            case _, str(B), _:
+                law = said("{0} lies on two lines along which it slides", B)
+            case _:
+                law = said("All links turn alike: what slides along two guides lies where they meet")
+        with self.board.on(MECHANISM, links, self._stage(law, links)):
+            match outer, inner, other:
+                case str(A), str(B), str(C):
+                    arcs = self._arc(one, A, B), self._arc(two, C, B)
+                    side = "left" if self._turns(A, B, C) > 0 else "right"
+                    self.marks[B] = self.board.circles_meet(*arcs, side=side, name=B)
+                case str(A), str(B), Slide():
+                    self._slid(two, other, B)
+                    arc, ahead = self._arc(one, A, B), self._ahead(A, B, other.direction)
+                    self.marks[B] = self.board.line_meets_circle(self.lines[other.name], arc, way=ahead, name=B)
+                case str(A), Slide(), str(C):
+                    self._sighted(one, A, inner, two, C)
+                case Slide(), str(B), Slide():
+                    self._slid(one, outer, B)
+                    self._slid(two, other, B)
+                    self.marks[B] = self.board.meet(self.lines[outer.name], self.lines[other.name], name=B)
+                case str(A), Slide(), Slide():
+                    self._alike(one, A, inner, two, other)
+        return law
+
+    def _arc(self, body: Body, centre: str, point: str) -> Mark:
+        """The circle about a joint on which another point of its body lies."""
+        dx, dy = less(self._figure(body, point), self._figure(body, centre))
+        length = Quantity(f"{centre}{point}", "length")
+        return self.board.circle(self.mark(centre), self.board.link_length(dx=dx, dy=dy, quantity=length))
+
+    def _slid(self, body: Body, slide: Slide, point: str) -> None:
+        """Draw the line along which a point of a body slides, which turns with that."""
+        line = self._path(slide, body, self._figure(body, point))
+        self.lines[slide.name], body.heading = line, (self._heads(slide, body), line)
+
+    def _sighted(self, one: Body, A: str, slide: Slide, two: Body, C: str) -> None:
+        """Draw the guide of two bodies that turn about known points."""
+        places = [undone(next(lies for link, lies in body.lies.items() if link in slide.links),
+                         self._figure(body, point)) for body, point in ((one, A), (two, C))]
+        v, u = less(places[1], places[0]), slide.direction
+        way = "on" if float(dot(u, less(self.given.points[C], self.given.points[A]))) >= 0 else "back"
+        if alike(v, u):
+            ends = (A, C) if way == "on" else (C, A)
+            line = self.board.line(*map(self.mark, ends))
+        else:
+            line = self.board.sight(self.mark(A), self.mark(C), **figure(v, u), way=way)
+        self.lines[slide.name] = line
+        one.heading, two.heading = (self._heads(slide, one), line), (self._heads(slide, two), line)
+
+    def _alike(self, one: Body, A: str, inner: Slide, two: Body, outer: Slide) -> None:
+        """Place two bodies that turn as what is placed does: a point of the second lies on two lines."""
+        own = [name for link in two.lies for name in self.given.links[link] if name not in self.assembly.riding]
+        at = self._figure(two, inner.at if inner.at in own else own[0])
+        line = self._path(outer, two, at)
+        two.heading = self._heads(outer, two), line
+        within = next(lies for link, lies in two.lies.items() if link in inner.links)
+        turned = undone(Attitude(0, 0, within.cos, within.sin), two.heading[0])
+        one.heading = next(lies for link, lies in one.lies.items() if link in inner.links).turned(turned), line
+        self.mark(A)
+        crossing = self.board.meet(line, self._path(inner, two, at))
+        two.spots.append((at, crossing))
+
+    # ---- the given pose ----------------------------------------------------------------------------------------------
+
+    def _turns(self, A: str, B: str, C: str) -> float:
+        """Whether B lies left of the ray from A to C in the given pose: positive, or negative where it is right."""
+        a, b, c = (self.given.points[name] for name in (A, B, C))
+        return float(cross(less(c, a), less(b, a)))
+
+    def _ahead(self, A: str, B: str, u: Pair) -> str:
+        """How B lies from A along a direction in the given pose."""
+        a, b = self.given.points[A], self.given.points[B]
+        return "on" if float(dot(u, less(b, a))) > 0 else "back"
+
+    def _stage(self, law: Said, links: tuple[str, ...]) -> Stage:
+        return Stage(said("Position of {0}", listed(links)), law)
+
+
+def figure(v: Pair, u: Pair) -> dict[str, Number]:
+    """A vector of a link's figure beside another, as parameters."""
+    return {"dx": v[0], "dy": v[1], "ux": u[0], "uy": u[1]}
+
+
+def angle(v: Pair) -> Angle:
+    """The direction of a vector, spoken in degrees from the x-axis."""
+    x, y = map(float, v)
+    return Angle(digits(round(math.degrees(math.atan2(y, x)), 6), 6), *v)
+
+
+def alike(v: Pair, u: Pair) -> bool:
+    """Whether a vector runs along another, or has no length."""
+    (x, y), (a, b) = map(float, v), map(float, u)
+    return abs(a * y - b * x) <= FLAT * (abs(a) + abs(b)) * (abs(x) + abs(y))
+
+
+def same_place(one: Pair, other: Pair) -> bool:
+    """Whether two places of a figure are one."""
+    pairs = zip(map(float, one), map(float, other), strict=True)
+    return all(abs(p - q) <= FLAT * (abs(p) + abs(q)) for p, q in pairs)
+
+
+def _widest(drawn: list[tuple[Pair, Mark]]) -> tuple[tuple[Pair, Mark], tuple[Pair, Mark]] | None:
+    """The two of some marks that lie furthest apart; none where all lie in one place."""
+    pairs = [(one, two) for k, one in enumerate(drawn) for two in drawn[k + 1:] if not same_place(one[0], two[0])]
+    return max(pairs, key=lambda ends: math.dist(*([float(part) for part in place] for place, _ in ends)), default=None)

@@ -1,0 +1,97 @@
+"""The pose itself as a construction: the mechanism at another travel of its drive, drawn from the lengths of its links.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from itertools import product
+
+import pytest
+
+import graphplan as gp
+from graphplan.check.trusted import report
+from graphplan.commands import main
+from graphplan.errors import GraphplanError, Refused, SingularPose
+from graphplan.mechanism.scene import packaged
+from graphplan.mechanism.structure import structure
+from graphplan.methods.construction import Construction
+
+DYADS = [name for name in packaged() if (scene := gp.load(name)).drives and not scene.motions
+         and structure(scene).class_ <= 2]
+TRAVELS = 0, 17, 145, -33
+
+
+def displaced(drawing: Construction) -> float:
+    """How far a point is at most from where the cycle has it, beside the mechanism."""
+    scene = drawing.scene
+    return max(math.dist(drawing.truth[step.index], scene.points[step.name]) for step in drawing.program.steps
+               if step.name in scene.points) / scene.extent
+
+
+@pytest.mark.parametrize("name", DYADS)
+def test_points_are_where_the_cycle_has_them(name: str) -> None:
+    """At several travels the constructed points are the followed ones, and all results are the solver's."""
+    scene, reached = gp.load(name), 0
+    for travel in TRAVELS if not scene.drives[0].slides else (0, 1, -1):
+        try:
+            posed = gp.at(scene, travel)
+        except GraphplanError:
+            continue
+        found = report(posed)
+        reached += 1
+        assert displaced(found.drawing) < 1e-12
+        assert max(found.check.values()) < 1e-9
+    assert reached
+
+
+@pytest.mark.parametrize("name", ["four-bar", "shaper", "ozols-5-4"])
+def test_the_given_pose_comes_out_again(name: str) -> None:
+    """No travel at all gives the points and results of the scene itself."""
+    scene = gp.load(name)
+    drawing, given = gp.construct(gp.at(scene, 0)), gp.construct(scene)
+    for point, z in given.velocity.items():
+        assert abs(drawing.velocity[point] - z) < 1e-9 * max(map(abs, given.velocity.values()))
+
+
+def test_drives_go_as_far_as_is_said() -> None:
+    """Of several drives each has a travel of its own; with one travel they keep pace."""
+    scene = gp.load("five-bar")
+    pace = [float(drive.rate) for drive in scene.drives]
+    together, apart = gp.at(scene, 20), gp.at(scene, [20, 20 * pace[1] / pace[0]])
+    for point, other in product(scene.points, [apart]):
+        assert math.dist(together.points[point], other.points[point]) < 1e-9 * scene.extent
+    assert gp.at(scene, [10, 0]).points != gp.at(scene, [0, 10]).points
+    with pytest.raises(Refused, match="2 drives"):
+        gp.at(scene, [1, 2, 3])
+
+
+def test_beyond_a_limit_is_refused() -> None:
+    """A pose that is not reached is bad input that names the limit; at the limit itself the pose is singular."""
+    with pytest.raises(Refused, match="limit"):
+        gp.at(gp.load("alt-eight-link"), 120)
+    assert issubclass(SingularPose, GraphplanError)
+
+
+def test_a_constructed_pose_moves_no_further() -> None:
+    """Its points are no numbers that could be given otherwise."""
+    with pytest.raises(Refused, match="constructed"):
+        gp.construct(gp.at(gp.load("four-bar"), 60)).evaluate(points={"A": [1j]})
+
+
+def test_solve_tells_the_pose(capsys: pytest.CaptureFixture[str]) -> None:
+    """`solve --at` prints the travel and the points; what is no travel is one line and exit 2."""
+    assert main(["solve", "four-bar", "--at", "60"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["pose"]["travel"] == 60
+    assert found["check"]["position"] < 1e-12
+    A, O = (complex(*found["pose"]["points"][name]) for name in "AO")
+    before = gp.load("four-bar").points["A"]
+    assert abs(A - O - complex(*map(float, before)) * complex(0.5, math.sqrt(3) / 2)) < 1e-9
+    assert main(["solve", "four-bar", "--at", "sixty"]) == 2
+
+
+def test_strict_uses_the_chord() -> None:
+    """Without a protractor the crank is laid off by the chord under its angle."""
+    drawing = gp.construct(gp.at(gp.load("four-bar"), 60), strict=True)
+    assert {"protractor", "set squares"}.isdisjoint(step.op.instrument for step in drawing.drawn.steps)

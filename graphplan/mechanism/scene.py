@@ -6,6 +6,7 @@ import os
 import re
 import sys
 import tomllib
+from collections import Counter
 from dataclasses import replace
 from errno import EBADF
 from fractions import Fraction
@@ -23,10 +24,10 @@ from graphplan.mechanism.checks import (
 from graphplan.mechanism.directions import points_of
 from graphplan.mechanism.fields import Field, Names, Table
 from graphplan.mechanism.items import Faults, Item, perhaps, quoted
-from graphplan.mechanism.model import Find, Pair, Presentation, Scene, Slide
+from graphplan.mechanism.model import Contact, Find, Gear, Pair, Presentation, Scene, Slide
 from graphplan.mechanism.numerals import decimal, is_exact
 from graphplan.mechanism.pairs import fields
-from graphplan.mechanism.pairs.contact import told_apart
+from graphplan.mechanism.pairs.pair import KinematicPair
 from graphplan.mechanism.placements import POINTS, needs, place
 from graphplan.mechanism.presentation import SHEET
 from graphplan.mechanism.values import TEXT, VECTOR
@@ -157,7 +158,7 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
         elif key == "units" and key in read:
             names.units = read[key]
         elif key in PAIR_KEYS:
-            names.pairs = told_apart((*names.pairs, *read.get(key, ())))
+            names.pairs = _told_apart((*names.pairs, *read.get(key, ())))
     scene = Scene(
         title=read.get("title", ""), source=read.get("source", ""), name=name, units=names.units,
         points={point: names.placed.get(point, (Fraction(0), Fraction(0))) for point in names.points},
@@ -168,6 +169,13 @@ def _read(tables: dict[str, object], name: str, faults: Faults) -> Scene:
     rounded = [f"points.{quoted(point)}: {placements[point].how} placement" for point in placements
                if point in names.placed and point in counting and not is_exact(names.placed[point])]
     return _checked(replace(scene, irrational=(*rounded, *names.irrational)), names.placed, faults)
+
+
+def _told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
+    """The pairs, with several gears and contacts of the same two links named by where they are."""
+    between = Counter(frozenset(pair.links) for pair in pairs if isinstance(pair, Gear | Contact))
+    return tuple(replace(pair, alone=between[frozenset(pair.links)] < 2) if isinstance(pair, Gear | Contact) else pair
+                 for pair in pairs)
 
 
 def _counting(scene: Scene) -> set[str]:

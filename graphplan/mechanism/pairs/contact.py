@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any, ClassVar
 
@@ -30,7 +29,8 @@ class Contact(KinematicPair):
 
     `centres` are those of curvature of the two profiles there, points of their links; None where a profile is straight,
     along `direction`, of any length. A profile with its centre at the very point is a corner or the end of a pin.
-    `through` and `written` are as of a slide. It is `alone` where its links touch nowhere else.
+    `through` and `written` are as of a slide. It is `alone` where its links touch nowhere else
+    and are not geared.
     """
 
     symbol: ClassVar[str] = "contact"
@@ -61,7 +61,7 @@ class Contact(KinematicPair):
 
     @property
     def name(self) -> str:
-        """The pair's name in results, such as `2 3`, or where its links touch elsewhere, too, `2 3 at K`."""
+        """The pair's name in results, such as `2 3`, or where it is not alone `2 3 at K`."""
         return " ".join(self.sides) + ("" if self.alone else f" at {self.at}")
 
     @property
@@ -89,13 +89,6 @@ class Contact(KinematicPair):
             one, other = (centre or "" for centre in self.centres)
             k1, k2 = (dot(less(points[end], points[self.at]), normal) for end in (one, other))
             yield Rolling(link, on, one, other, less(points[other], points[one]), (k1, -k2), self.name)
-
-
-def told_apart(pairs: tuple[KinematicPair, ...]) -> tuple[KinematicPair, ...]:
-    """The pairs, with contacts of the same two links named by where these touch."""
-    touching = Counter(frozenset(pair.links) for pair in pairs if isinstance(pair, Contact))
-    return tuple(replace(pair, alone=touching[frozenset(pair.links)] < 2) if isinstance(pair, Contact) else pair
-                 for pair in pairs)
 
 
 def _profiles(item: Item, names: Names) -> tuple[Any, ...] | None:
@@ -143,7 +136,7 @@ def _fits(contact: Contact, row: Row) -> bool:
     normal = exactly(contact.normal(points))
     item = row.items["centres"]
     if not any(normal):
-        one = "two corners" if points[contact.at] == points[named[0]] else "two profiles that coincide"
+        one = "two corners" if points[contact.at] == points[named[0]] else "two profiles of the same curvature"
         item.fault(f"the centres {' and '.join(named)} coincide: {one}", "centres that lie apart")
         return False
     for point in named:
@@ -155,7 +148,8 @@ def _fits(contact: Contact, row: Row) -> bool:
             what = "not square to the direction" if contact.direction is not None else "not in line with the centres"
             told = (f"{contact.at} and {point} are {what}" if contact.direction is not None
                     else f"{contact.at} is {what} {' and '.join(named)}")
-            row.items["at"].fault(told, "a point of contact on the common normal")
+            such = f'such as {contact.at} = {{ on = "{" ".join(named)}", distance = ... }}' if len(named) > 1 else ""
+            row.items["at"].fault(told, f"a point of contact on the common normal{such and ', '}{such}")
             return False
     return True
 

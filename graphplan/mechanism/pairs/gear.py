@@ -32,7 +32,7 @@ class Gear(KinematicPair):
     and the second pulley of an open belt have theirs negative. `teeth` and `radii` are as written, where they are.
 
     On a rack there is one centre: a wheel of this `radius` rolls on the pitch line along `direction`, which is fixed to
-    the second link; the wheel is on the left of it.
+    the second link; the wheel is on the left of it. It is `alone` where its links have no other gear or contact.
     """
 
     letter, binds = "RR", 1
@@ -49,6 +49,7 @@ class Gear(KinematicPair):
     direction: Pair | None = None
     through: tuple[str, str] | None = None
     written: Written = field(default=None, compare=False)
+    alone: bool = True
 
     @property
     def links(self) -> tuple[str, str]:
@@ -57,8 +58,8 @@ class Gear(KinematicPair):
 
     @property
     def name(self) -> str:
-        """The pair's name in results, such as `2 3`."""
-        return " ".join(self.wheels)
+        """The pair's name in results, such as `2 3`, or where it is not alone `2 3 at B C`."""
+        return " ".join((*self.wheels, *(() if self.alone else ("at", *self.centres))))
 
     def states(self, scene: Scene) -> Iterator[Statement]:
         """One link rolls on the other."""
@@ -201,5 +202,5 @@ FIELD = Field("gears", "two links that roll on each other without slipping: gear
     Field("radius", "the radius of the pitch circle", DISTANCE, "the gear's radius, such as radius = 30"),
     Field("direction", "the direction of the pitch line, with the gear on its left: a vector, an angle in degrees, or "
           "two points", GUIDE, "the direction of the pitch line, such as direction = [1, 0]"),
-), _rack))), remedy="one between two links", once=lambda gear: (
-    frozenset(gear.links), "gear between links {} and {}".format(*gear.links))))
+), _rack))), remedy="one about two centres", once=lambda gear: (
+    (frozenset(gear.links), frozenset(gear.centres)), "gear between links {} and {}".format(*gear.links))))

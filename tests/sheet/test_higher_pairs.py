@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 
 import pytest
+from higher import scenes
 
 from graphplan.sheet.plates import pens
 from graphplan.sheet.plates.display import Arc, Polyline, Rect
@@ -12,7 +13,6 @@ from graphplan.sheet.plates.drawn_mechanism import DrawnMechanism
 from graphplan.sheet.plates.higher_pairs import belt, reach, wheels
 from graphplan.sheet.plates.view import View
 from graphplan.sheet.words.task import data
-from tests.mechanism.higher import scenes
 
 EVERYWHERE = Rect(-math.inf, -math.inf, math.inf, math.inf)
 SCENES = scenes()

@@ -27,7 +27,7 @@ def test_each_pose_is_solved_as_alone(name: str) -> None:
         pytest.skip("its given motions do not turn with it")
     alone = gp.analytic.solve(scene)
     points = {name: complex(*map(float, at)) * TURNS for name, at in scene.points.items()}
-    guides = {s.name: complex(*map(float, s.direction)) * TURNS for s in scene.slides}
+    guides = {pair.name: complex(*map(float, pair.direction)) * TURNS for pair in scene.guided if pair.direction}
     turned = poses.posed(scene, points, guides)
     rates = poses.solve(turned, len(TURNS))
     for one, many in (alone.velocity, rates.velocity), (alone.acceleration, rates.acceleration):

@@ -24,7 +24,7 @@ from graphplan.kernel.numbers import Domain
 from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.numbers.gradients import Gradients
 from graphplan.mechanism.model import Scene
-from graphplan.mechanism.units import HEADING, LENGTH, PLACE
+from graphplan.mechanism.units import CURVING, HEADING, LENGTH, PLACE
 from graphplan.methods.construction import Construction
 from graphplan.methods.controls import Control
 from graphplan.methods.kinds import ACCELERATION, FORCES, VELOCITY, ResultKind
@@ -127,9 +127,9 @@ def readings(drawing: Construction, values: Sequence[Any], domain: Domain) -> It
 def _of_mm(kind: ResultKind, marks: Sequence[Any], scales: Scales, panel: str) -> float | None:
     """What a millimetre of the drawn vector stands for; of a turning that of the two points' relative vector.
 
-    A moment is no vector of a plan.
+    A moment is no vector of a plan, nor is a curvature.
     """
-    if (kind.single and not kind.turning and len(marks) > 1) or kind.dimension == HEADING:
+    if (kind.single and not kind.turning and len(marks) > 1) or kind.dimension in (HEADING, CURVING):
         return None
     measures = {VELOCITY: scales.speed, ACCELERATION: scales.acceleration, FORCES: scales.force}
     scale = scales.of(panel) if kind.dimension in (LENGTH, PLACE) else measures[kind.group](panel)

@@ -103,7 +103,7 @@ def scales(drawing: Construction, theirs: Results) -> dict[str, float]:
 def drawn_sizes(drawing: Construction) -> dict[str, float]:
     """The numbers of each kind that are drawn as large as the mechanism."""
     reach, unit = drawing.scene.extent, float(drawing.tempo.unit)
-    return {kinds.VELOCITY: reach * unit, kinds.ACCELERATION: reach * unit**2, kinds.POLES: reach,
+    return {kinds.VELOCITY: reach * unit, kinds.ACCELERATION: reach * unit**2, kinds.POLES: reach, kinds.CURVES: reach,
             kinds.FORCES: reach / float(drawing.phi)}
 
 

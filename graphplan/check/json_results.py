@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping
 from fractions import Fraction
 from typing import TYPE_CHECKING, Any
 
-from graphplan.check.compared import Compared
+from graphplan.check.compared import Compared, Results
 from graphplan.check.report import Report
 from graphplan.errors import ConstructionError
+from graphplan.mechanism import numerals
 from graphplan.mechanism.model import Scene, Slide
 from graphplan.methods import kinds
 from graphplan.methods.panels import JointForce
@@ -16,6 +18,8 @@ from graphplan.methods.results import balances
 
 if TYPE_CHECKING:
     from graphplan.check.forces import Forces
+
+OPPOSITE = "pole", "inflection_pole"  # of an inflection circle
 
 
 def data(found: Report, each: bool = False) -> dict[str, Any]:
@@ -30,6 +34,7 @@ def data(found: Report, each: bool = False) -> dict[str, Any]:
         "slides": _merged(found, (s.name for s in scene.slides), velocity=kinds.SLIDE_VELOCITY,
                           acceleration=kinds.SLIDE_ACCELERATION),
         **_poles(found),
+        **_paths(found),
         **({"redundant": scene.redundant_pairs} if scene.redundant else {}),
         **_forces(found),
         **_protocol(found, each),
@@ -49,6 +54,47 @@ def _pose(found: Report) -> dict[str, Any]:
     travels = [float(travel) for travel in found.scene.assembly.travels]
     points = {name: [_number(part) for part in map(float, at)] for name, at in found.scene.points.items()}
     return {"pose": {"travel": travels[0] if len(travels) == 1 else travels, "points": points}}
+
+
+def _paths(found: Report) -> dict[str, Any]:
+    """Centres of curvature and inflection circles, where they are asked for."""
+    find, results = found.scene.find, found.results
+    told = {
+        "curvature": {name: _curvature(found, name, found.scene.points[point])
+                      for name, (point, _) in find.traced.items()},
+        "inflection": {link: _inflection(results, link, found.exact) for link in find.inflection},
+    }
+    return {key: named for key, named in told.items() if named}
+
+
+def _curvature(found: Report, name: str, point: Any) -> dict[str, Any]:
+    """The centre and the radius of curvature; none where the path is straight, the point itself at a cusp."""
+    results, at = found.results, tuple(point) if found.exact else tuple(map(float, point))
+    centre = at if name in results.get(kinds.CUSP, {}) else results.get(kinds.CENTRE, {}).get(name)
+    if centre is None:
+        x, y = results[kinds.STRAIGHT][name]
+        square = x * x + y * y
+        if all(abs(number.value) <= number.bound for number in found.numbers[kinds.STRAIGHT][name]) or not square:
+            return {"centre": None, "radius": None}
+        centre = at[0] + x / square, at[1] + y / square
+    return {"centre": _number(centre), **_lengths("radius", centre, at, found.exact)}
+
+
+def _inflection(results: Results, link: str, exact: bool) -> dict[str, Any]:
+    """The pole, the inflection pole and the diameter between them; none where the link does not turn."""
+    if link in results.get(kinds.TRANSLATION, {}):
+        return dict.fromkeys((*OPPOSITE, "diameter"))
+    two = results[kinds.MOTION_POLE][link], results[kinds.INFLECTION][link]
+    return dict(zip(OPPOSITE, map(_number, two), strict=True)) | _lengths("diameter", *two, exact)
+
+
+def _lengths(key: str, one: Any, two: Any, exact: bool) -> dict[str, Any]:
+    """A distance; in fractions its square, too, and the distance itself only where it is rational."""
+    square = sum((p - q) * (p - q) for p, q in zip(one, two, strict=True))
+    if not exact:
+        return {key: math.dist(tuple(map(float, one)), tuple(map(float, two)))}
+    root, rational = numerals.root(square)
+    return {**({key: _number(root)} if rational else {}), f"{key}_squared": _number(square)}
 
 
 def _protocol(found: Report, each: bool) -> dict[str, Any]:

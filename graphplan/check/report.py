@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from graphplan.check.arithmetics import FLOATS, Arithmetic, Exact, bounded_rates, enclosed, placing_error
 from graphplan.check.compared import CLOSE, Compared, Numbers, Results
+from graphplan.check.paths import path_truth
 from graphplan.errors import BrokenClaim, ConstructionError, Disagreement, SingularPose
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construction import Construction
@@ -95,7 +96,7 @@ def by_part(rates: Rates, results: Results) -> dict[str, Any]:
     for part, named in results.items():
         if kind_of(part).group == POLES:
             found[part] = {name: _pole(rates, name, value, part == POLE) for name, value in named.items()}
-    return found
+    return found | path_truth(rates, results)
 
 
 def _pole(rates: Rates, name: str, ours: Any, near: bool) -> Any:

@@ -25,6 +25,7 @@ from graphplan.kernel.numbers.floats import Floats
 from graphplan.mechanism.model import Scene
 from graphplan.methods.construct import constructions
 from graphplan.methods.construction import Construction
+from graphplan.methods.kinds import PATHS, TRANSLATION
 from graphplan.solver import solve
 
 ENOUGH = 40, 80, 160, 320, 640  # digits of enclosures, one after the other
@@ -72,7 +73,9 @@ class Bench:
             with suppress(by.doubt), by.working():
                 if isinstance(by, Exact) or (found is not None and found.proven):
                     break
-                truth = self._opinion(by, drawing).truth({})
+                paths: dict[str, Any] = {kind: {r.of: None for r in drawing.readings if r.kind == kind}
+                                         for kind in (*PATHS, TRANSLATION)}
+                truth = self._opinion(by, drawing).truth(paths)
                 ours = {kind: {r.of: _middle(truth[kind][r.of]) if by is FLOATS else truth[kind][r.of]
                                for r in drawing.readings if r.kind == kind} for kind in drawing.kinds if kind in truth}
                 found = replace(self._report(drawing, by, ours), fault=fault)

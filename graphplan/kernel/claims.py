@@ -170,6 +170,34 @@ def _mean(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:
     return (a * KA - v * v) / KA / d.size
 
 
+def _third(d: Drawn, K: int, A: int, m: int, w: int) -> float:
+    """The length mw is the mean proportional of KA and what is laid off."""
+    KA, mean, found = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[K])
+    return (found * KA - mean * mean) / KA / (d.size + found)
+
+
+def _curved(d: Drawn, P: int, M: int, W: int) -> float:
+    """What is left of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
+    ray = _unit(d[P] - d[M])
+    mean, foot, found = abs(d[P] - d[M]), _dot(ray, d[W] - d[M]), _dot(ray, d[-1] - d[M])
+    return (mean * mean - foot * found) / d.size / (d.size + abs(found))
+
+
+def _conjugate(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> float:
+    """On each ray lay off 1/PX - 1/PX_0 from the pole: the ends lie on one line, the inverse of the inflection circle.
+    """
+    rows = []
+    for X, X0 in ((A, A0), (B, B0)):
+        near, ray = abs(d[X] - d[P]), _unit(d[X] - d[P])
+        gap = _dot(ray, d[X0] - d[X])
+        row = ray.real * gap, ray.imag * gap, near * (near + gap) / d.size
+        rows.append((row[0] / math.hypot(*row), row[1] / math.hypot(*row), row[2] / math.hypot(*row)))
+    x, y, w = _cross3(*rows)  # of the line through the two ends; the flatter the rays cross, the less it tells
+    near, ray = abs(d[M] - d[P]), _unit(d[M] - d[P])
+    far, across = _dot(ray, d[-1] - d[P]), x * ray.real + y * ray.imag
+    return (far * (across + w * near / d.size) - near * across) / (d.size + abs(far))
+
+
 def _coriolis(d: Drawn, P: int, B: int, T: int, R: int, b: int) -> float:
     """Twice omega times v, a quarter turned: omega from the orthogonal velocity BT of B about P, v from BR."""
     omega = ((d[T] - d[B]) / 1j / (d[B] - d[P]) / 1j).real
@@ -325,6 +353,9 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "carried": (_carried, "no similar figure has its other end on {4}"),
     "locus": (_locus, "trial figures have their third ends off it"),
     "mean": (_mean, "not the normal acceleration of {1} about {0}"),
+    "third": (_third, "the length from {2} to {3} is no mean proportional"),
+    "curved": (_curved, "not the centre of curvature that the inflection pole {2} gives {1}"),
+    "conjugate": (_conjugate, "no centre of curvature of {5} by Euler and Savary"),
     "coriolis": (_coriolis, "not the Coriolis acceleration of {1}"),
     "balanced": (_balanced, "not where the error of the trials vanishes"),
     "counters": (_counters, "its moment about {0} does not balance the given force's"),

@@ -42,7 +42,8 @@ class Placement:
 class Find:
     """What is asked for: names of points; joints and slides (such as `3 along 2`) whose reactions are wanted; links
     whose rates and slides whose velocities and accelerations are wanted; pairs of links (such as `2 frame`) whose
-    instant centres are.
+    instant centres are; points on links (such as `M on 2`), the curvature of whose paths is wanted, and links whose
+    inflection circle is.
 
     None where nothing is said of them: then all reactions are found where there are loads, the rates of links of which
     two points are asked for, and the sliding of pairs whose point is asked for.
@@ -54,6 +55,13 @@ class Find:
     links: tuple[str, ...] | None = None
     slides: tuple[str, ...] | None = None
     poles: tuple[str, ...] = ()
+    curvature: tuple[str, ...] = ()
+    inflection: tuple[str, ...] = ()
+
+    @property
+    def traced(self) -> dict[str, tuple[str, str]]:
+        """The points on links the curvature of whose paths is asked for, by name: M on 2."""
+        return {name: (point, link) for name in self.curvature for point, _, link in [name.partition(" on ")]}
 
 
 @dataclass(frozen=True)

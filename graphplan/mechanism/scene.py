@@ -184,7 +184,8 @@ def _counting(scene: Scene) -> set[str]:
     Loads may be laid off from any point of a link.
     """
     loads = scene.loads
-    found = {*scene.joints, *scene.motions, *scene.find.velocity, *scene.find.acceleration}
+    find = scene.find
+    found = {*scene.joints, *scene.motions, *find.velocity, *find.acceleration, *(p for p, _ in find.traced.values())}
     for pair in scene.guided:
         found |= {point for fact in pair.states(scene) for _, point in fact.ends} | {*(pair.through or ())}
     found |= {contact.at for contact in scene.contacts if contact.rolling}

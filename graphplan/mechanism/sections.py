@@ -7,6 +7,7 @@ from fractions import Fraction
 from itertools import combinations, permutations
 from typing import Any
 
+from graphplan.errors import by_name
 from graphplan.mechanism import model
 from graphplan.mechanism.directions import GUIDE
 from graphplan.mechanism.fields import Either, Field, Kind, Named, Names, Row, Rows, Table, on_link
@@ -88,6 +89,42 @@ def _links(names: Names) -> tuple[str, ...]:
     return (*names.moving, FRAME)
 
 
+def _traced(names: Names) -> tuple[str, ...]:
+    """The moving points on each of their links, such as M on 2."""
+    return tuple(f"{point} on {link}" for link in names.moving for point in names.links[link] if point in names.movable)
+
+
+def _untraced(name: object, item: Item, names: Names) -> bool:
+    """Whether a point on a link that is asked for has no path; that is a fault."""
+    point, on, link = name.partition(" on ") if isinstance(name, str) else ("", "", "")
+    if not on or point not in names.points or link not in names.bodies:
+        return False
+    if link == FRAME or point in names.links.get(FRAME, ()):
+        item.fault(f"{point} is a point of the frame, which stands still", "a moving point of a link, such as M on 2")
+    elif point not in names.links[link]:
+        instead = "one of " + ", ".join(sorted(names.links[link], key=by_name))
+        item.fault(f"{point} is no point of link {link}", instead)
+    else:
+        return False
+    return True
+
+
+def _turning(names: Names) -> tuple[str, ...]:
+    """The links that can turn: no chain of slides ties them to the frame."""
+    still, pairs = {FRAME}, [pair.links for pair in names.pairs if isinstance(pair, Slide) and pair.turns_alike]
+    while more := {link for links in pairs if still & {*links} for link in links} - still:
+        still |= more
+    return tuple(link for link in names.moving if link not in still)
+
+
+def _unturned(link: object, item: Item, names: Names) -> bool:
+    """Whether a link that is asked for never turns; that is a fault."""
+    if link in names.moving and link not in _turning(names):
+        item.fault(f"link {link} only slides and never turns, so it has no inflection circle", "a link that turns")
+        return True
+    return _frame(link, item, names)
+
+
 _POINTS = asked("point", '["A", "C"]', lambda names: names.points, lambda names: names.movable,
                 entry=POINT, wrong=_still)
 FIND = Table("what is asked for", (
@@ -107,6 +144,12 @@ FIND = Table("what is asked for", (
     Field("reactions", 'the joints and slides (such as "3 along 2") whose reactions are asked for, or "all"',
           asked("joint or slide", '["A", "3 along 2"]', lambda names: [*_pairs(names)], lambda names: None,
                 many="joints and slides", after=("slides", "links", "points"))),
+    Field("curvature", 'the points on links (such as "M on 2") the centres of curvature of whose paths are asked for, '
+          'or "all"',
+          asked("point on a link", '["M on 2"]', _traced, many="points on links", after=("links", "points"),
+                wrong=_untraced), default=[]),
+    Field("inflection", 'the links whose inflection circles are asked for, or "all"',
+          asked("link", '["2"]', _turning, entry=LINK, after=("links", "slides"), wrong=_unturned), default=[]),
 ), lambda row: model.Find(**row.values))
 
 

@@ -42,6 +42,7 @@ TURNING, TURNING_FASTER = Dimension(0, -1, 0, "omega", "rad/s"), Dimension(0, -2
 FORCE, MOMENT = Dimension(0, 0, 1, "F", "{force}"), Dimension(1, 0, 1, "M", "{force}*m")
 LENGTH = Dimension(1, 0, 0, "r", "{length}")
 PLACE, HEADING = Dimension(1, 0, 0, "P", "{length}"), Dimension(0, 0, 0, "d", "1")  # one at infinity has a heading
+CURVING = Dimension(-1, 0, 0, "k", "1/{length}")
 
 BY_QUANTITY = {"length": METRES, "force": NEWTONS, "mass": KILOGRAMS}  # the first unit of each is the default
 

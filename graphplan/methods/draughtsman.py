@@ -55,7 +55,7 @@ class Draughtsman:
         self.net.relied.clear()
         self.pose = Pose(self.board, self.net.scene, self.net.shared)
         self.tempo = tempo(scene)
-        self.moves = planner.moves
+        self.moves, self.method = planner.moves, planner.method
         self.marks: list[Mark] = []
         self.readings: list[Reading] = []
         self.poles_by: tuple[Said, ...] = ()
@@ -92,6 +92,7 @@ class Draughtsman:
     def finished(self, velocity: Velocity, plan: Normal | None) -> Construction:
         """What is drawn so far, as a construction; the rates that are still asked for come last, as by now it is known
         which marks are drawn anyway."""
+        plan = self._curves(velocity, plan)
         self._rates(plan, kinds.ALPHA)
         self._rates(velocity, kinds.OMEGA)
         self.readings.sort(key=lambda reading: kinds.ORDER.get(reading.kind, len(kinds.ORDER)))
@@ -116,6 +117,22 @@ class Draughtsman:
         self._links(plan, kinds.ALPHA, self.scene.find.acceleration)
         self._slides(plan, kinds.SLIDE_ACCELERATION, self.scene.find.acceleration)
         return plan
+
+    def _curves(self, velocity: Velocity, plan: Normal | None) -> Normal | None:
+        """The curvature of paths that is asked for, and the plan of accelerations, begun where that needs it."""
+        if not (self.scene.find.curvature or self.scene.find.inflection):
+            return plan
+        from graphplan.methods.motion.curvature import Curves  # few scenes need it
+
+        plans = [plan] if plan else []
+
+        def accelerations() -> Normal:
+            if not plans:
+                plans.append(self.accelerations(velocity))
+            return plans[0]
+
+        Curves(velocity, accelerations, self.method).draw(self.read, self.marks.append)
+        return plans[0] if plans else None
 
     def read(self, kind: kinds.ResultKind, of: str, *marks: Mark, excess: Number = 0,
              given: Number | Pair | None = None) -> None:

@@ -10,14 +10,14 @@ from graphplan.mechanism.model import Balance
 from graphplan.phrases import said
 
 BY_PLANS, BY_LEVER, RUBBED = "balance", "lever", "with friction"  # how a balance is found
-FORCES, POLES = "force", "poles"  # groups of what is no motion
+FORCES, POLES, CURVES = "force", "poles", "curvature"  # groups of what is no motion
 
 
 class ResultKind(str):
     """A kind of result by its public name: it knows its words, its dimension and what it is read of.
 
     `pair` says that it is of a pair, and not of a point, a link or a balance; `way` how a balance was found; `place`
-    to which group of places on the mechanism plan it belongs, if to any: as one, or as the heading to one at infinity.
+    to which group of places on the mechanism plan it belongs, if to any: as one, or as what tells of one at infinity.
     """
 
     words: str
@@ -52,9 +52,10 @@ class ResultKind(str):
 
     def arm(self, reach: Any, scene: units.Units) -> Any:
         """At which arm it counts among its group: turnings with what they make at the mechanism's reach, moments as
-        the forces that they are there, and headings with how far they lead."""
-        far = self.turning or self.dimension == units.HEADING
-        return reach if far else units.metre(scene) / reach if self.dimension == units.MOMENT else 1
+        the forces that they are there, headings with how far they lead, and curvatures with how far that strays."""
+        if self.dimension in (units.MOMENT, units.CURVING):
+            return units.metre(scene) / reach if self.dimension == units.MOMENT else reach * reach
+        return reach if self.turning or self.dimension == units.HEADING else 1
 
 
 VELOCITY = ResultKind(said("velocity"), units.SPEED)
@@ -68,9 +69,19 @@ SLIDE_MOMENT = ResultKind(said("slide moment"), units.MOMENT, pair=True)
 SLIDE_ARM = ResultKind(said("slide arm"), units.LENGTH, pair=True)
 POLE = ResultKind(said("pole"), units.PLACE, place=POLES)
 POLE_HEADING = ResultKind(said("heading to a pole"), units.HEADING, place=POLES)  # of one at infinity
+# Of the path of a point on a link: its centre of curvature; where that is at infinity the curvature, along the normal;
+# where the point is the pole, how far the two are apart. Of a link's motion its inflection pole and its pole, both as
+# places; where these are at infinity its turning.
+CENTRE = ResultKind(said("centre of curvature"), units.PLACE, place=CURVES)
+STRAIGHT = ResultKind(said("curvature"), units.CURVING, place=CURVES)
+CUSP = ResultKind(said("cusp"), units.LENGTH, place=CURVES)
+INFLECTION = ResultKind(said("inflection pole"), units.PLACE, place=CURVES)
+MOTION_POLE = ResultKind(said("pole of the motion"), units.PLACE, place=CURVES)
+TRANSLATION = ResultKind(said("translation"), units.TURNING)
+PATHS = CENTRE, STRAIGHT, CUSP, INFLECTION, MOTION_POLE
 KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
     VELOCITY, ACCELERATION, OMEGA, ALPHA, SLIDE_VELOCITY, SLIDE_ACCELERATION, REACTION, SLIDE_REACTION, SLIDE_MOMENT,
-    SLIDE_ARM, POLE, POLE_HEADING,
+    SLIDE_ARM, POLE, POLE_HEADING, *PATHS, TRANSLATION,
     ResultKind(said("balance"), units.FORCE, way=BY_PLANS),
     ResultKind(said("balance moment"), units.MOMENT, way=BY_PLANS),
     ResultKind(said("balance with friction"), units.FORCE, way=RUBBED),
@@ -80,10 +91,10 @@ KINDS: Mapping[str, ResultKind] = {kind: kind for kind in (
 # A third opinion, which is never read off a drawing.
 POWER, POWER_MOMENT = ResultKind("power balance", units.FORCE), ResultKind("power balance moment", units.MOMENT)
 MOTION = {VELOCITY: (VELOCITY, OMEGA, SLIDE_VELOCITY), ACCELERATION: (ACCELERATION, ALPHA, SLIDE_ACCELERATION),
-          POLES: (POLE, POLE_HEADING)}
+          POLES: (POLE, POLE_HEADING), CURVES: PATHS}
 ORDER = {kind: place for place, kind in enumerate(kind for kinds in MOTION.values() for kind in kinds)}  # as told
 WORDS = {**{name: kind.words for name, kind in KINDS.items()}, FORCES: said("force"), POLES: said("poles"),
-         "curves": said("curves"), "position": said("position")}
+         CURVES: said("curvature"), "curves": said("curves"), "position": said("position")}
 
 
 def kind_of(name: str) -> ResultKind:

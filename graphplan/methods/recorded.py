@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 from graphplan.errors import Undrawable
 from graphplan.kernel.numbers import Domain
-from graphplan.kernel.primitives import meet
+from graphplan.kernel.primitives import dot, meet
 from graphplan.kernel.program import Program, Step, error_at, evaluate
 from graphplan.mechanism import units
 from graphplan.mechanism.model import Number, Pair, Scene
@@ -185,10 +185,24 @@ def _heading(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
     return x * sense, y * sense
 
 
+def _curving(marks: Sequence[Any], domain: Domain, drawing: Recorded) -> Any:
+    """The vector n/rho of a path, from the pole, the point and the inflection pole by Euler and Savary, or from the
+    point, begin and end of its velocity and of its acceleration."""
+    if len(marks) == 3:
+        P, M, W = marks
+        ray = _difference(M, P)
+        square, part = dot(ray, ray), dot(ray, _difference(M, W))
+        return ray[0] * part / square / square, ray[1] * part / square / square
+    velocity, acceleration = _difference(*marks[1:3]), _difference(*marks[3:])
+    x, y = velocity if drawing.turned else (-velocity[1], velocity[0])
+    square, part = x * x + y * y, dot((x, y), acceleration)
+    return x * part / square / square, y * part / square / square
+
+
 READERS: dict[units.Dimension, Callable[[Sequence[Any], Domain, Recorded], Any]] = {
     units.SPEED: _speed, units.ACCELERATING: _acceleration, units.TURNING: _turning,
     units.TURNING_FASTER: _turning_faster, units.FORCE: _force, units.MOMENT: _moment, units.LENGTH: _length,
-    units.PLACE: _place, units.HEADING: _heading,
+    units.PLACE: _place, units.HEADING: _heading, units.CURVING: _curving,
 }  # fmt: skip
 
 

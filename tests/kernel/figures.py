@@ -90,9 +90,14 @@ def _corner(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mar
     return p[0], b.lay_off(p[0], dx=c * params["ux"] - s * params["uy"], dy=s * params["ux"] + c * params["uy"])
 
 
+def _conjugate(b: Board, p: Points, r: Random, params: dict[str, Any]) -> tuple[Mark, ...]:
+    centres = [b.step_off(X, p[0], X, ratio=Fraction(r.choice((-5, -3, -2, 2, 3, 5, 6)), 4)) for X in p[1:3]]
+    return p[0], p[1], centres[0], p[2], centres[1], p[3]
+
+
 FITTING: dict[str, tuple[int, Draw]] = {
     "divide": (4, _divide), "similar": (4, _similar), "settle": (6, _settle), "coriolis": (4, _coriolis),
-    "false_position": (7, _false_position), "corner": (1, _corner),
+    "false_position": (7, _false_position), "corner": (1, _corner), "conjugate": (4, _conjugate),
 }
 
 NEEDED = {POINT: 1, LINE: 2, OPENING: 2, CIRCLE: 3}

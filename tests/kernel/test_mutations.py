@@ -99,6 +99,12 @@ FAULTS: list[tuple[str, str, Callable[[Rule], Rule]]] = [
     ("coriolis", "laid off once", lambda rule: lambda d, *args: tuple(
         (p + q) / 2 for p, q in zip(rule(d, *args), args[4], strict=True))),
     ("coriolis", "turning and sliding swapped", ordered(0, 1, 3, 2, 4)),
+    ("third", "to the other side", reflected(0)),
+    ("third", "from the other end", ordered(1, 0, 2, 3)),
+    ("curved", "pole and inflection pole swapped", ordered(2, 1, 0)),
+    ("curved", "to the other side", reflected(1)),
+    ("conjugate", "point and centre swapped", ordered(0, 2, 1, 3, 4, 5)),
+    ("conjugate", "to the other side", reflected(5)),
     ("false_position", "errors added", lambda rule: lambda d, A1, A2, Z1, l1, Z2, l2: rule(
         d, A1, A2, Z1, l1, (2 * Z1[0] - Z2[0], 2 * Z1[1] - Z2[1]), l2)),
     ("false_position", "from the second trial", ordered(1, 0, 2, 3, 4, 5)),

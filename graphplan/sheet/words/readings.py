@@ -60,6 +60,8 @@ class Readings:
 
     def measured(self, reading: Reading) -> Measured | None:
         """What is read off, unless it is nothing."""
+        if reading.kind.place:
+            return None
         kind, dimension, value = reading.kind, reading.kind.dimension, self.values[reading.kind][reading.of]
         marks = [self.drawing.drawn.wanted[position] for position in reading.marks]
         if dimension in VECTORS:

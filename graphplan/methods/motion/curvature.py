@@ -1,0 +1,309 @@
+"""Curvature of paths: inflection circles and centres of curvature, drawn from known centres or from the rates.
+
+A link's inflection circle is known from its pole P and two of its points W. Each point of the link whose path's centre
+of curvature is known gives a ray through P and a W on it:
+
+- a pin on a link that turns about the frame: its pivot is the centre, and W the third proportional;
+- a pin on a link that slides on the frame: its path is straight, and it is W itself;
+- a pivot by which a line of the link always passes: it is a return point, W lies opposite, as far from P;
+- a pin on a link whose circle is known: its centre by Euler and Savary, then W the third proportional;
+- any point whose velocity and acceleration are drawn: W divides the normal acceleration as P the velocity, twice.
+
+Which of them a link has, its joints say. Where the pose puts P or a centre at infinity, the rates serve.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator
+from contextlib import suppress
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from itertools import combinations
+
+from graphplan.errors import ConstructionError, Refused
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Mark, evaluate
+from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.methods import kinds
+from graphplan.methods.motion.acceleration import Normal
+from graphplan.methods.motion.curve_stages import by_centres, by_rates, centre_by_rates, centre_of, circle_of
+from graphplan.methods.motion.time_scale import apart
+from graphplan.methods.motion.velocity import Velocity
+from graphplan.methods.panels import MECHANISM, link_named
+from graphplan.phrases import said
+
+NONE = 1e-9  # beside the mechanism: what is less is nothing, and further than its inverse at infinity
+MOST = 16  # pairs of points that are tried
+Point = tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Source:
+    """A point of a link whose path's centre of curvature is known, and how: as a pin or by a slide of `link`."""
+
+    how: str
+    point: str
+    link: str = ""
+    slide: Slide | None = None
+
+
+@dataclass(frozen=True)
+class Circle:
+    """A link's inflection circle: its pole, its inflection pole, and of two points the marks with their centres."""
+
+    pole: Mark
+    inflection: Mark
+    pins: tuple[Mark, ...] = ()
+    shown: bool = False
+
+
+PREFERRED = "pin", "path", "return", "chain"
+
+
+def sources(scene: Scene) -> dict[str, tuple[Source, Source]]:
+    """For each link that has them two points with known centres, those found first preferred; by the joints alone."""
+    fixed = scene.links.get(FRAME, ())
+    pivots = {link: point for link in scene.moving for point in scene.links[link] if point in fixed}
+    slides = {s.link if s.along == FRAME else s.along: s for s in scene.slides if FRAME in s.links and s.turns_alike}
+    found: dict[str, tuple[Source, Source]] = {}
+
+    def known(link: str) -> Iterator[Source]:
+        for point in scene.links[link]:
+            for other in scene.links_of[point]:
+                if other in pivots and other != link:
+                    yield Source("pin", point, other)
+                elif other in slides and other != link:
+                    yield Source("path", point, other, slides[other])
+                elif other in found:
+                    yield Source("chain", point, other)
+        for slide in scene.slides:
+            other = next((one for one in slide.links if one != link), "")
+            if link in slide.links and other in pivots and slide.turns_alike:
+                yield Source("return", pivots[other], other, slide)
+
+    def pair(link: str) -> tuple[Source, Source] | None:
+        ranked = sorted(known(link), key=lambda source: PREFERRED.index(source.how))
+        return next(((one, two) for one, two in combinations(ranked, 2)
+                     if scene.points[one.point] != scene.points[two.point]), None)
+
+    waiting = [link for link in scene.moving if link not in pivots and link not in slides]
+    while more := {link: two for link in waiting if link not in found and (two := pair(link))}:
+        found |= more
+    return found
+
+
+class Curves:
+    """Draws the curvature of paths on the mechanism plan, and says what is read of it."""
+
+    def __init__(self, velocity: Velocity, accelerations: Callable[[], Normal], method: str):
+        self.velocity, self.accelerations, self.method = velocity, accelerations, method
+        self.board, self.pose, self.scene = velocity.board, velocity.pose, velocity.net.scene
+        self._circles: dict[str, Circle | None] = {}
+
+    # ---- a link's circle ----------------------------------------------------------------------------------------
+
+    @cached_property
+    def known(self) -> dict[str, tuple[Source, Source]]:
+        """Of each link two points with known centres; of none where the rates are asked for."""
+        return sources(self.scene) if self.method != "accelerations" else {}
+
+    def circle(self, link: str) -> Circle | None:
+        """The link's inflection circle; None where its pole is at infinity in this pose."""
+        if link not in self._circles:
+            pivot = next((p for p in self.scene.links[link] if p in self.scene.links.get(FRAME, ())), "")
+            self._circles[link] = (Circle(self.point(pivot), self.point(pivot)) if pivot else
+                                   self._first(self._ways(link)))
+        return self._circles[link]
+
+    def _ways(self, link: str) -> Iterator[Callable[[], Circle]]:
+        """How the circle may be drawn: from known centres, or else from the rates of two of the link's points."""
+        if link in self.known:
+            yield partial(self._by_centres, link)
+        yield from (partial(self._by_rates, link, two) for two in self._pairs(link))
+
+    def _pairs(self, link: str) -> list[tuple[str, str]]:
+        """Two points of a link's plane each: its own, those furthest apart first, then other links' in their place."""
+        own = {*self.scene.links[link]}
+        found = [two for two in combinations(self.scene.points, 2) if apart(self.scene, *two)]
+        found.sort(key=lambda two: (-len(own & {*two}), -apart(self.scene, *two)))
+        return found[:MOST]
+
+    def _first(self, ways: Iterator[Callable[[], Circle]]) -> Circle | None:
+        """The first of these that can be drawn in this pose."""
+        for way in ways:
+            with suppress(ConstructionError, Refused):
+                circle = way()
+                if all(abs(part) < self.scene.extent / NONE
+                       for mark in self.values(circle.pole, circle.inflection) for part in mark):
+                    return circle
+        return None
+
+    def _by_centres(self, link: str) -> Circle:
+        """P where the rays cross, W_0 where the perpendiculars to them in W_1 and W_2 do."""
+        with self.board.on(MECHANISM, (link,), partial(by_centres, link)):
+            two = self.known[link]
+            rays = [self._ray(source) for source in two]
+            P = self.board.meet(*rays, name="P")
+            centres = [self._centre(source) for source in two]
+            points = [self._on_the_circle(source, centre, P) for source, centre in zip(two, centres, strict=True)]
+            return replace(self._thales(P, rays, points), pins=self._pins(two, centres),
+                           shown=link in self.scene.find.inflection)
+
+    def _thales(self, P: Mark, rays: list[Mark], points: list[Mark]) -> Circle:
+        """The point opposite P on the circle through P and two points of its rays."""
+        uprights = [self.board.perpendicular(ray, W) for ray, W in zip(rays, points, strict=True)]
+        return Circle(P, self.board.meet(*uprights, name="W_0"))
+
+    def _pins(self, two: tuple[Source, ...], centres: list[Mark | None]) -> tuple[Mark, ...]:
+        """The points and their centres, where these are not at infinity."""
+        marks = [mark for source, centre in zip(two, centres, strict=True) if centre is not None
+                 for mark in (self.point(source.point), centre)]
+        return tuple(marks) if len(marks) == 4 and all(source.how != "return" for source in two) else ()
+
+    def _ray(self, source: Source) -> Mark:
+        """The normal of the path of a known point: it passes through the pole."""
+        X = self.point(source.point)
+        if source.slide is not None:
+            return self.board.perpendicular(self.pose.guide(source.slide), X)
+        return self.board.side(X, self._pole(source.link))
+
+    def _pole(self, link: str) -> Mark:
+        circle = self.circle(link)
+        if circle is None:
+            raise Refused(link_named(link), said("its pole is at infinity"), "the rates")
+        return circle.pole
+
+    def _centre(self, source: Source) -> Mark | None:
+        """The centre of curvature of a known point's path, where it is not at infinity."""
+        if source.how == "chain":
+            circle = self.circle(source.link)
+            assert circle is not None
+            return self._curved(circle, source.point)
+        return self._pole(source.link) if source.how == "pin" else None
+
+    def _on_the_circle(self, source: Source, centre: Mark | None, P: Mark) -> Mark:
+        """The point of the inflection circle on the ray of a known point."""
+        X = self.point(source.point)
+        if source.how == "return":
+            return self.board.transfer(X, P, P)
+        return X if centre is None else self.board.third(X, centre, X, P)
+
+    def _by_rates(self, link: str, two: tuple[str, str]) -> Circle:
+        """The same from the velocities and the accelerations of two points of the link."""
+        with self.board.on(MECHANISM, (link,), partial(by_rates, link)):
+            ends = [self._orthogonal(link, X) for X in two]
+            rays = [self.board.side(self.point(X), end) for X, end in zip(two, ends, strict=True)]
+            P = self.board.meet(*rays, name="P")
+            points = []
+            for name, end, ray in zip(two, ends, rays, strict=True):
+                X, N = self.point(name), self.board.foot(ray, self._acceleration(link, name))
+                once = self.board.divide(X, end, P, X, N)  # a_n = omega^2 XW, and v = omega XP
+                points.append(self.board.divide(X, end, P, X, once))
+            return self._thales(P, rays, points)
+
+    def _orthogonal(self, link: str, X: str) -> Mark:
+        """The velocity of a point of a link, laid off from it a quarter turned."""
+        start, end = self.velocity.figure(link, X), self.velocity.end_in(link, X)
+        if self.velocity.turned:
+            return self.velocity.moved(end, start, self.point(X))
+        return self.board.quarter(start, end, self.point(X))
+
+    def _acceleration(self, link: str, X: str) -> Mark:
+        """The acceleration of a point of a link, laid off from it."""
+        plan = self.accelerations()
+        return self.board.transfer(plan.figure(link, X), plan.end_in(link, X), self.point(X))
+
+    # ---- what is asked for --------------------------------------------------------------------------------------
+
+    def draw(self, read: Callable[..., None], keep: Callable[..., None]) -> None:
+        """Draw what is asked for: `read` notes what is read of which marks, `keep` that marks are drawn for themselves.
+        """
+        for link in self.scene.find.inflection:
+            self._inflection(link, read, keep)
+        for name, (point, link) in self.scene.find.traced.items():
+            kind, marks = self._traced(point, link)
+            read(kind, name, *marks, given=None if marks else (0, 0))
+
+    def _inflection(self, link: str, read: Callable[..., None], keep: Callable[..., None]) -> None:
+        """The inflection circle over the pole and the inflection pole, and its mirror image in the pole."""
+        circle = self.circle(link)
+        if circle is None:
+            two = self._pairs(link)[0]
+            ends = [mark for X in two for mark in (self.velocity.figure(link, X), self.velocity.end_in(link, X))]
+            read(kinds.TRANSLATION, link, *map(self.point, two), *ends)
+            return
+        P, W0 = circle.pole, circle.inflection
+        read(kinds.MOTION_POLE, link, P)
+        read(kinds.INFLECTION, link, W0)
+        if P is not W0:
+            with self.board.on(MECHANISM, (link,), partial(circle_of, link)):
+                R0 = self.board.transfer(W0, P, P, name="R_0")
+                for opposite in (W0, R0):
+                    middle = self.board.midpoint(P, opposite)
+                    keep(self.board.circle(middle, self.board.opening(middle, P)))
+
+    def _traced(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
+        """What is read of the path of a point: of which kind, from which marks."""
+        link = min(self.scene.links_of[point], key=lambda other: (self._rank(other), other != link))
+        if self._rank(link) == 0:
+            return kinds.CENTRE, (self._pole(link),)
+        if self._rank(link) == 1:
+            return kinds.STRAIGHT, ()
+        circle = self.circle(link) if link in self.known or link in self.scene.find.inflection else None
+        with self.board.on(MECHANISM, (link,), partial(centre_of if circle else centre_by_rates, point)):
+            return self._by_circle(circle, point) if circle else self._by_normal(point, link)
+
+    def _rank(self, link: str) -> int:
+        """How much is known of the paths of a link's points: arcs about its pivot, lines, two centres, or the rates."""
+        if FRAME in self.scene.links and {*self.scene.links[link]} & {*self.scene.links[FRAME]}:
+            return 0
+        sliding = any({link, FRAME} == {*slide.links} and slide.turns_alike for slide in self.scene.slides)
+        return 1 if sliding else 2 if link in self.known else 3
+
+    def _by_circle(self, circle: Circle, point: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
+        """By Euler and Savary, Bobillier or Hartmann."""
+        marks = circle.pole, self.point(point), circle.inflection
+        P, M, W0 = (complex(*place) for place in self.values(*marks))
+        if abs(P - M) <= NONE * self.scene.extent:
+            return kinds.CUSP, marks[:2]
+        if abs(((P - M) * (W0 - M).conjugate()).real) <= NONE * abs(P - M) * max(abs(W0 - M), abs(P - M)):
+            return kinds.STRAIGHT, marks
+        return kinds.CENTRE, (self._curved(circle, point, f"C_{point.replace('_', '')}"),)
+
+    def _by_normal(self, point: str, link: str) -> tuple[kinds.ResultKind, tuple[Mark, ...]]:
+        """From velocity and normal acceleration: the radius is the third proportional to the two."""
+        M, end = self.point(point), self._orthogonal(link, point)
+        if self._together(M, end) and (circle := self.circle(link)):
+            return kinds.CUSP, (circle.pole, M)
+        N = self.board.foot(self.board.side(M, end), self._acceleration(link, point))
+        if self._together(M, N):
+            plan = self.accelerations()
+            return kinds.STRAIGHT, (M, self.velocity.figure(link, point), self.velocity.end_in(link, point),
+                                    plan.figure(link, point), plan.end_in(link, point))
+        return kinds.CENTRE, (self.board.third(M, N, M, end, name=f"C_{point.replace('_', '')}"),)
+
+    def _curved(self, circle: Circle, point: str, name: str = "") -> Mark:
+        """The centre of curvature of a point's path, from its link's circle or from two points with known centres."""
+        M = self.point(point)
+        if circle.pins and (not circle.shown or self.method in ("bobillier", "hartmann")):
+            letters = {letter: letter for letter in ("W_1", "W_2", "W_0", "Q", "R", "U", "t")}
+            return self.board.conjugate(circle.pole, *circle.pins, M, name=name, names=letters)
+        return self.board.curved(circle.pole, M, circle.inflection, name=name, names={"W": "W", "Q": "Q"})
+
+    def _together(self, *two: Mark) -> bool:
+        """Whether two marks fall on one place in this pose; not where they cannot be drawn there."""
+        try:
+            return math.dist(*self.values(*two)) <= NONE * self.scene.extent
+        except ConstructionError:
+            return False
+
+    def point(self, name: str) -> Mark:
+        return self.pose.points[name]
+
+    def values(self, *marks: Mark) -> list[Point]:
+        """Where marks are in this pose; fails where they cannot be drawn there."""
+        program = freeze(self.board, marks)
+        values = evaluate(program, Floats())
+        return [values[index] for index in program.wanted]

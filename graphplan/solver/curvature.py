@@ -1,0 +1,66 @@
+"""Curvature of paths and inflection circles from the rates alone: the second opinion on what Euler and Savary draw.
+
+With v and a of a point its path has the curvature (v x a) / |v|^3, to the left of v. A link that turns has its velocity
+pole P where v vanishes; the acceleration of the link's own point there is omega^2 times the vector from P to the
+inflection pole, whatever alpha. Numbers are those of the rates: floats, fractions, or numbers with bounds.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from graphplan.mechanism.model import FRAME
+from graphplan.mechanism.plane import Pair, dot, less, plus, times, turned
+from graphplan.solver.rates import Rates
+
+
+def centre(rates: Rates, point: str) -> Pair:
+    """The centre of curvature of a point's path; divides by zero where that is straight, or where the point rests.
+
+    A point at rest that turns about a pivot, as at a dead centre, has that as its centre.
+    """
+    v, a = _of(rates, point)
+    scene = rates.equations.scene
+    try:
+        return plus(scene.points[point], times(dot(v, v) / dot(turned(v), a), turned(v)))
+    except ArithmeticError:
+        pivots = [p for link in scene.links_of[point] for p in scene.links[link] if FRAME in scene.links_of[p]]
+        if not pivots:
+            raise
+        return scene.points[pivots[0]]
+
+
+def curvature(rates: Rates, point: str) -> Pair:
+    """The vector from a point towards the centre of curvature of its path, as long as one over the radius; divides by
+    zero where the point rests, unless it is on a link that slides on the frame."""
+    v, a = _of(rates, point)
+    square, links = dot(v, v), rates.equations.scene.links_of[point]
+    try:
+        return times(dot(turned(v), a) / square / square, turned(v))
+    except ArithmeticError:
+        if not any(FRAME in slide.links and {*links} & {*slide.links} for slide in rates.equations.scene.slides):
+            raise
+        return square, square
+
+
+def from_pole(rates: Rates, point: str, link: str) -> Pair:
+    """The vector from the pole of a link's motion to its point; divides by zero where the link does not turn."""
+    return times(-1 / rates.omega[link], turned(rates.velocity[point]))
+
+
+def pole(rates: Rates, link: str) -> Pair:
+    """The point of a link's plane that has no velocity; divides by zero where the link does not turn."""
+    base = rates.equations.bases[link]
+    return less(rates.equations.scene.points[base], from_pole(rates, base, link))
+
+
+def inflection_pole(rates: Rates, link: str) -> Pair:
+    """The point opposite the pole on a link's inflection circle; divides by zero where the link does not turn."""
+    base, omega = rates.equations.bases[link], rates.omega[link]
+    tangential = times(-rates.alpha[link], turned(from_pole(rates, base, link)))
+    return plus(rates.equations.scene.points[base],
+                times(1 / omega / omega, plus(rates.acceleration[base], tangential)))
+
+
+def _of(rates: Rates, point: str) -> tuple[Any, Any]:
+    return rates.velocity[point], rates.acceleration[point]

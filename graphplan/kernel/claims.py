@@ -12,88 +12,13 @@ import math
 from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
-from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Claim
+from graphplan.kernel.curvature_claims import CURVED
+from graphplan.kernel.drawn import Drawn, Vector, cross, cross3, dot, forward, short, sideways, unit
+from graphplan.kernel.kinds import LINE, POINT, Claim
 from graphplan.kernel.program import Program, Step
 
 TOLERANCE = 1e-9
 STILL = 1e-12  # beside the drawing's size: what moves less may be said to stand still
-Vector = tuple[int, int]
-
-
-class Drawn:
-    """One step in numbers: its operands by place, -1 being what it made. Points and vectors are complex numbers."""
-
-    def __init__(self, step: Step, values: Sequence[Any]):
-        self.kinds = (*step.op.reads, step.op.gives)
-        self.numbers = [tuple(map(float, values[index])) for index in (*step.args, step.index)]
-        self.params = step.params
-        self.size = max(map(_extent, self.kinds, self.numbers)) or 1.0
-
-    def __getitem__(self, k: int) -> complex:
-        """The point, or the centre of the circle, at a place."""
-        return complex(*self.numbers[k][:2])
-
-    def vector(self, ends: Vector) -> complex:
-        return self[ends[1]] - self[ends[0]]
-
-    def way(self, k: int) -> complex:
-        """The unit vector along which a line runs."""
-        a, b, _ = self.numbers[k]
-        return complex(b, -a) / math.hypot(a, b)
-
-    def off(self, k: int, X: complex) -> float:
-        """How far a point lies to the left of a line, or outside a circle."""
-        a, b, c = self.numbers[k]
-        if self.kinds[k] == CIRCLE:
-            return abs(X - complex(a, b)) - math.sqrt(c)
-        return (a * X.real + b * X.imag + c) / math.hypot(a, b)
-
-    def radius(self, k: int) -> float:
-        """The radius of a circle, or the distance in the compasses."""
-        return math.sqrt(self.numbers[k][-1])
-
-    def number(self, name: str) -> float:
-        return float(self.params.get(name, 0))
-
-    def turned(self, u: complex) -> complex:
-        """A vector of the link as its image runs."""
-        return u if self.params["turn"] == "parallel" else 1j * u
-
-
-def _extent(kind: str, numbers: tuple[float, ...]) -> float:
-    """How far from the origin a thing reaches, or how large it is."""
-    if kind == LINE:
-        return abs(numbers[2]) / math.hypot(numbers[0], numbers[1])
-    if kind == POINT:
-        return math.hypot(*numbers)
-    return math.hypot(*numbers[:-1]) + math.sqrt(numbers[-1])
-
-
-def _unit(u: complex) -> complex:
-    return u / (abs(u) or 1.0)
-
-
-def _dot(u: complex, v: complex) -> float:
-    return (u.conjugate() * v).real
-
-
-def _cross(u: complex, v: complex) -> float:
-    return (u.conjugate() * v).imag
-
-
-def _sideways(u: complex, v: complex) -> float:
-    """What of u stands square to v: all of it, where v has no direction."""
-    return _cross(_unit(v), u) if v else abs(u)
-
-
-def _forward(u: complex, v: complex) -> float:
-    """What of u runs along v."""
-    return _dot(_unit(v), u)
-
-
-def _short(length: float, ahead: bool) -> float:
-    """By how much a length is not ahead, or not back, where it should be."""
-    return max(0.0, -length if ahead else length)
 
 
 # ---- lying on, running along, in proportion ------------------------------------------------------------------------
@@ -110,13 +35,13 @@ def _halfway(d: Drawn, i: int, j: int) -> float:
     here -= d.off(-1, here) * 1j * way
     there = here + way * d.size
     apart = [abs(X - d[i]) - abs(X - d[j]) for X in (here, there)]
-    return max(map(abs, apart)) / d.size + abs(way - 1j * _unit(d[j] - d[i]))
+    return max(map(abs, apart)) / d.size + abs(way - 1j * unit(d[j] - d[i]))
 
 
 def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
     whole, PQ = d[B] - d[A], d[Q] - d[P]
-    part = _forward(d[C] - d[A], whole) / abs(whole)
-    return (_forward(d[-1] - d[P], PQ) - part * abs(PQ)) / d.size
+    part = forward(d[C] - d[A], whole) / abs(whole)
+    return (forward(d[-1] - d[P], PQ) - part * abs(PQ)) / d.size
 
 
 # ---- images of a link ----------------------------------------------------------------------------------------------
@@ -125,7 +50,7 @@ def _proportion(d: Drawn, A: int, B: int, C: int, P: int, Q: int) -> float:
 def _likeness(d: Drawn, A: int, B: int, C: int, a: int, b: int) -> float:
     """The sides of the image are in the proportion of the link's."""
     AB, AC = d.vector((A, B)), d.vector((A, C))
-    ab, ac = (_forward(d.vector((a, k)), d.turned(v)) for k, v in ((b, AB), (-1, AC)))
+    ab, ac = (forward(d.vector((a, k)), d.turned(v)) for k, v in ((b, AB), (-1, AC)))
     return (ac * abs(AB) - ab * abs(AC)) / abs(AB) / d.size
 
 
@@ -134,7 +59,7 @@ def _carried(d: Drawn, C: int, A: int, B: int, c: int, beta: int) -> float:
     CA, CB = d.turned(d[A] - d[C]), d.turned(d[B] - d[C])
     if not CA:
         return 0.0
-    grown = _forward(d[-1] - d[c], CA) / abs(CA)
+    grown = forward(d[-1] - d[c], CA) / abs(CA)
     return d.off(beta, d[c] + grown * CB) / d.size / max(1.0, abs(CB) / abs(CA))
 
 
@@ -147,18 +72,14 @@ def _locus(d: Drawn, A: int, alpha: int, B: int, beta: int, C: int) -> float:
     rows, right = [], []
     for point, line in ((A, alpha), (B, beta)):
         normal, side = 1j * d.way(line), d.turned(d[point] - d[C]) / reach
-        rows.append((normal.real, normal.imag, _dot(normal, side)))
+        rows.append((normal.real, normal.imag, dot(normal, side)))
         right.append(-d.off(line, 0j))
-    free = _cross3(*rows)
+    free = cross3(*rows)
     told = math.hypot(*free)
-    one, two = _cross3(rows[1], free), _cross3(free, rows[0])
+    one, two = cross3(rows[1], free), cross3(free, rows[0])
     fitted = [(right[0] * p + right[1] * q) / told**2 for p, q in zip(one, two, strict=True)]
     trials = [[p + k * d.size * q / told for p, q in zip(fitted, free, strict=True)] for k in (-1, 1)]
     return told * max(abs(d.off(-1, complex(x, y))) / (d.size + math.hypot(x, y)) for x, y, _ in trials)
-
-
-def _cross3(u: Sequence[float], v: Sequence[float]) -> tuple[float, float, float]:
-    return u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]
 
 
 # ---- accelerations, false position ---------------------------------------------------------------------------------
@@ -168,34 +89,6 @@ def _mean(d: Drawn, K: int, A: int, m: int, w: int, k: int) -> float:
     """The velocity is the mean proportional of the distance and the acceleration."""
     KA, v, a = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[k])
     return (a * KA - v * v) / KA / d.size
-
-
-def _third(d: Drawn, K: int, A: int, m: int, w: int) -> float:
-    """The length mw is the mean proportional of KA and what is laid off."""
-    KA, mean, found = abs(d[A] - d[K]), abs(d[w] - d[m]), abs(d[-1] - d[K])
-    return (found * KA - mean * mean) / KA / (d.size + found)
-
-
-def _curved(d: Drawn, P: int, M: int, W: int) -> float:
-    """What is left of PM^2 = MW * MC, W being the foot of the inflection pole on the ray."""
-    ray = _unit(d[P] - d[M])
-    mean, foot, found = abs(d[P] - d[M]), _dot(ray, d[W] - d[M]), _dot(ray, d[-1] - d[M])
-    return (mean * mean - foot * found) / d.size / (d.size + abs(found))
-
-
-def _conjugate(d: Drawn, P: int, A: int, A0: int, B: int, B0: int, M: int) -> float:
-    """On each ray lay off 1/PX - 1/PX_0 from the pole: the ends lie on one line, the inverse of the inflection circle.
-    """
-    rows = []
-    for X, X0 in ((A, A0), (B, B0)):
-        near, ray = abs(d[X] - d[P]), _unit(d[X] - d[P])
-        gap = _dot(ray, d[X0] - d[X])
-        row = ray.real * gap, ray.imag * gap, near * (near + gap) / d.size
-        rows.append((row[0] / math.hypot(*row), row[1] / math.hypot(*row), row[2] / math.hypot(*row)))
-    x, y, w = _cross3(*rows)  # of the line through the two ends; the flatter the rays cross, the less it tells
-    near, ray = abs(d[M] - d[P]), _unit(d[M] - d[P])
-    far, across = _dot(ray, d[-1] - d[P]), x * ray.real + y * ray.imag
-    return (far * (across + w * near / d.size) - near * across) / (d.size + abs(far))
 
 
 def _coriolis(d: Drawn, P: int, B: int, T: int, R: int, b: int) -> float:
@@ -208,8 +101,8 @@ def _coriolis(d: Drawn, P: int, B: int, T: int, R: int, b: int) -> float:
 def _balanced(d: Drawn, A1: int, A2: int, Z1: int, l1: int, Z2: int, l2: int) -> float:
     """Between the trials the error runs straight: at the drawn point it is nothing."""
     span = d[A2] - d[A1]
-    part = _forward(d[-1] - d[A1], span) / (abs(span) or 1.0)
-    first, second = d.off(l1, d[Z1]), math.copysign(1.0, _dot(d.way(l1), d.way(l2))) * d.off(l2, d[Z2])
+    part = forward(d[-1] - d[A1], span) / (abs(span) or 1.0)
+    first, second = d.off(l1, d[Z1]), math.copysign(1.0, dot(d.way(l1), d.way(l2))) * d.off(l2, d[Z2])
     return ((1 - part) * first + part * second) / d.size / (1 + abs(part))
 
 
@@ -219,7 +112,7 @@ def _balanced(d: Drawn, A1: int, A2: int, Z1: int, l1: int, Z2: int, l2: int) ->
 def _counters(d: Drawn, Y: int, X: int, C: int, p: int, q: int, m: int) -> float:
     """The drawn force at X and the given one at C have no moment about Y."""
     arm, reach = d[X] - d[Y], d[C] - d[Y]
-    return (_cross(arm, d[-1] - d[m]) + _cross(reach, d[q] - d[p])) / (abs(arm) + abs(reach)) / d.size
+    return (cross(arm, d[-1] - d[m]) + cross(reach, d[q] - d[p])) / (abs(arm) + abs(reach)) / d.size
 
 
 def _counters_afar(d: Drawn, y: int, z: int, X: int, C: int, p: int, q: int, m: int) -> float:
@@ -229,52 +122,52 @@ def _counters_afar(d: Drawn, y: int, z: int, X: int, C: int, p: int, q: int, m: 
     """
     ways = d.way(y), d.way(z)
     lines = [(way.real, way.imag, d.off(k, d[X]) / d.size) for k, way in zip((y, z), ways, strict=True)]
-    pole = _cross3(*lines)  # the flatter the lines cross, the less they tell
+    pole = cross3(*lines)  # the flatter the lines cross, the less they tell
     force, load = d[-1] - d[m], d[q] - d[p]
     both = force + load
-    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * _cross(d[C] - d[X], load) / d.size
-    free = _cross(complex(pole[0], pole[1]), force)  # a part of the force along the way to the pole holds nothing
+    lever = pole[0] * both.real + pole[1] * both.imag + pole[2] * cross(d[C] - d[X], load) / d.size
+    free = cross(complex(pole[0], pole[1]), force)  # a part of the force along the way to the pole holds nothing
     return (abs(lever) + abs(free)) / d.size / (1 + abs(force) / d.size)
 
 
 def _concurrent(d: Drawn, y: int, z: int) -> float:
     """The drawn line and the two others pass through one point, or are parallel."""
     rows = [(way.real, way.imag, d.off(k, 0j) / d.size) for k in (y, z, -1) for way in (d.way(k),)]
-    return sum(a * b for a, b in zip(_cross3(rows[0], rows[1]), rows[2], strict=True))
+    return sum(a * b for a, b in zip(cross3(rows[0], rows[1]), rows[2], strict=True))
 
 
 def _turns(d: Drawn, P: int, R: int, m: int) -> float:
     arm = d[R] - d[P]
-    return (_cross(arm, d[-1] - d[m]) - d.number("moment")) / abs(arm) / d.size
+    return (cross(arm, d[-1] - d[m]) - d.number("moment")) / abs(arm) / d.size
 
 
 def _resists(d: Drawn, P: int, R: int, a: int, b: int, m: int) -> float:
     """The couple is against the angular acceleration, `ratio` times as large."""
     arm = d[R] - d[P]
-    turning = _forward(d[b] - d[a], 1j * arm) / abs(arm)
-    return (_cross(arm, d[-1] - d[m]) + d.number("ratio") * turning) / abs(arm) / d.size
+    turning = forward(d[b] - d[a], 1j * arm) / abs(arm)
+    return (cross(arm, d[-1] - d[m]) + d.number("ratio") * turning) / abs(arm) / d.size
 
 
 def _takes_couple(d: Drawn, C: int, p: int, q: int, P: int, R: int, a: int, b: int) -> float:
     """At the drawn point the force has the pair's moment about C."""
-    force, couple = d[q] - d[p], _cross(d[R] - d[P], d[b] - d[a])
-    return (_cross(d[-1] - d[C], force) - couple) / abs(force) / (d.size + abs(d[-1] - d[C]))
+    force, couple = d[q] - d[p], cross(d[R] - d[P], d[b] - d[a])
+    return (cross(d[-1] - d[C], force) - couple) / abs(force) / (d.size + abs(d[-1] - d[C]))
 
 
 def _touches(d: Drawn, P: int, R: int, w: int, p: int, q: int) -> float:
     """The force passes at the radius of the friction circle, and turns against the motion."""
-    arm, turned, force = d[R] - d[P], _forward(d[w] - d[R], d[R] - d[P]), d[q] - d[p]
-    full = d.number("radius") * math.copysign(1.0, turned) * _unit(force) / 1j if force else 0j
+    arm, turned, force = d[R] - d[P], forward(d[w] - d[R], d[R] - d[P]), d[q] - d[p]
+    full = d.number("radius") * math.copysign(1.0, turned) * unit(force) / 1j if force else 0j
     still = abs(turned) <= STILL * d.size or abs(force) <= STILL * d.size
     return min(abs(d[-1] - d[P] - off) for off in (full, 0j if still else full)) / (d.size + abs(arm))
 
 
 def _leans(d: Drawn, l: int, B: int, w: int, p: int, q: int) -> float:
     """The guide is turned by the friction angle: the force square to it is against the sliding."""
-    slip, force, way = (d[w] - d[B]) / 1j, _dot(d[q] - d[p], 1j * d.way(l)), d.way(l)
-    full = d.number("coefficient") * math.copysign(1.0, _dot(slip, way)) * math.copysign(1.0, force)
-    still = abs(_dot(slip, way)) <= STILL * d.size or abs(force) <= STILL * d.size
-    return min(abs(d.way(-1) - _unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
+    slip, force, way = (d[w] - d[B]) / 1j, dot(d[q] - d[p], 1j * d.way(l)), d.way(l)
+    full = d.number("coefficient") * math.copysign(1.0, dot(slip, way)) * math.copysign(1.0, force)
+    still = abs(dot(slip, way)) <= STILL * d.size or abs(force) <= STILL * d.size
+    return min(abs(d.way(-1) - unit(way * (1 + 1j * lean))) for lean in (full, 0.0 if still else full))
 
 
 # ---- positions of links ---------------------------------------------------------------------------------------------
@@ -299,26 +192,26 @@ def _cornered(d: Drawn, P: int, Q: int) -> float:
 def _set_off(d: Drawn, l: int, P: int) -> float:
     """As long as in the figure, and at the same angle with the line."""
     v, u = _figure(d)
-    return abs(d[-1] - d[P] - v * _unit(u).conjugate() * d.way(l)) / (d.size + abs(v))
+    return abs(d[-1] - d[P] - v * unit(u).conjugate() * d.way(l)) / (d.size + abs(v))
 
 
 def _sighted(d: Drawn, P: int, Q: int) -> float:
     """The line passes P as far off, and on the same side, as in the figure, and Q lies the right way along it."""
     v, u = _figure(d)
-    ahead = _short(_dot(d.way(-1), d[Q] - d[P]), d.params["way"] == "on")
-    return abs(d.off(-1, d[P]) + _cross(_unit(u), v)) / (d.size + abs(v)) + ahead / d.size
+    ahead = short(dot(d.way(-1), d[Q] - d[P]), d.params["way"] == "on")
+    return abs(d.off(-1, d[P]) + cross(unit(u), v)) / (d.size + abs(v)) + ahead / d.size
 
 
 # By how much a claim fails, and what the drawn thing is that breaks it; {0}, {1}, ... are its operands.
 CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "stands": (lambda d: abs(d[-1] - complex(d.number("x"), d.number("y"))) / d.size, "not where it is given"),
     "on": (_on, "not on {0}"),
-    "heads": (lambda d: abs(d.way(-1) - _unit(complex(d.number("dx"), d.number("dy")))), "not in the given direction"),
-    "runs": (lambda d, i, j: abs(d.way(-1) - _unit(d[j] - d[i])), "not directed from {0} to {1}"),
+    "heads": (lambda d: abs(d.way(-1) - unit(complex(d.number("dx"), d.number("dy")))), "not in the given direction"),
+    "runs": (lambda d, i, j: abs(d.way(-1) - unit(d[j] - d[i])), "not directed from {0} to {1}"),
     "parallel": (lambda d, l: abs(d.way(-1) - d.way(l)), "not parallel to {0}, or it runs the other way"),
     "perpendicular": (lambda d, l: abs(d.way(-1) - 1j * d.way(l)),
                       "not perpendicular to {0}, or it runs the other way"),
-    "alike": (lambda d, k, l: _cross(d.way(k), d.way(l)), "not parallel to {0}"),
+    "alike": (lambda d, k, l: cross(d.way(k), d.way(l)), "not parallel to {0}"),
     "halfway": (_halfway, "not as far from {0} as from {1}, or it runs the other way"),
     "shifted": (lambda d, l, i, j: (d.off(-1, d[j]) - d.off(l, d[i])) / d.size,
                 "{2} does not lie to it as {1} lies to {0}"),
@@ -326,36 +219,33 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "measures": (lambda d: (d.radius(-1) - abs(d.number("length"))) / d.size, "not of the given length"),
     "centre": (lambda d, i: abs(d[-1] - d[i]) / d.size, "not centred at {0}"),
     "opened": (lambda d, o: (d.radius(-1) - d.radius(o)) / d.size, "not of the radius {0}"),
-    "way": (lambda d, l, c: _short(_dot(d.way(l), d[-1] - d[c]), d.params["way"] == "on") / d.size,
+    "way": (lambda d, l, c: short(dot(d.way(l), d[-1] - d[c]), d.params["way"] == "on") / d.size,
             "the other intersection of {0} with {1}"),
-    "side": (lambda d, i, j: _short(_cross(_unit(d[j] - d[i]), d[-1] - d[i]), d.params["side"] == "left") / d.size,
+    "side": (lambda d, i, j: short(cross(unit(d[j] - d[i]), d[-1] - d[i]), d.params["side"] == "left") / d.size,
              "on the other side of the line from {0} to {1}"),
-    "ahead": (lambda d, l, i: _short(_dot(d.way(l), d[-1] - d[i]), d.number("ratio") > 0) / d.size,
+    "ahead": (lambda d, l, i: short(dot(d.way(l), d[-1] - d[i]), d.number("ratio") > 0) / d.size,
               "on the other side of {1} along {0}"),
-    "upright": (lambda d, l, i: _dot(d.way(l), d[i] - d[-1]) / d.size, "not square to {0} from {1}"),
+    "upright": (lambda d, l, i: dot(d.way(l), d[i] - d[-1]) / d.size, "not square to {0} from {1}"),
     "same": (lambda d, u, v: abs(d.vector(u) - d.vector(v)) / d.size, "{1} is not the vector {0}"),
     "quarter": (lambda d, u, v: abs(1j * d.vector(u) - d.vector(v)) / d.size, "{1} is not {0}, turned by 90°"),
     "moved": (lambda d, u: abs(d.vector(u) - complex(d.number("dx"), d.number("dy"))) / d.size,
               "{0} is not the given vector"),
     "laid": (lambda d, l, i: abs(d[-1] - d[i] - d.number("length") * d.way(l)) / d.size,
              "not at the given distance from {1} along {0}"),
-    "along": (lambda d, u, v: _sideways(d.vector(u), d.vector(v)) / d.size, "{0} is not parallel to {1}"),
-    "across": (lambda d, u, v: _sideways(d.vector(u), 1j * d.vector(v)) / d.size, "{0} is not perpendicular to {1}"),
-    "away": (lambda d, u, v: _short(_forward(d.vector(u), d.vector(v)), True) / d.size, "{0} points against {1}"),
+    "along": (lambda d, u, v: sideways(d.vector(u), d.vector(v)) / d.size, "{0} is not parallel to {1}"),
+    "across": (lambda d, u, v: sideways(d.vector(u), 1j * d.vector(v)) / d.size, "{0} is not perpendicular to {1}"),
+    "away": (lambda d, u, v: short(forward(d.vector(u), d.vector(v)), True) / d.size, "{0} points against {1}"),
     "times": (lambda d, u, v: abs(d.vector(u) - d.number("ratio") * d.vector(v)) / d.size,
               "{0} is not the given multiple of {1}"),
     "times across": (lambda d, u, v: abs(d.vector(u) - d.number("ratio") * 1j * d.vector(v)) / d.size,
                      "{0} is not the given multiple of {1}, turned by 90°"),
     "proportion": (_proportion, "it does not divide {3}{4} as {2} divides {0}{1}"),
-    "image": (lambda d, i, j, m, n: _sideways(d.vector((m, n)), d.turned(d.vector((i, j)))) / d.size,
+    "image": (lambda d, i, j, m, n: sideways(d.vector((m, n)), d.turned(d.vector((i, j)))) / d.size,
               "{2}{3} is no side of the image of {0}{1}"),
     "likeness": (_likeness, "not similar to {0}{1}{2}"),
     "carried": (_carried, "no similar figure has its other end on {4}"),
     "locus": (_locus, "trial figures have their third ends off it"),
     "mean": (_mean, "not the normal acceleration of {1} about {0}"),
-    "third": (_third, "the length from {2} to {3} is no mean proportional"),
-    "curved": (_curved, "not the centre of curvature that the inflection pole {2} gives {1}"),
-    "conjugate": (_conjugate, "no centre of curvature of {5} by Euler and Savary"),
     "coriolis": (_coriolis, "not the Coriolis acceleration of {1}"),
     "balanced": (_balanced, "not where the error of the trials vanishes"),
     "counters": (_counters, "its moment about {0} does not balance the given force's"),
@@ -368,11 +258,12 @@ CLAIMS: dict[str, tuple[Callable[..., float], str]] = {
     "leans": (_leans, "not turned by the friction angle"),
     "spans": (lambda d: (d.radius(-1) - abs(complex(d.number("dx"), d.number("dy")))) / d.size,
               "not of the given length"),
-    "inclined": (lambda d: abs(d.way(-1) - _unit(_angle(d))), "not at the given angle"),
+    "inclined": (lambda d: abs(d.way(-1) - unit(_angle(d))), "not at the given angle"),
     "laid at": (lambda d: abs(d[-1] - d[0] - _angle(d)) / (d.size + abs(_angle(d))), "not at the given angle"),
     "cornered": (_cornered, "no corner of the link's figure on {0}{1}"),
     "set off": (_set_off, "not where the link has it from {1}"),
     "sighted": (_sighted, "it passes {0} at another distance"),
+    **CURVED,
 }
 
 

@@ -24,7 +24,7 @@ def test_every_pitch_circle_and_profile_is_drawn_once(name: str) -> None:
     scene = SCENES[name]
     items = [*DrawnMechanism(scene, View(EVERYWHERE, 1.0, (0.0, 0.0))).items()]
     circles = [item for item in items if isinstance(item, Arc) and item.pen == pens.WHEEL]
-    assert len(circles) == len(wheels(scene))
+    assert len(circles) == 2 * len(wheels(scene))
     profiles = [item for item in items if item.pen in (pens.LINK, pens.GROUND) and item.layer in ("wheels", "ground")]
     assert len(profiles) >= 2 * len(scene.contacts)
     corners = [*reach(scene)]

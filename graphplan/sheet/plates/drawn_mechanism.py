@@ -10,7 +10,7 @@ from functools import cached_property
 from graphplan.mechanism.model import FRAME, Contact, Drive, Gear, Scene, Slide
 from graphplan.sheet.lettering.label_candidates import Wish
 from graphplan.sheet.lettering.lettering import Run, sentence_runs
-from graphplan.sheet.plates import clip, higher_pairs, symbols
+from graphplan.sheet.plates import clip, higher_pairs, pens, symbols
 from graphplan.sheet.plates.display import Item, Spot
 from graphplan.sheet.plates.symbols import LONG, NEAR, Vector, off, places, turn, unit
 from graphplan.sheet.plates.view import View
@@ -180,7 +180,7 @@ class DrawnMechanism:
         for (link, centre, radius), gears in higher_pairs.wheels(self.scene).items():
             if link in self._shown_links:
                 middle, r = self.spots[centre], radius * self.view.scale
-                yield Figure((higher_pairs.wheel(middle, r),), (centre,), "" if link == FRAME else link)
+                yield Figure(higher_pairs.circle(pens.WHEEL, middle, r), (centre,), "" if link == FRAME else link)
                 fringes = (self._fringe(self.scene.gears[i], middle, r) for i in gears if link == FRAME)
                 yield from (Figure(tuple(items), (centre,)) for items in fringes)
         for gear in self.scene.gears:

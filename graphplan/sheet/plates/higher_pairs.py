@@ -22,9 +22,9 @@ NOTHING = 1e-9  # of a radius squared
 FRINGE = 40.0  # degrees of a wheel that stands still, hatched on either side of its pitch point
 
 
-def wheel(centre: Spot, radius: float) -> Item:
-    """A pitch circle."""
-    return Arc(pens.WHEEL, LAYER, None, centre, radius, 0.0, 360.0)
+def circle(pen: pens.Pen, centre: Spot, radius: float) -> tuple[Item, Item]:
+    """A whole circle, in two halves: an arc that ends where it begins is none to many a program."""
+    return (Arc(pen, LAYER, None, centre, radius, 0.0, 180.0), Arc(pen, LAYER, None, centre, radius, 180.0, 360.0))
 
 
 def fringe(centre: Spot, radius: float, towards: Spot, outwards: float) -> Iterator[Item]:
@@ -83,12 +83,12 @@ def profile(at: Spot, centre: Spot, whole: bool, disc: bool) -> Iterator[Item]:
     """
     radius = math.dist(at, centre)
     if whole or radius < NEAR:
-        yield Arc(pens.LINK, LAYER, None, centre, max(radius, RADIUS), 0.0, 360.0)
+        yield from circle(pens.LINK, centre, max(radius, RADIUS))
         return
     middle = math.degrees(math.atan2(at[1] - centre[1], at[0] - centre[0]))
     half = min(WIDEST, math.degrees(PROFILE / radius))
     if disc:
-        yield Arc(pens.PRODUCED, LAYER, None, centre, radius, 0.0, 360.0)
+        yield from circle(pens.PRODUCED, centre, radius)
     yield Arc(pens.LINK, LAYER, None, centre, radius, middle - half, middle + half)
 
 

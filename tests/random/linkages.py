@@ -72,7 +72,17 @@ def _attempt(random: Random, links: int, freedoms: int) -> Linkage | None:
     count = (3 * links - freedoms) // 2
     found = Linkage(random, links={link: [] for link in (*moving, FRAME)})
     reach, sliding = random.choice((3, 10, 40, 90)), random.choice((0.0, 0.15, 0.3, 0.6))
-    pairs: set[tuple[str, str]] = set()
+    pairs = joined(found, moving, count, reach, sliding)
+    if pairs is None:
+        return None
+    for _ in range(freedoms):
+        drive(found, pairs, moving)
+    return found
+
+
+def joined(found: Linkage, moving: list[str], count: int, reach: int, sliding: float) -> list[tuple[str, str]] | None:
+    """Join all links by so many pins and slides, and give some a point more; None where two pairs would join two."""
+    random, pairs = found.random, set[tuple[str, str]]()
     for number in range(count):
         one = moving[number] if number < len(moving) else random.choice(moving)
         before = [FRAME, *moving[:number]] if number < len(moving) else [FRAME, *moving]
@@ -84,9 +94,7 @@ def _attempt(random: Random, links: int, freedoms: int) -> Linkage | None:
     for link in found.links:
         if random.random() < 0.25 or not found.links[link]:
             found.links[link].append(found.point(reach))
-    for _ in range(freedoms):
-        _drive(found, sorted(pairs), moving)
-    return found
+    return sorted(pairs)
 
 
 def _pin(found: Linkage, one: str, two: str, reach: int) -> None:
@@ -113,7 +121,7 @@ def _slide(found: Linkage, one: str, two: str, reach: int) -> None:
     found.guided.append((one, two))
 
 
-def _drive(found: Linkage, pairs: list[tuple[str, str]], moving: list[str]) -> None:
+def drive(found: Linkage, pairs: list[tuple[str, str]], moving: list[str]) -> None:
     """A drive of any kind: on the ground, between two links with or without a pair, or of a slide."""
     random = found.random
     rate, change = random.choice((0, 1, 1, 2, -3, 0.5)), random.choice((0, 0, 1, -2, 0.25))

@@ -16,9 +16,9 @@ from fractions import Fraction
 from typing import Any
 
 from graphplan.mechanism.model import FRAME, Contact, Gear, Number, Pair, Scene
-from graphplan.mechanism.numerals import root
+from graphplan.mechanism.numerals import is_exact, root
 from graphplan.mechanism.order import by_name
-from graphplan.mechanism.pairs.pair import LINE, TURNING
+from graphplan.mechanism.pairs.pair import LINE, ROLLING, TOUCHING, TURNING
 from graphplan.mechanism.pairs.sliding import Slide
 from graphplan.mechanism.plane import dot, less, plus, times, turned
 
@@ -41,9 +41,9 @@ class StandIn(Slide):
 class RollingGuide(StandIn):
     """What rolling leaves of the point `at` of two links, where they touch: it may move along the line of centres.
 
-    The line runs `through` the centres; where there is but one, square to the pitch line, `rail`, from the centre
-    `base`. A pitch point that the scene does not name is drawn from there: by a `ratio` of the distance of the centres,
-    or of a rack by the `length` towards its left.
+    The line runs `through` the centres; where there is but one, square to the straight profile or pitch line, `rail`.
+    The point is drawn from the centre `base`: by a `ratio` of the distance of the centres, or by a `length` to the left
+    of the rail. Only on a rail along which no length can be laid off in fractions is it given, and there is no base.
     """
 
     letter = ""
@@ -65,9 +65,9 @@ class RollingGuide(StandIn):
         return f"{self.link} rolling on {self.along} at {self.at}"
 
     @property
-    def drawn(self) -> bool:
-        """Whether the pitch point is drawn from the centres."""
-        return bool(self.base)
+    def other(self) -> str:
+        """The centre that the point is drawn towards."""
+        return next(centre for centre in self.through or () if centre != self.base)
 
 
 @dataclass(frozen=True)
@@ -98,8 +98,10 @@ def replaced(scene: Scene) -> Scene:
     lost = {condition.pair for condition in scene.redundant}
     stand_ins = _StandIns(scene)
     for pair in higher:
-        if pair.name not in lost:
-            stand_ins.gear(pair) if isinstance(pair, Gear) else stand_ins.contact(pair)
+        if isinstance(pair, Contact):
+            stand_ins.contact(pair)
+        elif pair.name not in lost:
+            stand_ins.gear(pair)
     points, links = scene.points | stand_ins.points, {**stand_ins.links, **stand_ins.bars}
     parts = {part.name: getattr(scene, part.name) for part in fields(Scene)}
     parts |= {"points": points, "links": links, "written": (*scene.written, *stand_ins.pairs)}
@@ -171,24 +173,33 @@ class _StandIns:
         self._roll(gear, point, square, base=B, rail=rail, length=length)
 
     def contact(self, contact: Contact) -> None:
-        """A bar between the centres of curvature, or a block on the straight profile, and where it rolls a guide."""
-        name = _free("0", {*self.links, *self.bars})
-        self.contacts[name] = contact
-        one, two = contact.centres
-        if one is not None and two is not None:
-            self.bars[name] = (one, two)
-            if contact.rolling:
-                direction = less(self._at(two), self._at(one))
-                arm = less(self._at(contact.at), self._at(one))
-                ratio = dot(arm, direction) / dot(direction, direction)
-                self._roll(contact, self._touching(contact), direction, (one, two), base=one, ratio=ratio)
+        """A bar between the centres of curvature, or a block on the straight profile."""
+        name, rail = _free("0", {*self.links, *self.bars}), straight(contact)
+        kept = {TOUCHING, ROLLING} - {c.way for c in self.scene.redundant if c.pair == contact.name}
+        if TOUCHING in kept:
+            self.contacts[name] = contact
+            self.bars[name] = tuple(filter(None, contact.centres))
+        if TOUCHING in kept and rail:
+            self.pairs.append(StandIn(name, rail.along, rail.at, rail.direction, rail.through, rail.written, contact))
+        if ROLLING in kept and contact.rolling:
+            self._rolling(contact, rail)
+
+    def _rolling(self, contact: Contact, rail: Slide | None) -> None:
+        """A rolling guide where a contact touches: in a point of no link, as it wanders on both."""
+        free = not self.scene.links_of[contact.at]
+        point = contact.at if free else self._named(contact, self._at(contact.at))
+        base, *others = filter(None, contact.centres)
+        arm = less(self._at(contact.at), self._at(base))
+        if rail is None:
+            direction = less(self._at(others[0]), self._at(base))
+            share = dot(arm, direction) / dot(direction, direction)
+            self._roll(contact, point, direction, (base, others[0]), base=base, ratio=share)
             return
-        rail = straight(contact)
-        assert rail is not None
-        self.bars[name] = (rail.at,)
-        self.pairs.append(StandIn(name, rail.along, rail.at, rail.direction, rail.through, rail.written, contact))
-        if contact.rolling:
-            self._roll(contact, contact.at, turned(_fractions(rail.direction)), rail=rail)
+        square = turned(_fractions(rail.direction))
+        long, exact = root(_fraction(dot(square, square)))
+        length = dot(arm, square) / long
+        drawn = exact or not is_exact(rail.direction, self.scene.points[base])
+        self._roll(contact, point, square, base=base if drawn else "", rail=rail, length=length)
 
     def _roll(self, pair: Higher, at: str, direction: Pair, through: tuple[str, str] | None = None, *, base: str = "",
               ratio: Number | None = None, rail: Slide | None = None, length: Number | None = None) -> None:
@@ -196,10 +207,6 @@ class _StandIns:
         link, along = sorted(pair.links, key=_rank)
         self.links[link] = tuple(dict.fromkeys((*self.links[link], at)))
         self.pairs.append(RollingGuide(link, along, at, direction, through, None, pair, base, ratio, rail, length))
-
-    def _touching(self, contact: Contact) -> str:
-        """The point where a contact touches: of no link, so that it is free to wander on both."""
-        return contact.at if not self.scene.links_of[contact.at] else self._named(contact, self._at(contact.at))
 
     def _named(self, pair: Higher, place: Pair) -> str:
         """A new point, named after the links that it belongs to: it is their relative pole."""
@@ -209,7 +216,7 @@ class _StandIns:
         self.points[name] = place
         return name
 
-    def _at(self, point: str) -> Pair:
+    def _at(self, point: str) -> tuple[Fraction, Fraction]:
         return _fractions(self.scene.points[point])
 
 

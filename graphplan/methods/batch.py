@@ -14,6 +14,7 @@ from graphplan.kernel.numbers.arrays import Arrays
 from graphplan.kernel.program import Step, error_at
 from graphplan.mechanism.model import FRAME, Scene
 from graphplan.mechanism.replaced import guides as straight_guides
+from graphplan.mechanism.replaced import replaced, rolling_guides
 from graphplan.methods.executors import crew
 from graphplan.methods.recorded import Recorded
 from graphplan.methods.replay import guide_steps, replay_of
@@ -72,8 +73,20 @@ def _torn(construction: Recorded, points: Mapping[str, Any], results: Results, f
     """Take the results of poses in which points lie apart on whose coincidence the program relies."""
     places = {name: complex(*map(float, at)) for name, at in construction.scene.points.items()}
     close = ROUNDED * max((abs(z - next(iter(places.values()))) for z in places.values()), default=0.0)
+    wandering = {guide.at: guide for guide in rolling_guides(replaced(construction.scene))}
+
+    def place(name: str) -> Any:
+        """Where a point is in each pose: a pitch point on its line of centres; of a rack it is not asked."""
+        guide = wandering.get(name)
+        if guide is None or not guide.base:
+            return _poses(points.get(name, places[name]))
+        if guide.ratio is None:
+            return np.array([complex(np.inf)])
+        B = place(guide.base)
+        return B + float(guide.ratio) * (place(guide.other) - B)
+
     for one, other in construction.relied:
-        gap = np.abs(_poses(points.get(one, places[one])) - _poses(points.get(other, places[other])))
+        gap = np.abs(place(one) - place(other))
         for pose in np.flatnonzero(gap > close).tolist():
             faults.setdefault(pose, apart(one, other))
             for named in results.values():
@@ -187,6 +200,10 @@ def _given(construction: Recorded, points: Mapping[str, Any], guides: Mapping[st
         if name in arrays and not np.array_equal(arrays.setdefault(at, arrays[name]), arrays[name]):
             why = "they coincide in the scene and differ here"
             raise Refused(f"points {at} and {name}", why, "the same array for both")
+    for guide in rolling_guides(replaced(scene)):
+        if guide.rail and not guide.base and guide.rail.at in arrays and guide.at not in arrays:
+            raise Refused(f"point {guide.at}", f"it moves with {guide.rail.at}, and stands still here",
+                          "its place in each pose")
     drawn = {step.name for step in construction.program.steps[:construction.program.givens]}
     given: Coordinates = {name: _parts(z, "x", "y") for name, z in arrays.items() if name in drawn}
     for name, z in directions.items():

@@ -27,7 +27,7 @@ from graphplan.methods.motion.planner import Planner
 from graphplan.methods.motion.poles import Poles
 from graphplan.methods.motion.time_scale import apart, tempo
 from graphplan.methods.motion.velocity import Orthogonal, Polar, Velocity
-from graphplan.methods.panels import link_named, redundancies
+from graphplan.methods.panels import link_named, redundancies, replacements
 from graphplan.methods.poses import Pose
 from graphplan.methods.recorded import Reading
 from graphplan.methods.styles import Style
@@ -99,7 +99,7 @@ class Draughtsman:
         program = freeze(self.board, self.marks)
         return Construction(self.scene, self.tempo, program, tuple(self.readings), not self.polar,
                             relied=tuple(self.net.relied), ways=tuple(_ways(self.moves)),
-                            notes=[*redundancies(self.scene)], poles_by=self.poles_by)
+                            notes=[*replacements(self.net.bars), *redundancies(self.scene)], poles_by=self.poles_by)
 
     @property
     def _accelerated(self) -> bool:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 from graphplan.kernel.program import Panel
-from graphplan.mechanism.model import FRAME, Scene, Slide
+from graphplan.mechanism.model import FRAME, Contact, Scene, Slide
+from graphplan.mechanism.order import by_name
+from graphplan.mechanism.replaced import straight
 from graphplan.phrases import Said, arranged, joined, said
 
 
@@ -112,6 +114,12 @@ def listed(links: Sequence[str]) -> Said:
     return said("links {0} and {1}", ", ".join(links[:-1]), links[-1])
 
 
+def both(links: Sequence[str]) -> Said:
+    """The two links of a pair, by name and the frame last: links 2 and 3; link 2 and the frame."""
+    moving = sorted((link for link in links if link != FRAME), key=by_name)
+    return listed(moving) if len(moving) == len(links) else said("link {0} and the frame", moving[0])
+
+
 def link_named(link: str) -> Said:
     """A link by its name, or the frame."""
     return said("the frame") if link == FRAME else said("link {0}", link)
@@ -128,12 +136,25 @@ def reactions_named(scene: Scene) -> dict[str, Said]:
     return {force.name: force.words for force in forces} | {slide.name: slide_named(slide) for slide in scene.slides}
 
 
+def replacements(bars: Mapping[str, Contact]) -> Iterator[Said]:
+    """What is said of the bars and blocks that stand for contacts."""
+    for bar, contact in bars.items():
+        links, profile = both(contact.links), straight(contact)
+        if profile:
+            yield said("the block {0} replaces the contact of {1} at {2}: with it {3} slides along the straight "
+                       "profile of {4}", bar, links, contact.at, profile.at, link_named(profile.along))
+        else:
+            yield said("the bar {0} replaces the contact of {1} at {2}: it joins the centres of curvature {3} and {4}",
+                       bar, links, contact.at, *contact.centres)
+
+
 def redundancies(scene: Scene) -> Iterator[Said]:
     """What is said of the pairs that special geometry makes redundant, and of the reactions that it leaves untold."""
-    named = reactions_named(scene)
-    for pair in scene.redundant_pairs:
+    higher = {pair.name: both(pair.links) for pairs in (scene.gears, scene.contacts) for pair in pairs}
+    named = reactions_named(scene) | higher
+    for name in scene.redundant_pairs:
         yield said("{0}: redundant, it repeats what the other pairs state; by special geometry the mechanism moves",
-                   named[pair])
+                   named[name])
     if scene.loads and scene.indeterminate_pairs:
         yield said("statically indeterminate, so not drawn: reactions {0}",
                    joined(named[pair] for pair in scene.indeterminate_pairs))

@@ -28,7 +28,7 @@ class Pose:
         self.assembled = Assembler(board, scene, scene.assembly) if scene.assembly else None
         with board.on(MECHANISM):
             self._rolling = rolling_guides(scene)
-            drawn = {guide.at: guide for guide in self._rolling if guide.drawn}
+            drawn = {guide.at: guide for guide in self._rolling if guide.base}
             apart = {name: scene.points[name] for name in ordered_points(scene) if name not in {*shared, *drawn}}
             self.standing: dict[str, Mark] = {
                 name: self.assembled.mark(name) if self.assembled else board.given(x=x, y=y, name=name)
@@ -79,8 +79,8 @@ class Pose:
             B = self.standing[guide.base]
             if guide.through is None:
                 return self.board.lay_along(self._line_of_centres(guide), B, length=guide.length, name=guide.at)
-            C = next(self.standing[name] for name in guide.through if name != guide.base)
-            return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=divided(guide))
+            C, why = self.standing[guide.other], divided(guide)
+            return self.board.step_off(B, C, B, ratio=guide.ratio, name=guide.at, why=why)
 
     def spoken(self, point: str) -> str:
         """The letter of a point, auxiliary points and poles among them."""

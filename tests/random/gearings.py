@@ -51,7 +51,7 @@ class Gearing(Linkage):
                 if len({arm, i, j}) == 3 and B in self.links[i] and C in self.links[j]]
         guided = [(one, two, point) for one, two in self.guided for point in self.links[one]
                   if any(point in self.links[i] for i in self.links if i not in (one, two))]
-        if guided and self.random.random() < 0.3:
+        if guided and self.random.random() < 0.6:
             self._rack(*self.random.choice(guided))
             return
         B, C, i, j = self.random.choice(arms)  # fails where there is none: then another linkage is sought

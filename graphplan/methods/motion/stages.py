@@ -15,7 +15,6 @@ from typing import NamedTuple
 from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.stages import Equation, Known, Stage, Vector
 from graphplan.mechanism.model import FRAME, Contact, Slide
-from graphplan.mechanism.order import by_name
 from graphplan.mechanism.replaced import RollingGuide
 from graphplan.methods.motion.moves import (
     Auxiliary,
@@ -34,7 +33,7 @@ from graphplan.methods.motion.moves import (
     Swing,
 )
 from graphplan.methods.motion.network import BodyPoint, DrivenPair, Network
-from graphplan.methods.panels import link_named, listed, slide_named
+from graphplan.methods.panels import both, link_named, listed, slide_named
 from graphplan.phrases import Phrase, Said, arranged, digits, joined, phrase, said
 
 ROLLING = said("links that roll on each other have the same velocity where they touch: it is their relative pole")
@@ -55,6 +54,8 @@ NORMAL = said("it is v²/r and directed to the other point: on the plan from the
               "new one")
 FIGURE = said("the normal accelerations of a link's points about one of them are in proportion to the distances")
 CORIOLIS = said("it is 2 ω v and square to v: on the plan from the mark that it is laid off from to the new one")
+PITCH_POINT = phrase("Pitch point {0} of {1}")
+POINT_OF_CONTACT = phrase("Point of contact {0} of {1}")
 INSIDE = phrase("the relative pole of {0} divides {1} as {2} : {3}")
 OUTSIDE = phrase("the relative pole of {0} divides {1} externally, as {2} : {3}")
 RATE = said("the difference of the vectors of two points of a link is in proportion to their distance")
@@ -307,7 +308,8 @@ def _reversed(known: Vector, other: Vector) -> Equation:
 
 def pitch_point(guide: RollingGuide) -> Stage:
     """Where the point is drawn at which two links roll on each other."""
-    return Stage(said("Pitch point {0} of {1}", guide.at, both(guide)), ROLLING)
+    title = POINT_OF_CONTACT if isinstance(guide.given, Contact) else PITCH_POINT
+    return Stage(title(guide.at, both(guide.given_links)), ROLLING)
 
 
 def divided(guide: RollingGuide) -> Said:
@@ -318,13 +320,7 @@ def divided(guide: RollingGuide) -> Said:
         return said("the point of contact lies on {0}, the line of the centres of curvature", centres)
     one, two = guide.given.factors
     pattern = INSIDE if (one > 0) == (two > 0) else OUTSIDE
-    return pattern(both(guide), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
-
-
-def both(pair: Slide) -> Said:
-    """The two links of a pair, of one that stands for another the given ones."""
-    links = sorted(pair.given_links, key=lambda link: (link == FRAME, by_name(link)))
-    return listed(links) if FRAME not in links else said("link {0} and the frame", links[0])
+    return pattern(both(guide.given_links), centres, digits(abs(float(one)), 6), digits(abs(float(two)), 6))
 
 
 def auxiliary(body: str) -> str:

@@ -1,0 +1,138 @@
+"""Gears and contacts in constructions: what stands for them, how it is drawn and spoken, and other poses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+from higher import ARM_DRIVE, DRIVE, TEXTS, gear, scenes, text
+
+import graphplan as gp
+from graphplan.check.trusted import report
+from graphplan.mechanism.model import Scene
+from graphplan.mechanism.replaced import bars, replaced, rolling_guides
+from graphplan.mechanism.scene import parse
+from graphplan.solver import solve
+
+SCENES = scenes()
+LINKAGE = """
+[points]
+O = [0, 0]
+A = [3, 4]
+B = [15, 20]
+C = [15, 0]
+M = [20, 3]
+[links]
+1 = "O A"
+2 = "B"
+3 = "C M"
+4 = "A B"
+5 = "B C"
+frame = "O C"
+[[gears]]
+links = ["1", "2"]
+centres = ["A", "B"]
+teeth = [30, 50]
+[[gears]]
+links = ["2", "3"]
+centres = ["B", "C"]
+teeth = [50, 45]
+[[drive]]
+link = "1"
+omega = 1
+[find]
+velocity = ["M"]
+"""
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_each_kind_is_constructed_exactly(name: str) -> None:
+    """Each kind of gear and contact is drawn as the solver has it, in fractions, on both kinds of plans."""
+    for plan in ("orthogonal", "polar"):
+        assert not any(report(SCENES[name], exact=True, plan=plan).check.values())
+
+
+def moved(scene: Scene, random: Random) -> dict[str, complex]:
+    """The scene's points elsewhere, each where contacts touch as far along the normal as before."""
+    at = {name: complex(*map(float, place)) for name, place in scene.points.items()}
+    new = {name: z + complex(random.uniform(-2, 2), random.uniform(-2, 2)) for name, z in at.items()}
+    for contact in scene.contacts:
+        one, two = (centre for centre in contact.centres)
+        if one and two:
+            new[contact.at] = new[one] + (new[two] - new[one]) * (at[contact.at] - at[one]) / (at[two] - at[one])
+        else:
+            centre = one or two or ""
+            new[contact.at] = new[centre] + at[contact.at] - at[centre]
+    return new
+
+
+@pytest.mark.parametrize("name", TEXTS)
+def test_other_poses_are_the_solvers(name: str) -> None:
+    """The same steps with the points elsewhere give what the solver says there; pitch points follow the centres."""
+    scene, random = SCENES[name], Random(name)
+    drawing = gp.construct(scene, checked=False)
+    poses = [moved(scene, random) for _ in range(3)]
+    found = drawing.evaluate(points={point: np.array([pose[point] for pose in poses]) for point in scene.points})
+    for number, pose in enumerate(poses):
+        there: dict[str, Any] = {point: (z.real, z.imag) for point, z in pose.items()}
+        truth = solve(replace(scene, points=there))
+        for kind, values in (("velocity", found.velocity), ("acceleration", found.acceleration)):
+            for point, z in values.items():
+                size = max(abs(complex(*v)) for v in getattr(truth, kind).values())
+                assert z[number] == pytest.approx(complex(*getattr(truth, kind)[point]), rel=1e-9, abs=1e-9 * size)
+
+
+def test_a_gear_linkage_is_drawn_as_in_the_book() -> None:
+    """Ozols 7-16: the pitch point's end is common to both wheels, and the next one's lies on a parallel through it."""
+    told = gp.construct(parse(LINKAGE, "linkage")).sentences()
+    lines = [line for line in told if "P_" in line and "given" not in line]
+    assert lines[0].startswith("From A lay off a multiple of the vector from A to B: mark P_12. (The relative pole of "
+                               "links 1 and 2 divides AB as 30 : 50.)")
+    assert not any("guide" in line for line in told)
+    assert any(line.startswith("Mark v_p_23 where BC meets") for line in told), told
+
+
+def test_collinear_trains_need_no_crossing() -> None:
+    """Where all centres lie on one line the ends of velocities do, too: they are found in proportion."""
+    arm = text({"1": "O", "2": "B", "5": "C M", "3": "O B C", "frame": "O"}, gear("1 2", "O B", "teeth = [30, 20]"),
+               gear("2 5", "B C", "teeth = [20, 40]"), DRIVE.format("1"), ARM_DRIVE)
+    train = parse(arm.replace("[90, 120]", "[54, 72]") + "[find]\nvelocity = ['M']\n", "train")
+    drawing = report(train, exact=True).drawing
+    assert not any("trial" in line for line in drawing.sentences())
+
+
+def test_names_of_stand_ins_are_nobody_elses() -> None:
+    """A scene that has a link 0 and a point P_12 keeps both; stand-ins take other names, the same in any order."""
+    cam = TEXTS["cam"].replace("'2' = ", "'0' = ").replace("['1', '2']", "['1', '0']")
+    assert set(bars(replaced(parse(cam, "cam")))) == {"0'"}
+    linkage = LINKAGE.replace("M =", "P_12 =").replace("C M", "C P_12").replace('["M"]', '["P_12"]')
+    assert [guide.at for guide in rolling_guides(replaced(parse(linkage, "linkage")))] == ["P_12'", "P_23"]
+
+
+def test_planets_that_repeat_each_other_are_drawn_once() -> None:
+    """Of two planets between the same wheels one pair is redundant: it is told so, and what is left is drawn."""
+    two = TEXTS["ring"].replace("'O B'", "'O B D'\n'4' = 'D'").replace("[points]", "[points]\nD = [-40, 30]")
+    two += gear("1 4", "O D", "teeth = [30, 20]") + gear("4 frame", "D O", "teeth = [20, 70]\ninternal = true")
+    scene = parse(two, "planets")
+    assert len(scene.redundant_pairs) == 1
+    found = report(scene, exact=True)
+    assert not any(found.check.values())
+    assert any("redundant" in note for note in found.drawing.notes)
+
+
+def test_a_dead_centre_of_the_train_is_singular() -> None:
+    """Where the second rod is in line with the first, the wheels have no velocities: what should meet is named."""
+    scene = parse(LINKAGE.replace("[15, 0]", "[30, 40]"), "linkage")
+    with pytest.raises(gp.SingularPose, match="parallel"):
+        report(scene)
+
+
+def test_a_point_of_contact_that_is_left_behind_is_refused() -> None:
+    """On a rail of irrational length the point of contact is given: where the wheel moves it must be told, too."""
+    rail = TEXTS["wheel on a rail"].replace("[-4, 3]", "[-4, 4]").replace("K = [12, 16]", "K = [10, 20]")
+    drawing = gp.construct(parse(rail, "rail"))
+    with pytest.raises(gp.Refused, match="point K"):
+        drawing.evaluate(points={"B": np.array([31 + 40j])})

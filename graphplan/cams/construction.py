@@ -1,0 +1,240 @@
+"""The profile constructed by inversion: the cam stands still, and the frame with the follower goes round it backwards.
+
+The turn is divided; at each division the path or the pivot is drawn where it has gone, the lift is carried there from
+the first position by an arc about the cam's centre O, as both are as far from O; then the roller's circle or the flat
+face. It touches the profile where the normal through the relative pole P of cam and follower meets it; P lies square to
+the path, or on the line of centres, where the cam's points have the follower's velocity.
+
+Source: Ozols 1974, 20-4 with figs. 5-31, 19-6 and 19-7 (inversion), 20-11 (envelope), (20.14) (pole).
+"""
+
+from __future__ import annotations
+
+import cmath
+import math
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphplan.cams.follower import FlatOscillating, Oscillating, Pair, Translating
+from graphplan.cams.profile import Cam
+from graphplan.kernel.numbers.floats import Floats
+from graphplan.kernel.passes import freeze
+from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
+from graphplan.kernel.stages import Stage
+from graphplan.phrases import digits, said
+
+CAM_PLAN = Panel("cam", said("cam"), said("The cam by inversion"))
+LEVEL, UP = 0.0, 90.0  # degrees
+
+
+@dataclass(frozen=True)
+class Division:
+    """One position of the turn: its angle in degrees, and its marks by their wanted places; some kinds lack some."""
+
+    angle: float
+    marks: dict[str, int]
+
+
+@dataclass(frozen=True)
+class CamDrawing:
+    """The program that constructs a cam, and where the marks of each division are found in it."""
+
+    cam: Cam
+    program: Program
+    divisions: tuple[Division, ...]
+    common: dict[str, int]
+
+    @cached_property
+    def values(self) -> list[Any]:
+        """The value of each step."""
+        return evaluate(self.program, Floats())
+
+    def at(self, name: str) -> list[complex]:
+        """The points of a name at all divisions, such as A or K."""
+        return [complex(*self.values[one.marks[name]]) for one in self.divisions]
+
+
+def drawn(cam: Cam) -> CamDrawing:
+    """The construction of a cam's profile, over its divisions of the turn."""
+    return _Inversion(cam).drawing
+
+
+class _Inversion:
+    """Draws one cam on the board."""
+
+    def __init__(self, cam: Cam):
+        self.cam, self.pair, self.board = cam, cam.pair, Board()
+        self.count = cam.task.cam.divisions
+        self.common: dict[str, Mark] = {}
+        self.found: list[dict[str, Mark]] = [{} for _ in range(self.count)]
+
+    @property
+    def drawing(self) -> CamDrawing:
+        """The finished program."""
+        with self.board.on(CAM_PLAN):
+            self.O = self.board.given(x=0, y=0, name="O")
+        stages = [
+            (said("Base circle and first position"), said("the follower is lowest"), self._first),
+            (said("Lifts"), said("s of the law at each division of the turn"), self._lifts),
+            (said("Inversion"), said("the cam stands still, the frame goes round it backwards"), self._round),
+            (said("Profile"), said("the envelope of the follower touches it where the normal through the pole meets it"),
+             self._profile)]
+        for title, law, draw in stages:
+            with self.board.on(CAM_PLAN, stage=Stage(title, law)):
+                draw()
+        names = [*self.common.items()], [[*marks.items()] for marks in self.found]
+        program = freeze(self.board, [mark for _, mark in (*names[0], *(pair for marks in names[1] for pair in marks))])
+        places = iter(program.wanted)
+        common = {name: next(places) for name, _ in names[0]}
+        divisions = tuple(Division(360.0 * k / self.count, {name: next(places) for name, _ in marks})
+                          for k, marks in enumerate(names[1]))
+        return CamDrawing(self.cam, program, divisions, common)
+
+    # ---- what all kinds share -----------------------------------------------------------------------------------------
+
+    def _angle(self, k: int) -> float:
+        return 360.0 * k / self.count
+
+    def _law(self, k: int, order: int) -> float:
+        return float(self.cam.law.at([self._angle(k)], order)[0])
+
+    def _guide(self, P: Mark, degrees: float, **notes: Any) -> Mark:
+        """The line through a point at an angle."""
+        ray = cmath.rect(1.0, math.radians(degrees % 360))
+        return self.board.guide(P, dx=_clean(ray.real), dy=_clean(ray.imag), **notes)
+
+    def _ray(self, k: int) -> Mark:
+        """The line through O that was level at first, where it has gone."""
+        told = said("division {0}: {1}°, against the turning of the cam", k, digits(self._angle(k)))
+        return self._guide(self.O, LEVEL - self.pair.sense * self._angle(k), why=told)
+
+    def _first(self) -> None:
+        """The base circle and the follower where it is lowest."""
+        o = self.board.radius(length=self.pair.base, why=said("the radius of the base circle"))
+        self.base = self.common["base"] = self.board.circle(self.O, o, why=said("the base circle"))
+        if self.oscillates:
+            span = self.board.radius(length=self.pair.distance, why=said("the centre distance"))  # type: ignore[attr-defined]
+            self.pivots = self.common["pivots"] = self.board.circle(self.O, span, why=said("on it the pivot goes round"))
+            self.arm = self.board.radius(length=self._reach, why=said("the arm"))
+        elif self._passes:
+            o = self.board.radius(length=abs(self._passes), why=said("the offset"))
+            self.offsets = self.common["offsets"] = self.board.circle(self.O, o, why=said("the paths touch it"))
+        self.rays = [self._ray(0)]
+        self._placed(0)
+        if isinstance(self.pair, FlatOscillating):
+            self.A = self._lifted(0, 0.0)
+        elif self.oscillates:
+            self.A = self._swung(0, self.base)
+        else:
+            self.A = self.board.line_meets_circle(self.found[0]["path"], self.base, way="on", name="A_0")
+
+    @property
+    def oscillates(self) -> bool:
+        return isinstance(self.pair, Oscillating | FlatOscillating)
+
+    @property
+    def _passes(self) -> float:
+        """How far to the right of O the path passes at first."""
+        return self.pair.sense * self.pair.offset if isinstance(self.pair, Translating) else 0.0
+
+    @property
+    def _reach(self) -> float:
+        """The radius at which the turning of an arm is drawn."""
+        pair: Any = self.pair
+        return float(pair.arm if isinstance(pair, Oscillating) else pair.distance)
+
+    def _placed(self, k: int) -> None:
+        """The path or the pivot where it has gone."""
+        board, ray, marks = self.board, self.rays[k], self.found[k]
+        if self.oscillates:
+            marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}")
+            marks["arc"] = board.circle(marks["B"], self.arm, why=said("the arm about it"))
+        else:
+            way = "on" if self._passes > 0 else "back"
+            T = board.line_meets_circle(ray, self.offsets, way=way, name=f"T_{k}") if self._passes else self.O
+            marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
+
+    def _swung(self, k: int, circle: Mark) -> Mark:
+        """The end of the arm on a circle about O."""
+        return self.board.circles_meet(circle, self.found[k]["arc"], side="left", name=f"A_{k}")
+
+    def _lifts(self) -> None:
+        """The lifts at the first position."""
+        self.lifted = [self.A]
+        for k in range(1, self.count):
+            s = self._law(k, 0)
+            self.lifted.append(self._lifted(k, s) if abs(s) > 1e-12 * self.pair.base else self.A)
+
+    def _lifted(self, k: int, s: float) -> Mark:
+        """The follower lifted by so much where it stands at first."""
+        if not self.oscillates:
+            return self.board.lay_along(self.found[0]["path"], self.A, length=s, name=f"S_{k}",
+                                        why=said("the lift at {0}°", digits(self._angle(k))))
+        pair: Any = self.pair
+        arm = self._guide(self.found[0]["B"], 180 - math.degrees(pair.angle + s),
+                          why=said("lifted by {0}° at {1}°", digits(math.degrees(s)), digits(self._angle(k))))
+        return self.board.line_meets_circle(arm, self.found[0]["arc"], way="on", name=f"S_{k}" if k else "A_0")
+
+    def _round(self) -> None:
+        """The follower at all divisions."""
+        self.found[0]["A"] = self.A
+        for k in range(1, self.count):
+            self.rays.append(self._ray(k))
+            self._placed(k)
+            lowest = self.lifted[k] is self.A and not isinstance(self.pair, FlatOscillating)
+            arc = self.base if lowest else self.board.circle(
+                self.O, self.board.opening(self.O, self.lifted[k]), why=said("the lift is carried round"))
+            if self.oscillates:
+                self.found[k]["A"] = self._swung(k, arc)
+            else:
+                self.found[k]["A"] = self.board.line_meets_circle(self.found[k]["path"], arc, way="on", name=f"A_{k}")
+
+    def _profile(self) -> None:
+        """Roller or face at all divisions, and where the profile touches it."""
+        if self.cam.roller:
+            o = self.board.radius(length=self.cam.roller, why=said("the radius of the roller"))
+        for k in range(self.count):
+            marks = self.found[k]
+            if self.cam.task.follower.flat:
+                marks["face"] = self._face(k)
+                marks["K"] = self.board.foot(marks["face"], self._pole(k), name=f"K_{k}")
+            elif self.cam.roller:
+                marks["roller"] = self.board.circle(marks["A"], o, why=said("the roller"))
+                normal = self.board.line(self._pole(k), marks["A"], why=said("the contact normal"))
+                marks["K"] = self.board.line_meets_circle(normal, marks["roller"], way="back", name=f"K_{k}")
+            else:
+                marks["K"] = marks["A"]
+
+    def _pole(self, k: int) -> Mark:
+        """The relative pole of cam and follower."""
+        far = pole(self.pair, self._law(k, 1))
+        if abs(far) <= 1e-12 * self.pair.base:
+            return self.O
+        return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}",
+                                    why=said("the pole of cam and follower: there the cam moves as the follower"))
+
+    def _face(self, k: int) -> Mark:
+        """The flat face."""
+        board, marks = self.board, self.found[k]
+        if not self.oscillates:
+            return board.perpendicular(marks["path"], marks["A"], why=said("the flat face"))
+        arm = board.line(marks["B"], marks["A"])
+        offset = getattr(self.pair, "offset")
+        if not offset:
+            return arm
+        across = board.perpendicular(arm, marks["B"])
+        D = board.lay_along(across, marks["B"], length=offset, name=f"D_{k}", why=said("the offset of the face"))
+        return board.parallel(arm, D, why=said("the flat face"))
+
+
+def pole(pair: Pair, rate: float) -> float:
+    """How far to the right of O the relative pole of cam and follower lies, where the lift grows at this rate."""
+    if isinstance(pair, Oscillating | FlatOscillating):
+        return pair.distance * rate / (pair.sense + rate)
+    return pair.sense * rate
+
+
+def _clean(part: float) -> float:
+    """A component of a direction that is 0, 1 or -1 where rounding alone makes it another."""
+    return float(round(part)) if abs(part - round(part)) < 1e-15 else part

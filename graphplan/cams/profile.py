@@ -1,0 +1,292 @@
+"""The profile: the envelope of the roller's circles or of the flat face, seen from the cam, and what forbids it.
+
+Where the velocity jumps up the roller stands still in its corner, and the profile has an arc of its radius there, or
+under a flat face a straight line; where it jumps down no roller and no face can follow.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.cams.base import based, excess, least_flat, lifts_of, narrowest, steepest
+from graphplan.cams.follower import Flat, Pair, Rolled, Touch
+from graphplan.cams.law import HARD, Jump, Law, Stretch
+from graphplan.cams.task import POINTED, PRESSURE, Limits, Task
+from graphplan.errors import GraphplanError, SceneError
+from graphplan.mechanism.items import Faults
+from graphplan.mechanism.numerals import shown
+from graphplan.phrases import Said, digits, said
+
+Array = Any
+FINE = 4  # samples for a degree where crossings are looked for
+QUARTER = 90.0  # degrees: no arc of the outline is longer than this part of the turn
+USUAL = {False: (30.0, 60.0), True: (45.0, 70.0)}  # pressure angles of rise and return, as a rule; by oscillating
+JUST = 1e-9  # degrees or of a length: by so much a limit may seem to be overstepped
+
+
+@dataclass(frozen=True)
+class ArcOfProfile:
+    """A piece of the outline: where it begins, and how far it bulges to the right, as a part of half its chord."""
+
+    start: complex
+    bulge: float
+
+
+@dataclass(frozen=True)
+class Cam:
+    """A cam that follows its law: its task, and the pair of cam and follower with the base circle known."""
+
+    task: Task
+    pair: Pair
+
+    @property
+    def law(self) -> Law:
+        return self.task.law
+
+    @property
+    def roller(self) -> float:
+        """The radius of the roller, or 0."""
+        return float(self.task.follower.radius)
+
+    def touch(self, angles: Array) -> Touch:
+        """How they touch at angles in degrees; where pieces of the law meet, as at the beginning of the second."""
+        turned = np.asarray(angles, float)
+        return self.pair.touch(lambda order: self.law.at(turned, order))
+
+    def touched(self, one: Stretch, angles: Array) -> Touch:
+        """The same at angles on one piece of the law."""
+        return self.pair.touch(lifts_of(self.law, one, np.asarray(angles, float)))
+
+    def on_cam(self, angles: Array) -> Array:
+        """The profile's points at angles, in the plane of the cam as it lies before it turns."""
+        return self.pair.turned(self.touch(angles).point, np.asarray(angles, float))
+
+    def pitch(self, angles: Array) -> Array:
+        """The centre of the roller there."""
+        return self.pair.turned(self.touch(angles).roller, np.asarray(angles, float))
+
+    @cached_property
+    def outline(self) -> Array:
+        """Points of the closed profile, some for each degree."""
+        return self._closed(lambda touch: touch.point)
+
+    @cached_property
+    def pitch_curve(self) -> Array:
+        """Points of the closed path of the roller's centre."""
+        return self._closed(lambda touch: touch.roller)
+
+    def _closed(self, spot: Callable[[Touch], Array]) -> Array:
+        parts = []
+        for one in self.law.stretches:
+            count = max(2, math.ceil(float(one.end - one.start) * FINE))
+            angles = np.linspace(float(one.start), float(one.end), count + 1)
+            parts.append(self.pair.turned(spot(self.touched(one, angles)), angles))
+        return np.concatenate(parts)
+
+    # ---- true to size ----------------------------------------------------------------------------------------------
+
+    def arcs(self, tolerance: float) -> list[ArcOfProfile]:
+        """The outline as arcs, none further from the profile than the tolerance; one begins where the last ends."""
+        found, stretches = list[ArcOfProfile](), self.law.stretches
+        for one, after in zip(stretches, (*stretches[1:], stretches[0]), strict=True):
+            steps = max(1, math.ceil(float(one.end - one.start) / QUARTER))
+            ends = np.linspace(float(one.start), float(one.end), steps + 1)
+            for low, high in pairwise(map(float, ends)):
+                found += self._fitted(one, low, high, tolerance)
+            found += self._corner(one, after)
+        return found
+
+    def _fitted(self, one: Stretch, low: float, high: float, tolerance: float) -> Iterator[ArcOfProfile]:
+        """Arcs through the ends and the middle of parts of a piece, halved until they are close enough."""
+        angles = np.linspace(low, high, 9)
+        spots = self.pair.turned(self.touched(one, angles).point, angles)
+        bulge = _bulge(spots[0], spots[4], spots[8])
+        if _off(spots, bulge) <= tolerance or high - low < JUST:
+            yield ArcOfProfile(complex(spots[0]), bulge)
+            return
+        yield from self._fitted(one, low, (low + high) / 2, tolerance)
+        yield from self._fitted(one, (low + high) / 2, high, tolerance)
+
+    def _corner(self, one: Stretch, after: Stretch) -> list[ArcOfProfile]:
+        """What joins two pieces where the velocity jumps: an arc of the roller, or a straight line."""
+        angle = np.array([float(one.end)])
+        touch = self.touched(one, angle)
+        start, centre = (complex(self.pair.turned(spot, angle)[0]) for spot in (touch.point, touch.roller))
+        angle = np.array([float(after.start)])
+        end = complex(self.pair.turned(self.touched(after, angle).point, angle)[0])
+        if abs(end - start) < JUST * self.pair.base:
+            return []
+        if not self.roller:
+            return [ArcOfProfile(start, 0.0)]
+        middle = centre + self.roller * ((start - centre) / abs(start - centre)
+                                         + (end - centre) / abs(end - centre)) / abs(
+            (start - centre) / self.roller + (end - centre) / self.roller)
+        return [ArcOfProfile(start, _bulge(start, middle, end))]
+
+    # ---- what is told ----------------------------------------------------------------------------------------------
+
+    @cached_property
+    def steepest(self) -> dict[int, tuple[float, float]]:
+        """The angle and size of the largest pressure angle of the rise (1) and of the return (-1), in degrees."""
+        return {way: steepest(self.law, self.pair, way) for way in (1, -1)}
+
+    @cached_property
+    def narrowest(self) -> tuple[float, float]:
+        """The angle and size of the smallest radius of curvature, of the roller's path where that is convex."""
+        return narrowest(self.law, self.pair)
+
+    @property
+    def reach(self) -> tuple[float, float]:
+        """How far the contact wanders along a flat face: from the foot of the path or of the pivot."""
+        touch = self.touch(np.linspace(0, 360, 1441))
+        along = (touch.point - (0 if not self.task.follower.oscillates else float(self.task.follower.distance))) \
+            / (1j * touch.normal)
+        return float(along.real.min()), float(along.real.max())
+
+    @cached_property
+    def notes(self) -> tuple[Said, ...]:
+        """What is worth knowing, though the cam can be made."""
+        return (*map(_shock, self.law.jumps), *self._leaning())
+
+    def _leaning(self) -> Iterator[Said]:
+        """Pressure angles beyond those that are usual, where nothing is said of them."""
+        if self.task.cam.limits is None:
+            names = said("the rise"), said("the return")
+            for way, usual, name in zip((1, -1), USUAL[self.task.follower.oscillates], names, strict=True):
+                angle, size = self.steepest[way]
+                if size > usual:
+                    yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
+                               digits(angle), name, digits(size), digits(usual))
+
+
+def _shock(jump: Jump) -> Said:
+    """A jump of the law in words."""
+    if jump.order == HARD:
+        return said("at {0}° the velocity jumps: a hard shock, the acceleration is infinite", digits(float(jump.angle)))
+    return said("at {0}° the acceleration jumps: a soft shock", digits(float(jump.angle)))
+
+
+def _bulge(start: complex, middle: complex, end: complex) -> float:
+    """How far the arc through three points bulges to the right of its chord, as a part of half of it."""
+    half = (end - start) / 2
+    if abs(half) == 0:
+        return 0.0
+    x, y = ((middle - start) / half - 1).real, ((middle - start) / half - 1).imag
+    # the circle through -1, 1 and x + iy has its centre on the axis of ordinates
+    if abs(y) < 1e-12:
+        return 0.0
+    centre = (x * x + y * y - 1) / (2 * y)
+    radius = math.hypot(1, centre)
+    return -(centre + math.copysign(radius, y)) if abs(centre) < 1e12 else 0.0
+
+
+def _off(spots: Sequence[complex] | Any, bulge: float) -> float:
+    """How far spots lie from the arc between the first and the last of them."""
+    start, half = complex(spots[0]), complex(spots[-1] - spots[0]) / 2
+    if abs(half) == 0:
+        return float(max(abs(spots - start)))
+    own = (spots - start) / half - 1
+    if bulge == 0.0:
+        return float(max(abs(own.imag)) * abs(half))
+    centre = 1j * (1 - bulge**2) / (2 * bulge)
+    return float(max(abs(abs(own - centre) - abs(1 - centre))) * abs(half))
+
+
+# ---- what forbids it ------------------------------------------------------------------------------------------------
+
+
+def made(task: Task) -> Cam:
+    """The cam of a task; fails with `SceneError`, a line for each reason why it cannot be made."""
+    cam, faults = Cam(task, based(task)), Faults()
+    _pressure(cam, faults)
+    if isinstance(cam.pair, Flat):
+        _hollow(cam, faults)
+    else:
+        _undercut(cam, faults)
+    if not len(faults):
+        _crossing(cam, faults)
+    if len(faults):
+        raise SceneError(task.name, tuple(faults))
+    return cam
+
+
+def _pressure(cam: Cam, faults: Faults) -> None:
+    """Note pressure angles beyond those that are allowed."""
+    limits = cam.task.cam.limits
+    if limits is None or (cam.task.follower.flat and not cam.task.follower.oscillates):
+        return
+    for key, way, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
+        angle, size = cam.steepest[way]
+        if most is not None and size > float(most) + JUST:
+            faults.add(f"cam.pressure_angle.{key}", f"at {shown(angle)} degrees it is {shown(size)}, above {shown(most)}",
+                       _enough(cam.task))
+
+
+def _enough(task: Task) -> str:
+    """Which base circle keeps the pressure angles."""
+    try:
+        least = based(replace(task, cam=replace(task.cam, base=PRESSURE))).base
+    except GraphplanError:
+        return "a larger angle"
+    return f"a base circle of {shown(math.ceil(least * 1000) / 1000)} or more, or a larger angle"
+
+
+def _hollow(cam: Cam, faults: Faults) -> None:
+    """Note where a flat face cannot follow: the profile would be hollow or pointed, or the face overtakes the cam."""
+    for jump in cam.law.jumps:
+        if jump.order == HARD and jump.after < jump.before:
+            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no flat face follows",
+                       "a motion that comes to rest, or a point that touches")
+    angle, size = cam.narrowest
+    least = float(cam.task.cam.least)
+    if size <= 0 or size < least - JUST * cam.pair.base:
+        what = "is hollow there, so that the face loses it" if size < 0 else "is too narrow"
+        faults.add("cam.base", f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: it {what}",
+                   _broad(cam))
+
+
+def _broad(cam: Cam) -> str:
+    """Which base circle keeps the profile convex."""
+    if cam.task.follower.oscillates:
+        return 'base = "convex"'
+    least = least_flat(cam.law)[1] + float(cam.task.cam.least)
+    return f'more than {shown(least)}, or base = "convex" with a least_radius'
+
+
+def _undercut(cam: Cam, faults: Faults) -> None:
+    """Note where a roller is too large for the path of its centre."""
+    follower, least = cam.task.follower, float(cam.task.cam.least)
+    for jump in cam.law.jumps if follower.contact != POINTED else ():
+        if jump.order == HARD and jump.after < jump.before:
+            faults.add("law", f"at {shown(jump.angle)} degrees the velocity drops at once, which no roller follows",
+                       "a motion that comes to rest, or a point that touches")
+    angle, size = cam.narrowest
+    if size <= cam.roller:
+        faults.add("follower.radius", f"at {shown(angle)} degrees the path of the roller's centre has the radius of "
+                   f"curvature {shown(size)}: a roller of {shown(cam.roller)} cuts the profile under",
+                   f"half of it, {shown(size / 2)}, or a larger base circle")
+    elif size - cam.roller < least - JUST * cam.pair.base:
+        faults.add("cam.least_radius", f"at {shown(angle)} degrees the profile's radius of curvature is "
+                   f"{shown(size - cam.roller)}, below {shown(least)}", "a smaller roller, or a larger base circle")
+
+
+def _crossing(cam: Cam, faults: Faults) -> None:
+    """Note where the profile, or the path of the roller's centre, crosses itself."""
+    import shapely
+
+    curves = [("cam.base", "the path of the roller's centre", cam.pitch_curve)] if isinstance(cam.pair, Rolled) else []
+    for where, what, curve in [*curves, ("cam.base", "the profile", cam.outline)]:
+        ring = shapely.Polygon(np.column_stack((curve.real, curve.imag)))
+        if not ring.is_valid:
+            reason = shapely.is_valid_reason(ring)
+            x, y = (float(part) for part in reason[reason.index("[") + 1 : reason.index("]")].split())
+            faults.add(where, f"{what} crosses itself at ({shown(x)}, {shown(y)})", "a larger base circle, or a "
+                       "smaller roller")
+            return

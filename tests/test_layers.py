@@ -29,12 +29,12 @@ MAY = {
     "methods": {"errors", "phrases", "kernel", "mechanism"},
     "sheet": {"errors", "phrases", "words", "kernel", "mechanism", "methods"},
     "output": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "marking", "cycle",
-               "check", "accuracy"},
+               "check", "accuracy", "cams"},
     "marking": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "sheet", "accuracy"},
     "importing": {"errors", "marking", "mechanism"},
     "cycle": {"errors", "phrases", "kernel", "mechanism", "methods", "sheet"},
     "cams": {"errors", "phrases", "kernel", "mechanism"},
-    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle"},
+    "check": {"errors", "phrases", "kernel", "mechanism", "methods", "solver", "cycle", "cams"},
     "accuracy": {"errors", "phrases", "words", "kernel", "mechanism", "methods", "solver", "cycle", "check", "sheet"},
 }
 FRONT = {"__init__", "__main__", "commands"}

@@ -18,6 +18,7 @@ from typing import Any
 
 from graphplan.cams.follower import FlatOscillating, Oscillating, Pair, Translating
 from graphplan.cams.profile import Cam
+from graphplan.kernel.kinds import Quantity
 from graphplan.kernel.numbers.floats import Floats
 from graphplan.kernel.passes import freeze
 from graphplan.kernel.program import Board, Mark, Panel, Program, evaluate
@@ -76,9 +77,9 @@ class _Inversion:
             self.O = self.board.given(x=0, y=0, name="O")
         stages = [
             (said("Base circle and first position"), said("the follower is lowest"), self._first),
-            (said("Lifts"), said("s of the law at each division of the turn"), self._lifts),
+            (said("Lifts"), said("the law's lift at each division of the turn"), self._lifts),
             (said("Inversion"), said("the cam stands still, the frame goes round it backwards"), self._round),
-            (said("Profile"), said("the envelope of the follower touches it where the normal through the pole meets it"),
+            (said("Profile"), said("the follower touches it where the normal through the pole meets the follower"),
              self._profile)]
         for title, law, draw in stages:
             with self.board.on(CAM_PLAN, stage=Stage(title, law)):
@@ -91,7 +92,7 @@ class _Inversion:
                           for k, marks in enumerate(names[1]))
         return CamDrawing(self.cam, program, divisions, common)
 
-    # ---- what all kinds share -----------------------------------------------------------------------------------------
+    # ---- what all kinds share --------------------------------------------------------------------------------------
 
     def _angle(self, k: int) -> float:
         return 360.0 * k / self.count
@@ -111,14 +112,16 @@ class _Inversion:
 
     def _first(self) -> None:
         """The base circle and the follower where it is lowest."""
-        o = self.board.radius(length=self.pair.base, why=said("the radius of the base circle"))
+        o = self.board.radius(length=self.pair.base, quantity=_length("r_0"), why=said("the radius of the base circle"))
         self.base = self.common["base"] = self.board.circle(self.O, o, why=said("the base circle"))
         if self.oscillates:
-            span = self.board.radius(length=self.pair.distance, why=said("the centre distance"))  # type: ignore[attr-defined]
-            self.pivots = self.common["pivots"] = self.board.circle(self.O, span, why=said("on it the pivot goes round"))
-            self.arm = self.board.radius(length=self._reach, why=said("the arm"))
+            pair: Any = self.pair
+            span = self.board.radius(length=pair.distance, quantity=_length("a"), why=said("the centre distance"))
+            self.pivots = self.board.circle(self.O, span, why=said("on it the pivot goes round"))
+            self.common["pivots"] = self.pivots
+            self.arm = self.board.radius(length=self._reach, quantity=_length("l"), why=said("the arm"))
         elif self._passes:
-            o = self.board.radius(length=abs(self._passes), why=said("the offset"))
+            o = self.board.radius(length=abs(self._passes), quantity=_length("e"), why=said("the offset"))
             self.offsets = self.common["offsets"] = self.board.circle(self.O, o, why=said("the paths touch it"))
         self.rays = [self._ray(0)]
         self._placed(0)
@@ -148,11 +151,12 @@ class _Inversion:
         """The path or the pivot where it has gone."""
         board, ray, marks = self.board, self.rays[k], self.found[k]
         if self.oscillates:
-            marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}")
+            marks["B"] = board.line_meets_circle(ray, self.pivots, way="on", name=f"B_{k}", why=said("the pivot"))
             marks["arc"] = board.circle(marks["B"], self.arm, why=said("the arm about it"))
         else:
             way = "on" if self._passes > 0 else "back"
-            T = board.line_meets_circle(ray, self.offsets, way=way, name=f"T_{k}") if self._passes else self.O
+            T = board.line_meets_circle(ray, self.offsets, way=way, name=f"T_{k}",
+                                             why=said("where the path touches it")) if self._passes else self.O
             marks["path"] = board.perpendicular(ray, T, why=said("the path of the follower"))
 
     def _swung(self, k: int, circle: Mark) -> Mark:
@@ -169,7 +173,7 @@ class _Inversion:
     def _lifted(self, k: int, s: float) -> Mark:
         """The follower lifted by so much where it stands at first."""
         if not self.oscillates:
-            return self.board.lay_along(self.found[0]["path"], self.A, length=s, name=f"S_{k}",
+            return self.board.lay_along(self.found[0]["path"], self.A, length=s, name=f"S_{k}", quantity=_length("s"),
                                         why=said("the lift at {0}°", digits(self._angle(k))))
         pair: Any = self.pair
         arm = self._guide(self.found[0]["B"], 180 - math.degrees(pair.angle + s),
@@ -193,7 +197,7 @@ class _Inversion:
     def _profile(self) -> None:
         """Roller or face at all divisions, and where the profile touches it."""
         if self.cam.roller:
-            o = self.board.radius(length=self.cam.roller, why=said("the radius of the roller"))
+            o = self.board.radius(length=self.cam.roller, quantity=_length("r"), why=said("the radius of the roller"))
         for k in range(self.count):
             marks = self.found[k]
             if self.cam.task.follower.flat:
@@ -211,7 +215,8 @@ class _Inversion:
         far = pole(self.pair, self._law(k, 1))
         if abs(far) <= 1e-12 * self.pair.base:
             return self.O
-        return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}",
+        told = "a·psi'/(1 ± psi')" if self.oscillates else "ds/dphi"
+        return self.board.lay_along(self.rays[k], self.O, length=far, name=f"P_{k}", quantity=_length(told),
                                     why=said("the pole of cam and follower: there the cam moves as the follower"))
 
     def _face(self, k: int) -> Mark:
@@ -220,11 +225,12 @@ class _Inversion:
         if not self.oscillates:
             return board.perpendicular(marks["path"], marks["A"], why=said("the flat face"))
         arm = board.line(marks["B"], marks["A"])
-        offset = getattr(self.pair, "offset")
+        offset = self.pair.offset if isinstance(self.pair, FlatOscillating) else 0.0
         if not offset:
             return arm
         across = board.perpendicular(arm, marks["B"])
-        D = board.lay_along(across, marks["B"], length=offset, name=f"D_{k}", why=said("the offset of the face"))
+        D = board.lay_along(across, marks["B"], length=offset, name=f"D_{k}", quantity=_length("e"),
+                            why=said("the offset of the face"))
         return board.parallel(arm, D, why=said("the flat face"))
 
 
@@ -233,6 +239,11 @@ def pole(pair: Pair, rate: float) -> float:
     if isinstance(pair, Oscillating | FlatOscillating):
         return pair.distance * rate / (pair.sense + rate)
     return pair.sense * rate
+
+
+def _length(written: str) -> Quantity:
+    """What a length is drawn for."""
+    return Quantity(written, "length")
 
 
 def _clean(part: float) -> float:

@@ -7,7 +7,7 @@ under a flat face a straight line; where it jumps down no roller and no face can
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import pairwise
@@ -15,19 +15,22 @@ from typing import Any
 
 import numpy as np
 
-from graphplan.cams.base import based, excess, least_flat, lifts_of, narrowest, steepest
+from graphplan.cams.base import based, least_flat, lifts_of, narrowest, steepest
 from graphplan.cams.follower import Flat, Pair, Rolled, Touch
-from graphplan.cams.law import HARD, Jump, Law, Stretch
-from graphplan.cams.task import POINTED, PRESSURE, Limits, Task
+from graphplan.cams.law import HARD, SOFT, Law, Stretch
+from graphplan.cams.task import POINTED, PRESSURE, Task
 from graphplan.errors import GraphplanError, SceneError
 from graphplan.mechanism.items import Faults
 from graphplan.mechanism.numerals import shown
-from graphplan.phrases import Said, digits, said
+from graphplan.phrases import Said, arranged, digits, joined, phrase, said
 
 Array = Any
 FINE = 4  # samples for a degree where crossings are looked for
+HALF, BETWEEN = 16, 1.02  # samples of half an arc; by so much more it may be off between them
 QUARTER = 90.0  # degrees: no arc of the outline is longer than this part of the turn
 USUAL = {False: (30.0, 60.0), True: (45.0, 70.0)}  # pressure angles of rise and return, as a rule; by oscillating
+HARD_SHOCK = phrase("at {0} the velocity jumps: a hard shock, the acceleration is infinite")
+SOFT_SHOCK = phrase("at {0} the acceleration jumps: a soft shock")
 JUST = 1e-9  # degrees or of a length: by so much a limit may seem to be overstepped
 
 
@@ -105,10 +108,10 @@ class Cam:
 
     def _fitted(self, one: Stretch, low: float, high: float, tolerance: float) -> Iterator[ArcOfProfile]:
         """Arcs through the ends and the middle of parts of a piece, halved until they are close enough."""
-        angles = np.linspace(low, high, 9)
+        angles = np.linspace(low, high, 2 * HALF + 1)
         spots = self.pair.turned(self.touched(one, angles).point, angles)
-        bulge = _bulge(spots[0], spots[4], spots[8])
-        if _off(spots, bulge) <= tolerance or high - low < JUST:
+        bulge = _bulge(*spots[::HALF])
+        if BETWEEN * _off(spots, bulge) <= tolerance or high - low < JUST:
             yield ArcOfProfile(complex(spots[0]), bulge)
             return
         yield from self._fitted(one, low, (low + high) / 2, tolerance)
@@ -125,10 +128,8 @@ class Cam:
             return []
         if not self.roller:
             return [ArcOfProfile(start, 0.0)]
-        middle = centre + self.roller * ((start - centre) / abs(start - centre)
-                                         + (end - centre) / abs(end - centre)) / abs(
-            (start - centre) / self.roller + (end - centre) / self.roller)
-        return [ArcOfProfile(start, _bulge(start, middle, end))]
+        out = start + end - 2 * centre
+        return [ArcOfProfile(start, _bulge(start, centre + self.roller * out / abs(out), end))]
 
     # ---- what is told ----------------------------------------------------------------------------------------------
 
@@ -153,7 +154,14 @@ class Cam:
     @cached_property
     def notes(self) -> tuple[Said, ...]:
         """What is worth knowing, though the cam can be made."""
-        return (*map(_shock, self.law.jumps), *self._leaning())
+        return (*self._shocks(), *self._leaning())
+
+    def _shocks(self) -> Iterator[Said]:
+        """Where derivatives of the law jump."""
+        for order, words in ((HARD, HARD_SHOCK), (SOFT, SOFT_SHOCK)):
+            found = [digits(float(jump.angle)) for jump in self.law.jumps if jump.order == order]
+            if found:
+                yield words(joined(arranged("{0}°", angle) for angle in found))
 
     def _leaning(self) -> Iterator[Said]:
         """Pressure angles beyond those that are usual, where nothing is said of them."""
@@ -164,13 +172,6 @@ class Cam:
                 if size > usual:
                     yield said("at {0}° the pressure angle of {1} is {2}°; as a rule it is {3}° at most",
                                digits(angle), name, digits(size), digits(usual))
-
-
-def _shock(jump: Jump) -> Said:
-    """A jump of the law in words."""
-    if jump.order == HARD:
-        return said("at {0}° the velocity jumps: a hard shock, the acceleration is infinite", digits(float(jump.angle)))
-    return said("at {0}° the acceleration jumps: a soft shock", digits(float(jump.angle)))
 
 
 def _bulge(start: complex, middle: complex, end: complex) -> float:
@@ -187,7 +188,7 @@ def _bulge(start: complex, middle: complex, end: complex) -> float:
     return -(centre + math.copysign(radius, y)) if abs(centre) < 1e12 else 0.0
 
 
-def _off(spots: Sequence[complex] | Any, bulge: float) -> float:
+def _off(spots: Array, bulge: float) -> float:
     """How far spots lie from the arc between the first and the last of them."""
     start, half = complex(spots[0]), complex(spots[-1] - spots[0]) / 2
     if abs(half) == 0:
@@ -225,8 +226,8 @@ def _pressure(cam: Cam, faults: Faults) -> None:
     for key, way, most in (("rise", 1, limits.rise), ("return", -1, limits.back)):
         angle, size = cam.steepest[way]
         if most is not None and size > float(most) + JUST:
-            faults.add(f"cam.pressure_angle.{key}", f"at {shown(angle)} degrees it is {shown(size)}, above {shown(most)}",
-                       _enough(cam.task))
+            what = f"at {shown(angle)} degrees it is {shown(size)}, above {shown(most)}"
+            faults.add(f"cam.pressure_angle.{key}", what, _enough(cam.task))
 
 
 def _enough(task: Task) -> str:
@@ -247,9 +248,9 @@ def _hollow(cam: Cam, faults: Faults) -> None:
     angle, size = cam.narrowest
     least = float(cam.task.cam.least)
     if size <= 0 or size < least - JUST * cam.pair.base:
-        what = "is hollow there, so that the face loses it" if size < 0 else "is too narrow"
-        faults.add("cam.base", f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: it {what}",
-                   _broad(cam))
+        why = "it is hollow there, so that the face loses it" if size < 0 else "it is too narrow"
+        what = f"at {shown(angle)} degrees the profile's radius of curvature is {shown(size)}: {why}"
+        faults.add("cam.base", what, _broad(cam))
 
 
 def _broad(cam: Cam) -> str:

@@ -14,10 +14,10 @@ from graphplan import __version__
 from graphplan.commands.output import error, flush, hush
 from graphplan.errors import GraphplanError, Refused
 
-SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cost",
+SUBCOMMANDS = ("new", "list", "import", "draw", "export", "watch", "steps", "solve", "check", "cycle", "cam", "cost",
                "handout", "live", "variants", "verify", "chart", "gallery", "schema", "completion")
 MODULES = {"list": "catalogue", "import": "import_"}  # whose own names Python has taken
-SCENELESS = ("new", "list", "import", "watch", "chart", "gallery", "schema", "completion")  # all others take any scene
+SCENELESS = ("new", "list", "import", "watch", "cam", "chart", "gallery", "schema", "completion")  # others take a scene
 
 GARBAGE = 100_000  # new objects before any is looked through: a command lives briefly and leaves little
 

@@ -8,6 +8,7 @@ examples:
   graphplan schema solve
   graphplan schema steps
   graphplan schema verify
+  graphplan schema cam > cam.schema.json  of the tasks of graphplan cam
   graphplan schema keys > keys.md        the keys of a scene, as a table in Markdown
 """
 
@@ -21,8 +22,8 @@ RESULTS = ("solve", "steps", "verify")
 
 
 def options(command: argparse.ArgumentParser) -> None:
-    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", *RESULTS, "keys"),
-                         help="scene (default), solve, steps, or verify; keys for the table")
+    command.add_argument("of", metavar="OF", nargs="?", default="scene", choices=("scene", "cam", *RESULTS, "keys"),
+                         help="scene (default), cam, solve, steps, or verify; keys for the table")
 
 
 def run(options: argparse.Namespace) -> int:
@@ -31,6 +32,10 @@ def run(options: argparse.Namespace) -> int:
 
     if options.of == "keys":
         write(schema.reference())
+    elif options.of == "cam":
+        from graphplan.cams.task import TASK
+
+        write(as_json(schema.titled("graphplan cam task", TASK), 2))
     else:
         write(as_json(printed(options.of) if options.of in RESULTS else schema.scene(), 2))
     return 0

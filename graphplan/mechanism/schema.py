@@ -32,7 +32,12 @@ def listed(entry: Fragment) -> Fragment:
 
 def scene() -> Fragment:
     """The JSON Schema of a scene file."""
-    return {"$schema": DRAFT, "title": "graphplan scene", **described(f"A{SCENE.says[1:]}.", schema(SCENE))}
+    return titled("graphplan scene", SCENE)
+
+
+def titled(title: str, whole: Table) -> Fragment:
+    """The JSON Schema of a whole file."""
+    return {"$schema": DRAFT, "title": title, **described(f"A{whole.says[1:]}.", schema(whole))}
 
 
 def schema(value: Value) -> Fragment:

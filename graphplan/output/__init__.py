@@ -48,13 +48,16 @@ def back_end(name: str) -> Callable[..., Any]:
     format = FORMATS[name]
     if not format.module:
         return str
-    try:
-        module = importlib.import_module(f"graphplan.output.{format.module}")
-    except ModuleNotFoundError as missing:
-        if not format.extra:
-            raise
-        raise Refused(f"format {name}", f"{missing.name} is not installed",
-                      f"pip install 'graphplan[{format.extra}]', or another format") from None
-    function: Callable[..., Any] = getattr(module, format.function)
+    function: Callable[..., Any] = getattr(loaded(name, format.module), format.function)
     return function
 
+
+def loaded(name: str, module: str) -> Any:
+    """A module of this folder that writes a format; fails as :func:`back_end` does."""
+    try:
+        return importlib.import_module(f"graphplan.output.{module}")
+    except ModuleNotFoundError as missing:
+        if not FORMATS[name].extra:
+            raise
+        raise Refused(f"format {name}", f"{missing.name} is not installed",
+                      f"pip install 'graphplan[{FORMATS[name].extra}]', or another format") from None

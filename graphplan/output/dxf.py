@@ -35,7 +35,7 @@ LOCKED, SHEET = 0x4000, said("Sheet")  # a viewport of which the scale stays; wh
 
 def dxf(sheets: Sequence[Sheet], plates: Plates) -> bytes:
     """The pages of a sheet, and the mechanism that is drawn on them, as a DXF document."""
-    with _undated():
+    with undated():
         text = io.StringIO()
         document = _Drawing(sheets, plates).document
         for kind in sorted(document.entitydb.dxf_types_in_use()):  # else declared in the order of a set
@@ -46,7 +46,7 @@ def dxf(sheets: Sequence[Sheet], plates: Plates) -> bytes:
 
 
 @contextmanager
-def _undated() -> Iterator[None]:
+def undated() -> Iterator[None]:
     """Without the date and a chance identity; what others asked of ezdxf stays as it was."""
     before = ezdxf.options.write_fixed_meta_data_for_testing
     ezdxf.options.write_fixed_meta_data_for_testing = True

@@ -1,0 +1,134 @@
+"""Construct a cam from the law of its follower: base circle, profile by inversion, sheet, numbers, or scene.
+
+TASK is a TOML file: `graphplan schema cam` prints its JSON Schema. The sheet shows the inversion step by step, the
+law's diagrams and the curve x(s) behind whose tangents the cam's centre lies. A DXF has the profile in true size,
+closed, of arcs within the tolerance; JSON has all numbers over the turn; a .toml is the cam in one pose as a scene with
+its contact, for solve, draw and cycle. What cannot be made (a roller that undercuts, a hollow under a flat face, a
+profile that crosses itself, pressure angles beyond those allowed) is refused with the reason and the angle.
+
+examples:
+  graphplan cam valve.toml -o valve.svg
+  graphplan cam valve.toml -o valve.dxf --tolerance 0.001
+  graphplan cam valve.toml -o valve.json --positions 720
+  graphplan cam valve.toml -o pose.toml --at 75 && graphplan solve pose.toml
+
+a task:
+  title = "Cam with a roller follower"
+  [[law]]
+  angle = 120              # degrees of the cam
+  motion = "harmonic"      # dwell uniform parabolic harmonic sine trapezoid 3-4-5
+  stroke = 25
+  [[law]]
+  angle = 60
+  motion = "dwell"
+  [[law]]                  # or in the place of motion and stroke, from the beginning of the stage:
+  table = [[0, 0], [45, -12.5], [90, -25]]
+  [[law]]
+  angle = 90
+  motion = "dwell"
+  [follower]
+  moves = "translating"    # or oscillating: arm, centre_distance; strokes are degrees then
+  contact = "roller"       # point, roller or flat
+  radius = 8
+  offset = 6
+  [cam]
+  turns = "clockwise"
+  rpm = 300                # or omega, rad/s
+  base = "pressure angle"  # a radius, or of a flat face "convex"
+  pressure_angle = { rise = 30, return = 30 }
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from graphplan.commands.choices import add_language, add_paper, count
+from graphplan.commands.output import Messages, as_json, kind, write
+from graphplan.errors import Refused
+from graphplan.mechanism.presentation import FRAMES
+from graphplan.output import back_end, loaded
+
+if TYPE_CHECKING:
+    from graphplan.cams.profile import Cam
+
+ENDINGS = (".svg", ".pdf", ".png", ".dxf", ".json", ".toml")
+DOTS, POSITIONS, TOLERANCE = 150, 360, 0.001
+
+
+def options(command: argparse.ArgumentParser) -> None:
+    add = command.add_argument
+    add("task", metavar="TASK", help="a task file, or - for standard input")
+    add("-o", "--output", metavar="SHEET.svg", help="the file to write: .svg, .pdf or .png, the sheet; .dxf, the "
+        "profile; .json, the numbers; .toml, a scene; without it SVG on standard output")
+    add("--dpi", type=count("--dpi", 20, 600), metavar="N", help=f"dots per inch of a .png ({DOTS})")
+    add_paper(command, "the sheet; without it the task's, or the smallest that will do")
+    add("--frame", choices=FRAMES, help="frame and title block; without it the task's, or iso")
+    add("--at", type=float, metavar="DEGREES", help="the pose of the scene (0)")
+    add("--positions", type=count("--positions", 1), metavar="N", help=f"of the table in JSON ({POSITIONS})")
+    add("--tolerance", type=float, metavar="LENGTH",
+        help=f"how far arcs may be off the profile, in the task's lengths ({TOLERANCE})")
+    add_language(command)
+
+
+def run(options: argparse.Namespace) -> int:
+    from graphplan.cams.construction import drawn
+    from graphplan.cams.profile import made
+    from graphplan.cams.task import load
+    from graphplan.check.cams import checked
+
+    ending = kind(options.output, ENDINGS, "cam").removeprefix(".")
+    _asked(options, ending)
+    messages, task = Messages(options.quiet), load(options.task)
+    said = {key: value for key in ("paper", "frame", "language") if (value := getattr(options, key))}
+    task = replace(task, sheet=replace(task.sheet, **said))
+    messages.progress("base circle and profile")
+    cam = made(task)
+    messages.progress("inversion")
+    drawing = drawn(cam)
+    check = checked(drawing)
+    messages.progress("")
+    for note in cam.notes:
+        messages.remark(f"{task.name}: {note}")
+    tolerance = TOLERANCE if options.tolerance is None else options.tolerance
+    if ending in ("svg", "pdf", "png"):
+        from graphplan.output.cams.sheet import sheet
+
+        found = sheet(drawing, check, task.sheet.paper or None)
+        look = {"dpi": options.dpi or DOTS} if ending == "png" else {}
+        write(back_end(ending)([found] if ending == "pdf" else found, **look), options.output)
+    else:
+        write(_data(cam, ending, options, tolerance, check), options.output)
+    return 0
+
+
+def _asked(options: argparse.Namespace, ending: str) -> None:
+    """Refuse options of another kind of output, and numbers that are none."""
+    only = {"dpi": ("png",), "paper": ("svg", "pdf", "png"), "frame": ("svg", "pdf", "png"), "at": ("toml",),
+            "positions": ("json",), "tolerance": ("json", "dxf")}
+    for name, endings in only.items():
+        if getattr(options, name) is not None and ending not in endings:
+            raise Refused(f"--{name} {getattr(options, name)}", f"a .{ending} has no use for it",
+                          f"leave it out, or -o FILE.{endings[0]}")
+    if options.output and os.path.realpath(options.output) == os.path.realpath(options.task):
+        raise Refused(f"-o {options.output}", "this is the task itself", "another name")
+    if options.tolerance is not None and not 1e-9 <= options.tolerance < float("inf"):
+        raise Refused("--tolerance", f"{options.tolerance:g}", "give a length above 0, 1e-9 at least")
+    if options.at is not None and not abs(options.at) < float("inf"):
+        raise Refused("--at", f"{options.at:g}", "give an angle in degrees")
+
+
+def _data(cam: Cam, ending: str, options: argparse.Namespace, tolerance: float, check: dict[str, float]) -> str | bytes:
+    """What is no sheet: the profile for CAD, the numbers, or a scene."""
+    if ending == "toml":
+        from graphplan.cams.pose import scene_text
+
+        return scene_text(cam, options.at or 0.0)
+    if ending == "json":
+        from graphplan.cams.numbers import numbers
+
+        return as_json(numbers(cam, options.positions or POSITIONS, tolerance, check))
+    written: str | bytes = loaded("dxf", "cad.profile").profile_dxf(cam, tolerance)
+    return written

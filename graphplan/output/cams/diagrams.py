@@ -1,0 +1,253 @@
+"""Diagrams of a cam: lift, velocity, acceleration and jerk over the turn, what limits the base circle, and the curve
+x(s) with the tangents behind which the cam's centre lies.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from graphplan.cams.follower import Rolled
+from graphplan.cams.law import HARD, Stretch
+from graphplan.cams.profile import Cam
+from graphplan.kernel.program import Panel
+from graphplan.phrases import Phrase, arranged, digits, phrase, said, unit
+from graphplan.sheet.layout.scales import round_up
+from graphplan.sheet.lettering.lettering import CAPS, LetterSizes, Run, Runs, sentence_runs
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.clip import clipped
+from graphplan.sheet.plates.display import Arrow, Circle, Item, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.view import View, least, view
+from graphplan.words.tongue import Tongue
+
+LAW_PLAN = Panel("law", said("law"), said("Law of the follower over the turn of the cam"))
+CENTRE_PLAN = Panel("centre", said("cam centre"), said("Curve x(s): where the cam's centre lies"))
+CURVATURE_PLAN = Panel("centre", said("cam centre"), said("Curve z(s): the smallest base circle of a flat face"))
+
+AXIS, DIVISION, JUMP = Pen(0.18), Pen(0.13, "#c4c4c4"), Pen(0.18, pens.GREY, (1.2, 0.8))
+CURVES = Pen(0.35), Pen(0.35, pens.BLUE), Pen(0.35, pens.RED), Pen(0.35, pens.VIOLET), Pen(0.35, pens.GREEN)
+RISE, BACK, TANGENT = Pen(0.35), Pen(0.35, pens.INK, (2.0, 1.0)), Pen(0.25, pens.GREEN, (5.0, 1.0))
+BETWEEN, LEFT, RIGHT, FOOT = 5.5, 5.0, 16.0, 7.0  # mm: over a diagram, beside it, and under the last
+SAMPLES = 60  # of a curve on a piece of the law
+RADII = 5.0  # base circles: what is less curved is cut off its diagram
+OVER = 12.0  # mm that a line goes on beyond what it joins
+SHARE = 0.09  # of the curve's size, left free about it
+
+
+@dataclass(frozen=True)
+class Diagram:
+    """A quantity over the turn: its letter, unit and pen, and its values at angles on a piece of the law."""
+
+    letter: str
+    measure: str
+    pen: Pen
+    values: Callable[[Any, Stretch], Any]
+    order: int = 0
+
+
+def diagrams(cam: Cam) -> list[Diagram]:
+    """The law's four diagrams, and that of the pressure angle, or of the radius of curvature under a flat face."""
+    omega, length = cam.task.cam.omega, cam.task.units.length
+    turns = cam.task.follower.oscillates
+    whole = "rad" if turns else length
+    units = "°" if turns else length, *(f"{whole}/s{power}" for power in ("", "²", "³"))
+    letters = ("psi", "omega", "epsilon", "j") if turns else ("s", "v", "a", "j")
+
+    def rate(order: int) -> Callable[[Any, Stretch], Any]:
+        factor = 1.0 if order == 0 else cam.law.times * omega**order
+        return lambda angles, one: factor * one.at(angles, order)
+
+    found = [Diagram(letters[k], units[k], CURVES[k], rate(k), k) for k in range(4)]
+    if isinstance(cam.pair, Rolled):
+        found.append(Diagram("theta", "°", CURVES[4],
+                             lambda angles, one: np.degrees(cam.touched(one, angles).pressure)))
+    else:
+        most = RADII * cam.pair.base
+        found.append(Diagram("rho", length, CURVES[4],
+                             lambda angles, one: np.minimum(cam.touched(one, angles).radius, most)))
+    return found
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What all figures are lettered by."""
+
+    cam: Cam
+    letters: LetterSizes
+    tongue: Tongue
+
+    def text(self, at: Spot, words: str | Runs, anchor: str = "start", size: float = 0.0, pen: Pen = pens.LETTERS
+             ) -> Text:
+        """Lettering on its base line."""
+        runs = sentence_runs(self.tongue(words)) if isinstance(words, str) else words
+        return Text(pen, "letters", None, at, runs, size or self.letters.text, anchor)
+
+    def marked(self, at: Spot, words: str, off: Spot = (1.2, 0.8)) -> Iterator[Item]:
+        """A point with its letter."""
+        yield Circle(pens.DOT, "plates", None, at, 0.6)
+        yield self.text((at[0] + off[0], at[1] + off[1]), words, "start" if off[0] > 0 else "end", self.letters.mark)
+
+    # ---- over the turn ---------------------------------------------------------------------------------------------
+
+    def law(self, rect: Rect) -> Iterator[Item]:
+        """The diagrams one under the other, over one abscissa."""
+        shown = diagrams(self.cam)
+        room = rect.inset(LEFT, FOOT, RIGHT, 0.0)
+        high = room.height / len(shown)
+        for k, one in enumerate(shown):
+            top = room.top - k * high
+            yield from self._diagram(one, Rect(room.left, top - high + 2.0, room.right, top - BETWEEN), k)
+        for bound in self.cam.law.bounds:
+            x = room.left + float(bound) / 360 * room.width
+            yield Polyline(DIVISION, "ruling", None, ((x, room.bottom + 1.0), (x, room.top - BETWEEN)))
+            yield self.text((x, room.bottom - 3.0), digits(float(bound)), "middle")
+        yield self.text((room.right + 4.0, room.bottom - 3.0), "phi, °")
+
+    def _diagram(self, one: Diagram, rect: Rect, number: int) -> Iterator[Item]:
+        """One quantity: axes, its curve piece by piece, its extremes beside it."""
+        law = self.cam.law
+        parts = [(angles, np.asarray(one.values(angles, piece), float)) for piece in law.stretches
+                 for angles in [np.linspace(float(piece.start), float(piece.end), SAMPLES + 1)]]
+        values = np.concatenate([part for _, part in parts])
+        low, high = min(0.0, float(values.min())), max(0.0, float(values.max()))
+        if high - low < 1e-9:
+            high = 1.0
+        mu = float(round_up((high - low) / rect.height))
+        x0, y0 = rect.left, rect.bottom - low / mu
+
+        def at(angle: float, value: float) -> Spot:
+            return x0 + angle / 360 * rect.width, y0 + value / mu
+
+        yield Arrow(AXIS, "ruling", None, at(0, 0), (rect.right + 5.0, y0), 2.2)
+        yield Polyline(AXIS, "ruling", None, (at(0, low), at(0, high)))
+        for angles, part in parts:
+            yield Polyline(one.pen, "links", None, tuple(at(a, v) for a, v in zip(angles, part, strict=True)))
+        for (angles, before), (_, after) in pairwise([*parts, parts[0]]):
+            if abs(after[0] - before[-1]) > 1e-9 * (high - low):
+                x = float(angles[-1])
+                yield Polyline(JUMP, "ruling", None, (at(x, float(before[-1])), at(x, float(after[0]))))
+        if one.order == 2:
+            yield from self._infinite(at, low, high)
+        letter, scale = one.letter, digits(mu)
+        head = arranged("{0}, {1}   (k_{2} = {3} {1}/mm)", letter, unit(one.measure), letter, scale)
+        names = (letter, f"k_{letter}")
+        yield Text(pens.LETTERS, "letters", None, (x0, rect.top + 1.6), sentence_runs(self.tongue(head), names),
+                   self.letters.text)
+        for value in dict.fromkeys((float(values.max()), float(values.min()))):
+            if abs(value) > 1e-9 * (high - low):
+                angle = float(np.concatenate([a for a, _ in parts])[int(np.argmax(values == value))])
+                x, y = at(angle, value)
+                yield Polyline(DIVISION, "ruling", None, ((x, y), (rect.right + 0.8, y)))
+                yield self.text((rect.right + 1.2, y - CAPS * self.letters.text / 2), digits(value))
+
+    def _infinite(self, at: Callable[[float, float], Spot], low: float, high: float) -> Iterator[Item]:
+        """Hard shocks: the acceleration is infinite there."""
+        for jump in self.cam.law.jumps:
+            if jump.order == HARD:
+                end = high if jump.after > jump.before else low
+                reach = (high - low) / 3 if abs(end) < 1e-9 else 0.0
+                end += math.copysign(reach, jump.after - jump.before)
+                start, tip = at(float(jump.angle), 0.0), at(float(jump.angle), end)
+                yield Arrow(pens.VECTORS["acceleration"], "ruling", None, start, tip, 2.4)
+                yield self.text((tip[0] + 0.8, tip[1] - 1.0), (Run("∞"),))
+
+    # ---- where the centre lies -------------------------------------------------------------------------------------
+
+    def centre(self, rect: Rect) -> Iterator[Item]:
+        """The curve x(s) of a point or roller, or z(s) of a flat face on a straight path."""
+        yield from self._curve_x(rect) if isinstance(self.cam.pair, Rolled) else self._curve_z(rect)
+
+    @cached_property
+    def _ends(self) -> list[tuple[Stretch, Any, Any]]:
+        """Of each piece of the law the follower's points A, and the ends of x laid off from them."""
+        found = []
+        for one in self.cam.law.stretches:
+            angles = np.linspace(float(one.start), float(one.end), SAMPLES + 1)
+            pair: Any = self.cam.pair
+            A, A1, *_ = pair.path(lambda order, a=angles, one=one: self.cam.law.times * one.at(a, order))
+            found.append((one, A, A + 1j * pair.sense * A1))
+        return found
+
+    def _window(self, spots: Sequence[complex], rect: Rect) -> View:
+        """A view that holds these places, at a round scale."""
+        box = around([(z.real, z.imag) for z in spots])
+        room = rect.inset(*(SHARE * min(rect.width, rect.height),) * 4)
+        return view(box, room, float(round_up(least(box, room))))
+
+    def _curve_x(self, rect: Rect) -> Iterator[Item]:
+        """The follower's path with x laid off, the curve of its ends, the tangents, and the centre."""
+        pieces = self._ends
+        spots = [complex(z) for _, A, E in pieces for z in (*A, *E)] + [0j]
+        window = self._window(spots, rect)
+        yield self._scaled(window, rect)
+
+        def at(z: complex) -> Spot:
+            return window((z.real, z.imag))
+
+        yield Polyline(AXIS, "ruling", None, tuple(at(complex(z)) for _, A, _ in pieces for z in A))
+        for one, A, E in pieces:
+            moving = one.at((float(one.start) + float(one.end)) / 2, 1)
+            if abs(moving) < 1e-12:
+                continue
+            pen = RISE if moving > 0 else BACK
+            for k in range(0, SAMPLES + 1, 10):
+                yield Polyline(pens.THIN, "plates", None, (at(complex(A[k])), at(complex(E[k]))))
+            yield Polyline(pen, "links", None, tuple(at(complex(z)) for z in E))
+        for way, words in ((1, phrase("{0}° of the rise")), (-1, phrase("{0}° of the return"))):
+            yield from self._tangent(way, words, at, rect)
+        A0 = at(complex(pieces[0][1][0]))
+        yield Polyline(pens.THIN, "plates", None, (at(0j), A0))
+        yield from self.marked(A0, "A_0", (1.4, -3.0))
+        yield from self.marked(at(0j), "O", (-1.4, -3.0))
+
+    def _tangent(self, way: int, words: Phrase, at: Callable[[complex], Spot], rect: Rect) -> Iterator[Item]:
+        """The line from the centre that touches the curve where the pressure angle is largest."""
+        angle, size = self.cam.steepest[way]
+        if not math.isfinite(size) or size <= 0:
+            return
+        pair: Any = self.cam.pair
+        A, A1, *_ = pair.path(lambda order: self.cam.law.at([angle], order))
+        start, tip = at(0j), at(complex((A + 1j * pair.sense * A1)[0]))
+        long = math.dist(start, tip) or 1.0
+        far = tip[0] + OVER * (tip[0] - start[0]) / long, tip[1] + OVER * (tip[1] - start[1]) / long
+        yield from clipped(Polyline(TANGENT, "plates", None, (start, far)), rect)
+        yield Circle(pens.ORIGIN, "plates", None, tip, 0.5)
+        side = 1 if tip[0] >= start[0] else -1
+        yield self.text((tip[0] + 1.5 * side, tip[1] - 3.2), words(digits(size)), "start" if side > 0 else "end")
+
+    def _curve_z(self, rect: Rect) -> Iterator[Item]:
+        """The curve of s over z = s'', and its tangent of 45 degrees, which cuts the path in the least centre."""
+        pieces = [(one, one.at(angles), one.at(angles, 2)) for one in self.cam.law.stretches
+                  for angles in [np.linspace(float(one.start), float(one.end), SAMPLES + 1)]]
+        base = self.cam.pair.base
+        lowest = max(float((-(s + z)).max()) for _, s, z in pieces)
+        spots = [complex(x, y) for _, s, z in pieces for x, y in zip(z, s, strict=True)] + [complex(0, -base), 0j]
+        window = self._window(spots, rect)
+        yield self._scaled(window, rect)
+        for one, s, z in pieces:
+            pen = BACK if one.at((float(one.start) + float(one.end)) / 2, 1) < 0 else RISE
+            pairs = zip(map(float, z), map(float, s), strict=True)
+            yield Polyline(pen, "links", None, tuple(map(window, pairs)))
+        O, A0, limit = window((0.0, -base)), window((0.0, 0.0)), window((0.0, -lowest))
+        yield Polyline(AXIS, "ruling", None, (O, window((0.0, max(float(s.max()) for _, s, _ in pieces)))))
+        reach = max(-float(z.min()) for _, s, z in pieces)
+        end = window((-reach, reach - lowest))
+        yield from clipped(Polyline(TANGENT, "plates", None, (limit, end)), rect)
+        yield self.text(((limit[0] + end[0]) / 2 - 2.0, (limit[1] + end[1]) / 2 - 2.0), "45°", "end")
+        yield from self.marked(A0, "A_0")
+        yield from self.marked(O, "O", (1.4, -2.8))
+        if abs(base - lowest) > 1e-9 * base:
+            yield from self.marked(limit, "O'", (1.4, -1.0))
+
+    def _scaled(self, window: View, rect: Rect) -> Item:
+        """The scale of a figure, in its corner."""
+        told = arranged("k_s = {0} {1}/mm", digits(1 / window.scale), unit(self.cam.task.units.length))
+        return self.text((rect.left + 2.0, rect.bottom + 2.0), told)

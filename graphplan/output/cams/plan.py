@@ -1,0 +1,222 @@
+"""The cam plan: what each step of the inversion draws, the profile over it, and the follower where it is lowest."""
+
+from __future__ import annotations
+
+import math
+from collections import defaultdict
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from typing import Any
+
+from graphplan.cams.construction import CamDrawing
+from graphplan.kernel.incidence import incident
+from graphplan.kernel.kinds import CIRCLE, LINE, POINT, Movement
+from graphplan.kernel.program import Step
+from graphplan.sheet.lettering.lettering import CAPS, LetterSizes, name_runs, sentence_runs, width
+from graphplan.sheet.plates import pens
+from graphplan.sheet.plates.display import Arc, Arrow, Circle, Item, Polygon, Polyline, Rect, Spot, Text
+from graphplan.sheet.plates.pens import Pen
+from graphplan.sheet.plates.plans import around
+from graphplan.sheet.plates.view import View
+
+DOT, PIN = 0.35, 1.3  # mm: radii of marks, and of fixed pins
+BEYOND, STUB, STRIKE = 1.5, 3.0, 3.0  # mm: of lines beyond their marks, of a line with one mark, of an arc to each side
+FACE = 7.0  # mm of a flat face beyond its marks
+NUMBERED = 4.0  # mm from the follower to the number of its division
+STEM, HALF, TEETH = 14.0, 2.2, 6  # mm: of the follower beyond what touches, of its guide; strokes of hatching
+PROFILE, PITCH, ROLLER = Pen(0.7), pens.PATH, Pen(0.13, pens.GREY)
+FIRST, BASE = Pen(0.5), Pen(0.25, pens.INK, (5.0, 1.0))
+
+
+@dataclass(frozen=True)
+class CamPlan:
+    """The plan in its panel: `view` takes lengths to mm of paper."""
+
+    drawing: CamDrawing
+    view: View
+    letters: LetterSizes
+
+    @cached_property
+    def spots(self) -> list[Any]:
+        """The places of all points on paper; of other marks nothing."""
+        return [self.view(value) if step.op.gives == POINT else None
+                for step, value in zip(self.drawing.program.steps, self.drawing.values, strict=True)]
+
+    @cached_property
+    def marks(self) -> dict[int, list[int]]:
+        """The points on each line and circle, by construction."""
+        found: dict[int, list[int]] = defaultdict(list)
+        for step in self.drawing.program.steps:
+            if step.op.gives == LINE:
+                found[step.index] += [step.args[place] for place in incident(step.op)]
+            elif step.op.gives == POINT:
+                steps = self.drawing.program.steps
+                for arg in step.args:
+                    if steps[arg].op.gives in (LINE, CIRCLE):
+                        found[arg].append(step.index)
+        return found
+
+    @cached_property
+    def whole(self) -> dict[int, Pen]:
+        """The circles that are drawn whole, by their steps."""
+        rollers = [one.marks["roller"] for one in self.drawing.divisions if "roller" in one.marks]
+        return {**dict.fromkeys(self.drawing.common.values(), BASE), **dict.fromkeys(rollers, ROLLER)}
+
+    @cached_property
+    def faces(self) -> set[int]:
+        """The flat faces, by their steps."""
+        return {one.marks["face"] for one in self.drawing.divisions if "face" in one.marks}
+
+    def items(self) -> Iterator[Item]:
+        """All of it."""
+        for step in self.drawing.program.steps:
+            yield from self._step(step)
+        yield from self._finished()
+        yield from self._follower()
+        yield from self._names()
+
+    # ---- steps -----------------------------------------------------------------------------------------------------
+
+    def _step(self, step: Step) -> Iterator[Item]:
+        if step.op.gives == POINT:
+            yield Circle(pens.DOT, "plates", step.index, self.spots[step.index], DOT)
+        elif step.op.gives == LINE:
+            yield self._line(step)
+        elif step.op.gives == CIRCLE:
+            yield from self._circle(step)
+
+    def _line(self, step: Step) -> Item:
+        """From its first mark to its last and a little beyond; a stub where it has one alone."""
+        a, b, _ = self.drawing.values[step.index]
+        size = math.hypot(a, b)
+        ux, uy = b / size, -a / size
+        found = sorted((self.spots[mark] for mark in self.marks[step.index]), key=lambda at: at[0] * ux + at[1] * uy)
+        first, last = found[0], found[-1]
+        long = math.dist(first, last)
+        low, high = (0.0, STUB) if long < DOT else (BEYOND, BEYOND)
+        pen = pens.PRODUCED if step.op.movement is Movement.RULED else pens.THIN
+        if step.index in self.faces:
+            low, high = FACE, FACE
+        ends = (first[0] - low * ux, first[1] - low * uy), (last[0] + high * ux, last[1] + high * uy)
+        return Polyline(pen, "plates", step.index, ends)
+
+    def _circle(self, step: Step) -> Iterator[Item]:
+        x, y, square = self.drawing.values[step.index]
+        centre, radius = self.view((x, y)), math.sqrt(square) * self.view.scale
+        if step.index in self.whole:
+            yield Circle(self.whole[step.index], "plates", step.index, centre, radius)
+            return
+        for mark in self.marks[step.index]:
+            spot = self.spots[mark]
+            at, wide = math.degrees(math.atan2(spot[1] - centre[1], spot[0] - centre[0])), math.degrees(STRIKE / radius)
+            yield Arc(pens.ARC, "plates", step.index, centre, radius, at - wide, at + wide)
+
+    # ---- what is made ----------------------------------------------------------------------------------------------
+
+    def _spot(self, z: complex) -> Spot:
+        return self.view((z.real, z.imag))
+
+    def _finished(self) -> Iterator[Item]:
+        """The path of the roller's centre, the profile, the cam's pin, and the way that it turns."""
+        cam = self.drawing.cam
+        if cam.roller:
+            yield Polygon(PITCH, "motion", None, tuple(map(self._spot, cam.pitch_curve)))
+        yield Polygon(PROFILE, "links", None, tuple(map(self._spot, cam.outline)))
+        O = self._spot(0j)
+        yield Circle(pens.PAIR, "pairs", None, O, PIN)
+        yield from self._hatched(O, (0.0, -1.0), PIN)
+        radius, sense = 8.0, cam.pair.sense
+        low, high = (200.0, 320.0) if sense > 0 else (220.0, 340.0)
+        turn = Arc(pens.DRIVE, "drive", None, O, radius, low, high)
+        yield turn
+        tip, back = (turn.at(high), turn.at(high - 20)) if sense > 0 else (turn.at(low), turn.at(low + 20))
+        yield Arrow(pens.DRIVE, "drive", None, back, tip, 3.0)
+
+    def _hatched(self, at: Spot, down: Spot, off: float) -> Iterator[Item]:
+        """The frame at a spot: a line with strokes behind it, so far off."""
+        ux, uy = -down[1], down[0]
+        x, y = at[0] + down[0] * (off + 1.2), at[1] + down[1] * (off + 1.2)
+        half = 2 * HALF
+        yield Polyline(pens.GROUND, "ground", None, ((x - half * ux, y - half * uy), (x + half * ux, y + half * uy)))
+        for k in range(TEETH):
+            t = -half + 2 * half * (k + 0.5) / TEETH
+            start = x + t * ux, y + t * uy
+            yield Polyline(pens.HATCH, "ground", None,
+                           (start, (start[0] + 1.4 * (down[0] - 0.6 * ux), start[1] + 1.4 * (down[1] - 0.6 * uy))))
+
+    def _follower(self) -> Iterator[Item]:
+        """The follower where it is lowest, and what holds it."""
+        drawing, cam = self.drawing, self.drawing.cam
+        A = self._spot(drawing.at("A")[0])
+        K = self._spot(drawing.at("K")[0])
+        if cam.roller:
+            yield Circle(FIRST, "blocks", None, A, cam.roller * self.view.scale)
+        if cam.task.follower.oscillates:
+            B = self._spot(drawing.at("B")[0])
+            tip = K if cam.task.follower.flat else A
+            beyond = 1.25 if cam.task.follower.flat else 1.0
+            end = B[0] + beyond * (tip[0] - B[0]), B[1] + beyond * (tip[1] - B[1])
+            yield Polyline(FIRST, "blocks", None, (B, end))
+            yield Circle(pens.PAIR, "pairs", None, B, PIN)
+            yield from self._hatched(B, (0.0, -1.0), PIN)
+            return
+        highest = max(float(cam.law.at(one.angle)) for one in drawing.divisions) + cam.roller
+        top = A[0], A[1] + STEM + highest * self.view.scale
+        yield Polyline(FIRST, "blocks", None, (A, top))
+        if cam.task.follower.flat:
+            low, high = (part * self.view.scale for part in cam.reach)
+            yield Polyline(FIRST, "blocks", None, ((A[0] - high - 2, A[1]), (A[0] - low + 2, A[1])))
+        middle = top[0], top[1] - STEM / 3
+        for side in (-1.0, 1.0):
+            yield from self._hatched(middle, (side, 0.0), -0.4)
+        if not cam.task.follower.flat:
+            yield Circle(pens.PAIR, "pairs", None, A, 0.7)
+
+    # ---- names -----------------------------------------------------------------------------------------------------
+
+    def _names(self) -> Iterator[Item]:
+        """The numbers of the divisions outside, and the letters of one division and of what is drawn once."""
+        drawing, cam, size, O = self.drawing, self.drawing.cam, self.letters.text, self._spot(0j)
+        spots = [self._spot(z) for z in drawing.at("A")]
+        far = drawing.cam.roller * self.view.scale
+        for k, (x, y) in enumerate(spots):
+            if not k and not cam.task.follower.oscillates:
+                continue  # there the follower stands
+            long = math.dist((x, y), O) or 1.0
+            part = 1 + (far + NUMBERED) / long
+            yield self._text((O[0] + part * (x - O[0]), O[1] + part * (y - O[1])), str(k), size, middle=True)
+        yield self._text((O[0] - 2.2, O[1] - 4.2), "O", self.letters.mark, "end")
+        shown = self._shown
+        for name, (dx, dy) in {"A": (1.2, 1.0), "K": (1.0, -3.4), "P": (0.8, 1.0), "T": (0.8, 1.0),
+                               "B": (2.0, 1.4), "S": (2.0, 0.0)}.items():
+            step = next((step for step in drawing.program.steps if step.name == f"{name}_{shown}"), None)
+            if step is not None:
+                x, y = self.spots[step.index]
+                yield self._text((x + dx, y + dy), step.name, self.letters.mark)
+
+    @property
+    def _shown(self) -> int:
+        """The division of which the letters stand: where the follower rises fastest."""
+        cam, divisions = self.drawing.cam, self.drawing.divisions
+        rates = cam.law.at([one.angle for one in divisions], 1)
+        return max(range(len(divisions)), key=lambda k: float(rates[k]))
+
+    def _text(self, at: Spot, name: str, size: float, anchor: str = "start", middle: bool = False) -> Text:
+        runs = name_runs(name) if "_" in name else sentence_runs(name)
+        if middle:
+            at = at[0] - width(runs, size) / 2, at[1] - CAPS * size / 2
+        return Text(pens.LETTERS, "letters", None, at, runs, size, anchor)
+
+
+def extent(drawing: CamDrawing) -> Rect:
+    """What the plan takes up, in lengths, from its marks, circles and curves."""
+    cam = drawing.cam
+    spots = [(z.real, z.imag) for curve in (cam.outline, cam.pitch_curve) for z in curve]
+    for name in ("base", "offsets", "pivots"):
+        if name in drawing.common:
+            x, y, square = drawing.values[drawing.common[name]]
+            r = math.sqrt(square)
+            spots += [(x - r, y - r), (x + r, y + r)]
+    box = around(spots)
+    return box.inset(-cam.roller, -cam.roller, -cam.roller, -cam.roller)

@@ -107,8 +107,8 @@ def test_what_is_irrational_is_told() -> None:
     place = 'K = { on = "B C", distance = 7 }'
     cam = TEXTS["cam"].replace("C = [90, 120]", "C = [90, 100]").replace("K = [12, 16]", place)
     assert analytic.solve(parse(cam, "cam"), exact=True).omega["2"] == Fraction(-42, 65)
-    rolls = parse(cam.replace("['1', '2']\nat", "['1', '2']\nrolling = true\nat").replace(DRIVE.format("1"), "")
-                  .replace("'frame' = 'A M'", "'frame' = 'A'") + DRIVE.format("1"), "cam")
+    rolls = parse(cam.replace("['1', '2']\nat", "['1', '2']\nrolling = true\nat")
+                  .replace("'frame' = 'A M'", "'frame' = 'A'") + DRIVE.format("2"), "cam")
     with pytest.raises(Refused, match=r"points\.K: on-line placement"):
         analytic.solve(rolls, exact=True)
 

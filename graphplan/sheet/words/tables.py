@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from functools import reduce
 from typing import Any
 
-from graphplan.phrases import Said, arranged, digits, figures, in_any_case, unit
+from graphplan.phrases import Said, Unknown, arranged, digits, figures, in_any_case, unit
 from graphplan.sheet.lettering.lettering import SIZE, Runs, name_runs, sentence_runs, width
 from graphplan.sheet.plates.display import Rect
 from graphplan.sheet.words.lengths import size
@@ -71,7 +71,8 @@ def settled(values: Mapping[str, Mapping[str, Any]], reach: float) -> dict[str, 
     found = {kind: {**named} for kind, named in values.items()}
     for turning in found.keys() & TURNINGS.keys():
         least = ROUNDING * largest_size(values.get(TURNINGS[turning], {})) / reach
-        found[turning] = {name: rate if abs(rate) > least else 0.0 for name, rate in found[turning].items()}
+        found[turning] = {name: rate if isinstance(rate, Unknown) or abs(rate) > least else 0.0
+                          for name, rate in found[turning].items()}
     return found
 
 
